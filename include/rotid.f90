@@ -871,9 +871,11 @@ module rotid
     type(c_ptr) :: verdict = c_null_ptr ! text
     integer(c_int) :: nrivals = 0
     type(c_ptr) :: rivals = c_null_ptr ! rotid_rival
+    real(c_double) :: among = 0
     integer(c_int) :: ntests = 0
     type(c_ptr) :: tests = c_null_ptr ! rotid_suggested_test
     real(c_double) :: set_up_cost = 0
+    type(c_ptr) :: state = c_null_ptr ! text
     type(c_ptr) :: sentence = c_null_ptr ! text
     type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
     integer(c_int) :: nmessage = 0

@@ -986,9 +986,11 @@ typedef struct rotid_suggestion {
     const char *verdict;          /* of the diagnosis in a sentence; NULL where nothing is measured */
     int nrivals;
     rotid_rival *rivals; /* best first; empty where nothing is open. The last is the model as it is */
+    double among;        /* how likely the true cause is one of them; NaN without rivals */
     int ntests;
     rotid_suggested_test *tests; /* by chance, then by cost */
     double set_up_cost;          /* of a set-up, in points [1] */
+    const char *state;           /* of a deck with states: the one that plans and tests are made like; NULL of others */
     const char *sentence;        /* what to do next */
     rotid_geometry *geometry;    /* the model that all of this holds for */
     int nmessage;

@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/deck_handle.h"
 #include "deck/deck.h"
+#include "diagnose/causes/catalogue.h"
 #include "diagnose/changed.h"
+#include "diagnose/refit.h"
 #include "hidden_states.h"
 #include "run/spectrum.h"
 
@@ -65,6 +68,86 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
     rotid_deck_free(deck);
     free(text);
     return d;
+}
+
+/* States of 1.05 m and of 0.5 m share a zone: it has to be a zone of both, so the shorter one limits width and place. */
+static void what_states_share_is_possible_in_each(void **state)
+{
+    (void)state;
+    static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=short\n*SET\nleft.length, 0.12\ncore.length, 0.3\n"
+                                     "right.length, 0.08\n*MODES\n1, 900\n2, 2000\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n";
+    rotid_deck *deck = read_text(text, NULL);
+    const struct states *states = deck_states_of(deck);
+    const struct cause_kind *zone_kind = catalogue_find("stiffness_local");
+    struct effect effect = {.kind = zone_kind->effect, .name = "zone", .value = {0.3, 0.2, 0.02}};
+    struct states with;
+    assert_status(states_with_effect(&test_pool, states, NULL, &effect, zone_kind, NULL, NULL, &with), ROTID_OK);
+    assert_int_equal(with.nparameter, states->nparameter + 3);
+    for (int s = 0; s < 2; s++) {
+        const struct job *job = &with.state[s].job;
+        const rotid_parameter *own = &job->unknowns.bounds[job->unknowns.nparameter - 3];
+        assert_close(own[1].upper, 0.5, 1e-12, 0);
+        assert_close(own[2].lower, 1.05 / 200, 1e-12, 0);
+        assert_close(own[2].upper, 0.5 / 14, 1e-12, 0);
+    }
+    assert_close(with.bounds[with.nparameter - 1].upper, 0.5 / 14, 1e-12, 0);
+    rotid_deck_free(deck);
+}
+
+static rotid_diagnosis *diagnose_text(const char *text)
+{
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2};
+    rotid_deck *deck = read_text(text, NULL);
+    rotid_diagnosis *d;
+    assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
+    rotid_deck_free(deck);
+    return d;
+}
+
+/* Two effects of which one or both are in one state: what one cause in one state leaves is more than noise. */
+static void two_causes_are_named_with_their_states(void **state)
+{
+    (void)state;
+    static const char *const left[] = {"stiffness:group=left,factor=0.9"}, *const mass[] = {"added_mass:mass=0.8,z=0.9"},
+                             *const both[] = {"density:group=right,factor=1.1", "stiffness:group=left,factor=0.9"};
+    static const struct {
+        struct hidden_state states[2];
+        const char *id[2], *in[2];
+    } pair[] = {{{{"bare", "", 1, left}, {"disc", DISC, 1, mass}}, {"stiffness", "added_mass"}, {"bare", "disc"}},
+                {{{"bare", "", 1, both}, {"disc", DISC, 2, both}}, {"density", "stiffness"}, {NULL, "disc"}}};
+    const struct hide_request r = request(5, 12, 3);
+    for (int p = 0; p < 2; p++) {
+        rotid_diagnosis *d = diagnose(&r, pair[p].states, NULL, NULL, NULL);
+        assert_int_equal(d->verdict.kind, ROTID_NAMED);
+        assert_int_equal(d->verdict.ncauses, 2);
+        for (int i = 0; i < 2; i++) {
+            const rotid_cause *c = &d->verdict.causes[strcmp(d->verdict.causes[0].id, pair[p].id[i]) ? 1 : 0];
+            assert_string_equal(c->id, pair[p].id[i]);
+            assert_int_equal(c->state != NULL, pair[p].in[i] != NULL);
+            if (c->state)
+                assert_string_equal(c->state, pair[p].in[i]);
+        }
+        rotid_diagnosis_free(d);
+    }
+}
+
+/* A deck with one *STATE is that deck without it. */
+static void one_state_is_a_deck_without_states(void **state)
+{
+    (void)state;
+    const struct hide_request r = request(5, 10, 7);
+    const struct hidden_state only[] = {{"only", "", 1, zone}};
+    char message[300], *text = hidden_states_deck(&r, 1, only, NULL, message, sizeof message), *card = strstr(text, "*STATE");
+    rotid_diagnosis *with = diagnose_text(text);
+    memcpy(card, "** no such card     \n", strcspn(card, "\n"));
+    rotid_diagnosis *without = diagnose_text(text);
+    assert_int_equal(with->verdict.ncauses, 1);
+    assert_string_equal(with->verdict.sentence, without->verdict.sentence);
+    for (int p = 0; p < 3; p++)
+        assert_true(with->verdict.causes[0].parameters[p].value == without->verdict.causes[0].parameters[p].value);
+    rotid_diagnosis_free(with);
+    rotid_diagnosis_free(without);
+    free(text);
 }
 
 static double value_of(const rotid_cause *cause, const char *name, double *lower, double *upper)
@@ -347,9 +430,12 @@ int main(void)
         cmocka_unit_test(a_cause_of_both_is_named_where_each_alone_is_ambiguous),
         cmocka_unit_test(a_cause_in_one_state_is_named_with_it),
         cmocka_unit_test(nothing_hidden_is_adequate),
+        cmocka_unit_test(two_causes_are_named_with_their_states),
+        cmocka_unit_test(one_state_is_a_deck_without_states),
         cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
         cmocka_unit_test(a_state_held_out_is_evidence),
         cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
+        cmocka_unit_test_setup_teardown(what_states_share_is_possible_in_each, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
         cmocka_unit_test(what_the_deck_states_is_no_change),
         cmocka_unit_test(wrong_states_are_refused),

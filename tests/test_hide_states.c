@@ -20,6 +20,7 @@
 #define DISC     "*DISK\n0.5, 4\n"
 #define BEARINGS "*SPRING, NAME=front\n0.1, 3e6\n*SPRING, NAME=rear\n1.5, 2e6\n*SENSORS\n1, 0.2\n2, 0.7\n3, 1.3\n"
 #define LONGER   "*SET\nend.length, 0.7\n"
+#define STIFFER  "*SET\nfront.k, 3e7\n"
 #define STATES                                                                                                                   \
     COMMON "*STATE, NAME=free\n*STATE, NAME=disc\n" DISC "*STATE, NAME=bearings\n" BEARINGS "*STATE, NAME=longer\n" LONGER
 
@@ -60,19 +61,23 @@ static void data_are_those_of_each_state(void **state)
         "*IDENTIFY\ncore.E, 1e10, 5e11, 2e11\n" BEARINGS,
         "*HEADING\nbar\n*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"
         "*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.08, 0, 40\n*SHAFT, NAME=end, MATERIAL=steel\n0.7, 0.06, 0, 14\n"
-        "*SENSORS\n1, 0\n2, 0.3\n3, 0.55\n4, 0.8\n5, 1.1\n6, end\n*IDENTIFY\ncore.E, 1e10, 5e11, 2e11\n"};
+        "*SENSORS\n1, 0\n2, 0.3\n3, 0.55\n4, 0.8\n5, 1.1\n6, end\n*IDENTIFY\ncore.E, 1e10, 5e11, 2e11\n",
+        "*HEADING\nbar\n*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"
+        "*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.08, 0, 40\n*SHAFT, NAME=end, MATERIAL=steel\n0.4, 0.06, 0, 14\n"
+        "*IDENTIFY\ncore.E, 1e10, 5e11, 2e11\n*SPRING, NAME=front\n0.1, 3e7\n*SPRING, NAME=rear\n1.5, 2e6\n"
+        "*SENSORS\n1, 0.2\n2, 0.7\n3, 1.3\n"};
     static const char *const effect = "stiffness_local:depth=0.4,z=0.6,width=0.05";
-    struct hide_request r = request_of(STATES);
+    struct hide_request r = request_of(STATES "*STATE, NAME=stiffer\n" BEARINGS STIFFER);
     char *deck, *truth;
     r.frequency_noise = r.shape_noise = 0;
     r.effects = 1;
     r.effect = &effect;
     make(&r, &deck, &truth);
     struct states states = read_states(deck);
-    assert_int_equal(states.nstate, 4);
+    assert_int_equal(states.nstate, 5);
     cJSON *json = cJSON_Parse(truth), *list = cJSON_GetObjectItem(json, "states");
-    assert_int_equal(cJSON_GetArraySize(list), 4);
-    for (int s = 0; s < 4; s++) {
+    assert_int_equal(cJSON_GetArraySize(list), 5);
+    for (int s = 0; s < 5; s++) {
         char *own_deck, *own_truth;
         r.deck = alone[s];
         make(&r, &own_deck, &own_truth);
@@ -176,7 +181,8 @@ static void what_is_wrong_has_its_line(void **state)
     (void)state;
     assert_refused(COMMON "*STATE\n", NULL, "deck:21: *STATE: expected NAME=name, without quotes");
     assert_refused(COMMON "*STATE, NAME=a\n*STATE, NAME=b\n*SET\ncore.E, 2e11\n", NULL,
-                   "deck:24: *SET: expected GROUP.length and a value above zero: this program cannot follow another one");
+                   "deck:24: *SET: expected GROUP.length, SPRING.k or SPRING.k_rot and a value above zero: this program cannot "
+                   "follow another one");
     assert_refused(STATES, "disk=added_mass:mass=1,z=0.5",
                    "--effect-in disk=added_mass:mass=1,z=0.5: expected NAME=SPEC with a state of the deck");
     assert_refused(COMMON, "disc=added_mass:mass=1,z=0.5", "--effect-in: deck has no *STATE, expected --effect");

@@ -19,13 +19,15 @@ static struct scan_item item[MOST];
 static struct scan_candidate candidate[MOST];
 static double column[ROWS * MOST], residual[ROWS];
 static struct segment segment = {.length = 1};
-static struct state only;
-static const struct states states = {.nstate = 1, .state = &only};
+static struct state only, two[2];
+static const struct states states = {.nstate = 1, .state = &only}, two_states = {.nstate = 2, .state = two};
+static const int in_all[] = {1, 1}, in_first[] = {1, 0}, in_second[] = {0, 1};
 
 static void open_scan(void)
 {
     scan = (struct scan){.nrow = ROWS, .dof = ROWS, .item = item, .candidate = candidate, .column = column, .r = residual};
     only = (struct state){.job.rotor = {.nsegment = 1, .segment = &segment}};
+    two[0] = two[1] = only;
 }
 
 static struct scan_candidate *add_candidate(const char *id, int target)
@@ -33,7 +35,8 @@ static struct scan_candidate *add_candidate(const char *id, int target)
     struct scan_candidate *c = &candidate[scan.ncandidate++];
     const struct cause_kind *cause = catalogue_find(id);
     assert_non_null(cause);
-    *c = (struct scan_candidate){.state = -1, .cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
+    *c = (struct scan_candidate){
+        .state = -1, .in = in_all, .cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
     return c;
 }
 
@@ -193,6 +196,72 @@ static void columns_that_are_one_and_residuals_that_are_few_make_no_pair(void **
     assert_int_equal(choose(set), 0);
 }
 
+/* The candidate in state s alone. */
+static struct scan_candidate *add_single(const char *id, int target, int s)
+{
+    struct scan_candidate *c = add_candidate(id, target);
+    c->state = c->home = s;
+    c->in = s ? in_second : in_first;
+    return c;
+}
+
+static int choose_of_two(struct scan_set *set)
+{
+    int count;
+    assert_status(pairs_choose(&test_pool, &two_states, &scan, MOST, set, &count), ROTID_OK);
+    return count;
+}
+
+/* Behind the pairs of common causes stand those with a cause in one state: not the same one that acts there anyway, but the same
+ * one in two states. */
+static void causes_in_one_state_make_pairs_of_their_own(void **state)
+{
+    (void)state;
+    struct random_stream random = {10};
+    struct scan_set set[2 * MOST];
+    open_scan();
+    add_candidate("density", 0);
+    add_item(&random, 0);
+    add_candidate("stiffness", 0);
+    add_item(&random, 0.3);
+    add_single("density", 0, 0);
+    add_item(&random, 0.3);
+    add_single("density", 0, 1);
+    add_item(&random, 0.3);
+    set_residual(2, 4, 3, -3); /* it changes from state to state */
+    assert_int_equal(choose_of_two(set), 1 + 3);
+    assert_true(set[0].candidate[0] == 0 && set[0].candidate[1] == 1);
+    assert_true(set[1].candidate[0] == 2 && set[1].candidate[1] == 3);
+    assert_close(set[1].amplitude[0], 4, 1e-10, 0);
+    assert_close(set[1].amplitude[1], -3, 1e-10, 0);
+    for (int i = 2; i < 4; i++) /* the other ones: stiffness in both beside density in one */
+        assert_true(set[i].candidate[0] == 1 && set[i].drop <= set[1].drop);
+}
+
+/* At one place a zone of both states and one of a state are one, zones of two states are two. */
+static void zones_of_two_states_may_share_a_place(void **state)
+{
+    (void)state;
+    struct random_stream random = {11};
+    struct scan_set set[2 * MOST];
+    for (int apart = 0; apart < 2; apart++) {
+        open_scan();
+        add_candidate("stiffness_local", -1);
+        add_item(&random, 0)->effect.value[PLACE] = 0.5;
+        add_single("stiffness_local", -1, 0);
+        add_item(&random, 0)->effect.value[PLACE] = apart ? 0.8 : 0.5;
+        set_residual(0, 2, 1, 2);
+        assert_int_equal(choose_of_two(set), apart);
+    }
+    open_scan();
+    for (int s = 0; s < 2; s++) {
+        add_single("stiffness_local", -1, s);
+        add_item(&random, 0)->effect.value[PLACE] = 0.5;
+    }
+    set_residual(0, 2, 1, 2);
+    assert_int_equal(choose_of_two(set), 1);
+}
+
 /* Among pairs of like drops the one with fewer parameters comes first. */
 static void a_pair_pays_for_its_parameters(void **state)
 {
@@ -226,6 +295,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(columns_that_are_one_and_residuals_that_are_few_make_no_pair, open_test_pool,
                                         close_test_pool),
         cmocka_unit_test_setup_teardown(a_pair_pays_for_its_parameters, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(causes_in_one_state_make_pairs_of_their_own, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(zones_of_two_states_may_share_a_place, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

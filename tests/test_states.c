@@ -144,8 +144,8 @@ static void one_state_is_the_same_however_it_is_asked_for(void **state)
         assert_true(a->parameters[p].value == b->parameters[p].value);
     rotid_identification_free(a);
     rotid_identification_free(b);
-    rotid_suggestion *suggestion;
-    assert_status(rotid_suggest(all, NULL, NULL, failure, &suggestion), ROTID_ERROR_ARGUMENT);
+    rotid_check *check;
+    assert_status(rotid_deck_check(all, NULL, failure, &check), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(failure, "the deck has 3 states and this works on one, expected one of free, loaded, held"));
     rotid_deck_free(all);
     rotid_deck_free(one);

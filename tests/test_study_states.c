@@ -128,6 +128,56 @@ static void a_run_names_the_state_of_its_modes(void **state)
     jobs_close(&jobs);
 }
 
+#define ROTOR                                                                                                                    \
+    "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"      \
+    "0.6, 0.08, 0, 12\n*SHAFT, NAME=end, MATERIAL=steel\n0.4, 0.06, 0, 8\n*SENSORS\n1, 0\n2, 0.1\n3, 0.2\n4, 0.3\n5, 0.4\n"      \
+    "6, 0.5\n7, 0.7\n8, 0.8\n9, 0.9\n10, end\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n"
+#define FOUR "*MODES\n1, 250\n2, 680\n3, 1300\n4, 2000\n"
+
+/* A heavier end, in the data of all states: named once for all, also where one of them is held out; what is held out is
+ * predicted, and its modes name it. */
+static void all_states_are_diagnosed_together(void **state)
+{
+    (void)state;
+    static const char *const fit[] = {"", "*FIT, HOLDOUT=STATE:disc\n"};
+    static const char plan[] =
+        "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
+        "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
+    for (int held = 0; held < 2; held++) {
+        struct message_list messages;
+        char *text;
+        (void)bench_write("heavy.inp", pool_format(&test_pool,
+                                                   ROTOR "%s*STATE, NAME=free\n" FOUR "*STATE, NAME=disc\n*DISK\n0.3, 5\n" FOUR
+                                                         "*STATE, NAME=ring\n*DISK\n0.7, 4\n" FOUR,
+                                                   fit[held]));
+        assert_status(bench_study(&test_pool, plan, &messages, &study), ROTID_OK);
+        jobs_open(&study, &jobs);
+        assert_status(study_run(&jobs, 0, NULL, &text), ROTID_OK);
+        cJSON *json = cJSON_Parse(text);
+        const cJSON *modes = get(json, "modes"), *parameters = get(json, "parameters"),
+                    *causes = get(get(json, "verdict"), "causes");
+        assert_string_equal(get(json, "score")->valuestring, "right");
+        assert_int_equal(cJSON_GetArraySize(causes), 1);
+        assert_string_equal(get(cJSON_GetArrayItem(causes, 0), "id")->valuestring, "density");
+        assert_null(cJSON_GetObjectItem(cJSON_GetArrayItem(causes, 0), "state"));
+        assert_int_equal(cJSON_GetArraySize(modes), 12);
+        for (int k = 0; k < 12; k++) {
+            const cJSON *mode = cJSON_GetArrayItem(modes, k);
+            const char *name = get(mode, "state")->valuestring;
+            assert_string_equal(name, k < 4 ? "free" : k < 8 ? "disc" : "ring");
+            assert_int_equal(cJSON_IsTrue(get(mode, "holdout")), held && !strcmp(name, "disc"));
+            assert_true(fabs(number_of(mode, "error_percent")) < 0.5);
+        }
+        const cJSON *factor = cJSON_GetArrayItem(parameters, 1);
+        assert_string_equal(get(factor, "name")->valuestring, "density.factor");
+        assert_close(number_of(factor, "truth"), 1.2, 1e-12, 0);
+        assert_true(fabs(number_of(factor, "value") - 1.2) < 4 * number_of(factor, "std"));
+        cJSON_Delete(json);
+        json_free(text);
+        jobs_close(&jobs);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -135,6 +185,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(noise_is_that_of_each_state, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(effects_are_hidden_in_all_states, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_run_names_the_state_of_its_modes, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(all_states_are_diagnosed_together, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("study_states", tests, bench_make, bench_remove);
 }

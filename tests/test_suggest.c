@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "deck/deck.h"
 #include "deck/deck_proposed.h"
+#include "diagnose/data.h"
 #include "hide/hide.h"
 #include "linalg/cholesky.h"
 #include "suggest/design.h"
@@ -447,7 +448,116 @@ static void a_lead_that_is_promised_is_found(void **state)
     }
 }
 
+/* Rivals that leave no more than noise hold the truth but for what was not taken as a rival; where even the best leaves far more,
+ * no test can be promised a name. */
+static void a_chance_allows_for_a_truth_that_is_no_rival(void **state)
+{
+    const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
+    struct suggestion sound, spoilt;
+    struct message_list notes;
+    struct job job;
+    (void)state;
+    make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
+    message_open(&notes, &test_pool);
+    assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &sound), 0);
+    for (int k = 0; k < job.measurement.nmode; k++)
+        job.measurement.frequency_std[k] /= 5;
+    assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &spoilt), 0);
+    print_message("%.3f, %.3g\n", sound.result.among, spoilt.result.among);
+    assert_true(sound.result.among > 0.5 && sound.result.among < 1);
+    assert_true(spoilt.result.among < sound.result.among / 3);
+    for (int t = 0; t < sound.result.ntests; t++)
+        assert_true(sound.result.tests[t].chance <= sound.result.among + 1e-12);
+    assert_true(spoilt.result.ntests > 0);
+    suggest_free(&sound);
+    suggest_free(&spoilt);
+}
+
+/* The modes of a job shared out to two states of the same structure. */
+static struct states shared_out(const struct job *job)
+{
+    struct states states = {.nstate = 2, .state = POOL_ARRAY(&test_pool, struct state, 2), .bounds = job->unknowns.bounds};
+    states.nparameter = job->unknowns.nparameter;
+    for (int s = 0; s < 2; s++) {
+        struct state *state = &states.state[s];
+        *state = (struct state){.name = s ? "upper" : "lower", .job = *job, .ncommon = states.nparameter};
+        state->unknown = POOL_ARRAY(&test_pool, int, states.nparameter);
+        for (int p = 0; p < states.nparameter; p++)
+            state->unknown[p] = p;
+        assert_int_equal(data_copy(&test_pool, &state->job), 0);
+        for (int k = job->measurement.nmode - 1; k >= 0; k--)
+            if ((k >= 3) != s)
+                data_remove_mode(&state->job, k);
+    }
+    return states;
+}
+
+static int rival_called(const struct rivals *rivals, const char *label)
+{
+    for (int r = 0; r < rivals->n; r++)
+        if (!strcmp(rivals->rival[r].label, label))
+            return r;
+    return -1;
+}
+
+/* Two states of one structure that share out its modes say what one state with all of them says: of causes that act in both the
+ * same chi2, and for the same test the same distances between them. */
+static void states_that_share_out_the_modes_say_the_same(void **state)
+{
+    const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
+    struct suggestion one, two;
+    struct message_list notes;
+    struct job job;
+    int compared = 0, feasible;
+    (void)state;
+    make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
+    struct states states = shared_out(&job);
+    message_open(&notes, &test_pool);
+    assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &one), 0);
+    assert_int_equal(suggest_states(&test_pool, &states, &options, NULL, &notes, &two), 0);
+    assert_null(one.result.state);
+    assert_string_equal(two.result.state, "lower"); /* it has three of the five modes */
+    assert_true(two.result.ntests >= 5);
+    for (int a = 0; a < one.rivals.n; a++) {
+        double first[MOST_RIVALS + 1], second[MOST_RIVALS + 1];
+        int same = rival_called(&two.rivals, one.rivals.rival[a].label);
+        if (same < 0)
+            continue;
+        assert_close(two.rivals.rival[same].fit->chi2, one.rivals.rival[a].fit->chi2, 1e-3, 1e-3);
+        assert_int_equal(margin_distances(&test_pool, &one.rivals, &one.test[0], a, first, &feasible), 0);
+        assert_true(feasible);
+        assert_int_equal(margin_distances(&test_pool, &two.rivals, &one.test[0], same, second, &feasible), 0);
+        assert_true(feasible);
+        for (int b = 0; b < one.rivals.n; b++) {
+            int other = rival_called(&two.rivals, one.rivals.rival[b].label);
+            if (other < 0 || b == a)
+                continue;
+            assert_close(second[other], first[b], 0.02, 0.02);
+            compared++;
+        }
+    }
+    assert_true(compared >= 2);
+    suggest_free(&one);
+    suggest_free(&two);
+}
+
 /* ---- the deck of a test */
+
+/* A test like a state takes what that state has, and measures anew. */
+static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
+{
+    static const char old[] = "*SHAFT, NAME=bar\n1, 0.1, 0, 4\n*STATE, NAME=bare\n*MODES\n1, 90\n*STATE, NAME=Disc\n*DISK, "
+                              "NAME=d\n** heavy\n0.5, 3\n*SENSORS\n1, 0.2\n*SET\nbar.length, 0.9\n*MODES\n1, 70\n",
+                      cards[] = "** proposed\n*STATE, NAME=again\n*NOISE, FREQUENCY=0.001\n";
+    char *text;
+    (void)state;
+    assert_int_equal(deck_add_state(&test_pool, old, "disc", cards, &text), 0);
+    assert_int_equal(strncmp(text, old, sizeof old - 1), 0);
+    assert_string_equal(text + sizeof old - 1, "** proposed\n*STATE, NAME=again\n*DISK, NAME=d\n0.5, 3\n*SET\nbar.length, "
+                                               "0.9\n*NOISE, FREQUENCY=0.001\n");
+    assert_int_equal(deck_add_state(&test_pool, old, "bare", cards, &text), 0);
+    assert_string_equal(text + sizeof old - 1, cards);
+}
 
 static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
 {
@@ -480,7 +590,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
                                   .averages = 1};
         char *cards, *text, failure[ROTID_FAILURE_LENGTH];
         assert_int_equal(deck_write_test(&test_pool, &job, &test, &cards), 0);
-        assert_int_equal(deck_add_state(&test_pool, old, cards, &text), 0);
+        assert_int_equal(deck_add_state(&test_pool, old, NULL, cards, &text), 0);
         assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
@@ -521,7 +631,10 @@ int main(void)
         TEST(no_choice_of_three_places_is_much_better),
         TEST(effective_independence_keeps_the_determinant),
         TEST(a_lead_that_is_promised_is_found),
+        TEST(a_chance_allows_for_a_truth_that_is_no_rival),
+        TEST(states_that_share_out_the_modes_say_the_same),
         TEST(the_deck_of_a_test_is_the_deck_and_a_state),
+        TEST(the_deck_of_a_test_like_a_state_has_its_cards),
     };
     return cmocka_run_group_tests(tests, open_directory, close_directory);
 }

@@ -59,12 +59,12 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
 static int suggest(struct call *call, const rotid_deck *deck, const rotid_suggest_options *given, rotid_suggestion **result)
 {
     rotid_suggest_options options;
-    const struct job *job = deck_job(deck, call);
+    const struct states *states = deck_states(deck, call);
     struct suggestion *s = POOL_NEW(&call->entry.scratch, struct suggestion);
-    int status = job ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
     if (status || !s)
         return status ? status : ROTID_ERROR_MEMORY;
-    status = suggest_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, s);
+    status = suggest_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, s);
     if (!status)
         *result = make_result(call, s);
     suggest_free(s);

@@ -36,7 +36,7 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
         terminal_say("rotid: %s is not written: cannot read %s again\n", command->extended, command->deck);
         return EXIT_INTERNAL;
     }
-    if (deck_add_state(&command->pool, deck, s->tests[0].cards, &text))
+    if (deck_add_state(&command->pool, deck, s->state, s->tests[0].cards, &text))
         return command_fail(command, ROTID_ERROR_MEMORY);
     return command_write_file(command, command->extended, text, code);
 }

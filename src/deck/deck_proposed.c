@@ -192,11 +192,47 @@ static int has_states(const char *deck)
     return 0;
 }
 
-int deck_add_state(struct pool *pool, const char *deck, const char *state, char **text)
+/* The name of the *STATE that a line is; 0: another one. */
+static int is_state_called(const char *line, size_t length, const char *name)
+{
+    for (size_t i = 0; i + 5 <= length; i++) {
+        if (strncasecmp(line + i, "NAME", 4) != 0)
+            continue;
+        i += 4 + strspn(line + i + 4, " \t=\"");
+        return !strncasecmp(line + i, name, strlen(name)) && strchr(", \t\"\r\n", line[i + strlen(name)]);
+    }
+    return 0;
+}
+
+/* The cards of that state of the deck but for what was measured, and without comments. */
+static void put_cards_of(struct deck_writer *w, const char *deck, const char *name)
+{
+    int inside = 0, here = 0;
+    for (const char *line = deck; *line;) {
+        size_t length = strcspn(line, "\n");
+        const struct deck_card *card = card_of(line, length);
+        if (card) {
+            int state = !strcmp(card->name, "STATE");
+            inside = state ? is_state_called(line, length, name) : inside;
+            here = inside && !state && card->states != CARD_OF_STATE && strcmp(card->name, "NOISE") != 0 &&
+                   strcmp(card->name, "SENSORS") != 0;
+        }
+        if (here && !(line[0] == '*' && line[1] == '*'))
+            deck_put(w, "%.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+int deck_add_state(struct pool *pool, const char *deck, const char *home, const char *state, char **text)
 {
     struct deck_writer w = {.pool = pool};
     if (has_states(deck)) {
-        deck_put(&w, "%s%s", deck, deck[0] && deck[strlen(deck) - 1] != '\n' ? "\n" : "");
+        const char *card = strstr(state, "*STATE");
+        size_t head = card ? (size_t)(card - state) + strcspn(card, "\n") + 1 : 0;
+        deck_put(&w, "%s%s%.*s", deck, deck[0] && deck[strlen(deck) - 1] != '\n' ? "\n" : "", (int)head, state);
+        if (home)
+            put_cards_of(&w, deck, home);
+        state += head;
     } else {
         put_part(&w, deck, 0);
         deck_put(&w, "*STATE, NAME=measured\n");

@@ -9,8 +9,9 @@
  * ROTID_ERROR_ARGUMENT where a deck cannot say it: a support without a name. */
 int deck_write_test(struct pool *pool, const struct job *job, const struct test *test, char **text);
 
-/* The text of a deck with that state behind it: as it is where it has states; else its measured data become a state of their own,
- * `measured`, so that the other cards are common to both. Comments stay. ROTID_OK or ROTID_ERROR_MEMORY. */
-int deck_add_state(struct pool *pool, const char *deck, const char *state, char **text);
+/* The text of a deck with that state behind it: as it is where it has states, of which the new one takes the cards of `home` (may
+ * be NULL) that say how the structure is; else its measured data become a state of their own, `measured`, so that the other cards
+ * are common to both. Comments stay. ROTID_OK or ROTID_ERROR_MEMORY. */
+int deck_add_state(struct pool *pool, const char *deck, const char *home, const char *state, char **text);
 
 #endif

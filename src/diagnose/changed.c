@@ -9,6 +9,7 @@
 #include "diagnose/imitate.h"
 #include "diagnose/refit.h"
 
+#define LEAST_LEFT 3    /* modes: fewer say too little */
 #define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
 
 static const struct state *find(const struct states *states, const char *name, struct message_list *notes)
@@ -40,6 +41,28 @@ static int suffices(const struct state *state, struct message_list *notes)
     return 0;
 }
 
+/* A mode whose number the shape of another one claims is left out, as a diagnosis does: it tells nothing of what changed. */
+static void leave_out_clash(struct job *job, int k, const char *name, struct message_list *notes)
+{
+    message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                "measured mode %d of state %s at %.6g Hz looks like no mode of the model and is left out",
+                job->measurement.number[k], name, job->measurement.frequency_hz[k]);
+    data_remove_mode(job, k);
+}
+
+/* identify_run, without the modes that clash. */
+static int fit_paired(struct pool *pool, struct job *job, const char *name, const rotid_environment *environment,
+                      struct message_list *notes, struct message_list *quiet, struct identification *found)
+{
+    int status = identify_run(pool, job, 0, environment, quiet, found);
+    while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
+        leave_out_clash(job, found->compared.clash, name, notes);
+        message_open(quiet, pool);
+        status = identify_run(pool, job, 0, environment, quiet, found);
+    }
+    return status;
+}
+
 /* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
  * are judged on the same. */
 static int fit_before(struct pool *pool, const struct state *before, const struct diagnose_options *options,
@@ -54,14 +77,16 @@ static int fit_before(struct pool *pool, const struct state *before, const struc
     job->options.fit.derivative = ROTID_NELSON;
     int status = imitate(pool, job, options, environment, job);
     if (!status)
-        status = identify_run(pool, job, 0, environment, &quiet, found);
+        status = data_copy(pool, job);
+    if (!status)
+        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
     const struct segment *coarse = job->rotor.segment;
     if (!status && found->fit->status != ROTID_STOP_CANCELLED)
         status = base_refine(pool, job, found->compared.number, &found->spectrum);
     if (!status && job->rotor.segment != coarse) {
         rotid_fit_free(found->fit);
         found->fit = NULL;
-        status = identify_run(pool, job, 0, environment, &quiet, found);
+        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
     }
     for (size_t i = 0; i < quiet.count && status; i++)
         message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before->name);
@@ -229,6 +254,11 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
                                         comparison_candidates(job), job->measurement.shape ? SPECTRUM_REDUCED : 0, &spectrum);
     if (!status)
         status = comparison_make(pool, job, &spectrum, &quiet, &compared);
+    while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
+        leave_out_clash(job, compared.clash, name, notes);
+        message_open(&quiet, pool);
+        status = comparison_make(pool, job, &spectrum, &quiet, &compared);
+    }
     for (size_t i = 0; i < quiet.count && status; i++)
         message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, name);
     if (status)

@@ -54,18 +54,26 @@ static double place_of(const struct scan *scan, int item)
     return place < 0 ? NAN : i->effect.value[place];
 }
 
+/* Products of the columns of two candidates, from their first items on, [leading * ...]. */
+struct products {
+    const double *gram;
+    int leading, from_first, from_second;
+    int in_one_state; /* one of the two acts in one state alone, in which the other one acts too */
+};
+
 /* The best items of the candidates a and b together. */
-static double best_items(const struct scan *scan, const double *gram, const double *along, int a, int b, double apart,
+static double best_items(const struct scan *scan, const struct products *p, const double *along, int a, int b, double apart,
                          struct scan_set *set)
 {
     const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
+    int one = a == b || (p->in_one_state && first->cause == second->cause && first->effect.target == second->effect.target);
     double best = 0;
     for (int i = first->first; i < first->first + first->count; i++)
         for (int j = a == b ? i + 1 : second->first; j < second->first + second->count; j++) {
-            double g = gram[i + (ptrdiff_t)j * scan->nitem], u, v;
+            double g = p->gram[i - p->from_first + (ptrdiff_t)(j - p->from_second) * p->leading], u, v;
             if (!scan->item[i].usable || !scan->item[j].usable || g * g > SAME)
                 continue;
-            if (a == b && fabs(place_of(scan, i) - place_of(scan, j)) < apart)
+            if (one && fabs(place_of(scan, i) - place_of(scan, j)) < apart)
                 continue;
             double drop = pair_drop(&scan->item[i], &scan->item[j], along[i], along[j], g, &u, &v);
             if (drop <= best)
@@ -101,26 +109,81 @@ static void enter(const struct scan *scan, const struct scan_set *pair, int most
         set[at] = *pair;
 }
 
+/* Whether a cause acts in one state, though others have its target. */
+static int is_single(const struct scan *scan, int candidate)
+{
+    return scan->candidate[candidate].state >= 0;
+}
+
+/* The pair of a and b, if they make one, into the list. */
+static void try_pair(const struct states *states, const struct scan *scan, const struct products *products, const double *along,
+                     int a, int b, int most, struct scan_set *set, int *count)
+{
+    const struct rotor *rotor = &states->state[scan->candidate[a].home].job.rotor;
+    struct scan_set pair;
+    int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
+    if (left >= LEAST_RESIDUALS && scan_allows(states, scan, a, b) &&
+        best_items(scan, products, along, a, b, APART * rotor_length(rotor), &pair) > 0)
+        enter(scan, &pair, most, set, count);
+}
+
+/* Of causes that act in all states that have them, which stand first; the products are one matrix. */
+static int choose_common(struct pool *pool, const struct states *states, const struct scan *scan, const double *along, int most,
+                         struct scan_set *set, int *count)
+{
+    int n = 0, ncommon = 0;
+    while (ncommon < scan->ncandidate && !is_single(scan, ncommon))
+        n += scan->candidate[ncommon++].count;
+    double *gram = POOL_ARRAY(pool, double, (size_t)n *(size_t)n);
+    if (!gram)
+        return ROTID_ERROR_MEMORY;
+    if (n)
+        product_gram(n, scan->nrow, scan->column, gram);
+    const struct products products = {gram, n, 0, 0, 0};
+    for (int a = 0; a < ncommon; a++)
+        for (int b = a; b < ncommon; b++)
+            try_pair(states, scan, &products, along, a, b, most, set, count);
+    return ROTID_OK;
+}
+
+/* Of causes of which one or both act in one state alone. There are many more of these, and the products of all of them would not
+ * be worth their room: those of two candidates at a time. */
+static int choose_single(struct pool *pool, const struct states *states, const struct scan *scan, const double *along, int most,
+                         struct scan_set *set, int *count)
+{
+    size_t largest = 0;
+    for (int a = 0; a < scan->ncandidate; a++)
+        largest = (size_t)scan->candidate[a].count > largest ? (size_t)scan->candidate[a].count : largest;
+    double *gram = POOL_ARRAY(pool, double, largest *largest);
+    if (!gram)
+        return ROTID_ERROR_MEMORY;
+    for (int a = 0; a < scan->ncandidate; a++)
+        for (int b = a; b < scan->ncandidate; b++) {
+            const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
+            if (!(is_single(scan, a) || is_single(scan, b)) || !first->count || !second->count)
+                continue;
+            const struct products products = {gram, first->count, first->first, second->first,
+                                              states_meet(states->nstate, first->in, second->in)};
+            product_transposed(first->count, second->count, scan->nrow, scan->column + (ptrdiff_t)first->first * scan->nrow,
+                               scan->column + (ptrdiff_t)second->first * scan->nrow, gram);
+            try_pair(states, scan, &products, along, a, b, most, set, count);
+        }
+    return ROTID_OK;
+}
+
 int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
                  int *count)
 {
-    double *gram = POOL_ARRAY(pool, double, (size_t)scan->nitem *(size_t)scan->nitem),
-           *along = POOL_ARRAY(pool, double, scan->nitem);
+    double *along = POOL_ARRAY(pool, double, scan->nitem);
+    int single = 0;
     *count = 0;
-    if (!gram || !along)
+    if (!along)
         return ROTID_ERROR_MEMORY;
-    if (!scan->nitem)
-        return ROTID_OK;
-    product_gram(scan->nitem, scan->nrow, scan->column, gram);
     for (int i = 0; i < scan->nitem; i++)
         along[i] = product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r);
-    for (int a = 0; a < scan->ncandidate; a++)
-        for (int b = a; b < scan->ncandidate; b++) {
-            struct scan_set pair;
-            int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
-            if (left >= LEAST_RESIDUALS && scan_allows(states, scan, a, b) &&
-                best_items(scan, gram, along, a, b, APART * rotor_length(&states->state->job.rotor), &pair) > 0)
-                enter(scan, &pair, most, set, count);
-        }
-    return ROTID_OK;
+    int status = choose_common(pool, states, scan, along, most, set, count);
+    if (!status && states->nstate > 1)
+        status = choose_single(pool, states, scan, along, most, set + *count, &single);
+    *count += single;
+    return status;
 }

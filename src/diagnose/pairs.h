@@ -8,7 +8,8 @@
 /* The pairs of a scan that promise most, in score: every two items of different candidates, or of one with a place at two places,
  * drop together -2 b'u - u'Gu with G the products of their columns, b those with the residual, and the steps u within what
  * physics allows. Of the places of two candidates the best ones are taken, and no pair that would leave fewer than
- * LEAST_RESIDUALS. set [most] best first, *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * LEAST_RESIDUALS. Pairs of causes that act in all states that have them are listed first, then those of which one or both act
+ * in one state alone: set [2 * most], each `most` at most and best first, *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
 int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
                  int *count);
 

@@ -133,12 +133,57 @@ static int map_unknowns(struct pool *pool, int added, int nparameter, struct sta
     return ROTID_OK;
 }
 
+/* The bounds of an unknown of all for the states that have it. */
+static void share_bounds(struct states *states, int p)
+{
+    for (int s = 0; s < states->nstate; s++)
+        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
+            if (state_unknown(&states->state[s], q) == p) {
+                rotid_parameter *own = &states->state[s].job.unknowns.bounds[q];
+                own->lower = states->bounds[p].lower;
+                own->upper = states->bounds[p].upper;
+                own->start = states->bounds[p].start;
+            }
+}
+
+/* The bounds of the last `added` unknowns, those of one effect: what is possible in every state in which it acts, which may be of
+ * different lengths. */
+static int add_bounds(struct pool *pool, const struct states *from, const struct state *const *acts, int nacts, int added,
+                      struct states *to)
+{
+    int n = from->nparameter;
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n + added);
+    if (!bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++)
+        bounds[p] = to->bounds[p];
+    to->nparameter = n + added;
+    to->bounds = bounds;
+    for (int p = n; p < n + added; p++) {
+        for (int s = 0; s < nacts; s++) {
+            const rotid_parameter *own = &acts[s]->job.unknowns.bounds[acts[s]->job.unknowns.nparameter - added + p - n];
+            if (!s)
+                bounds[p] = *own;
+            double lower = fmax(bounds[p].lower, own->lower), upper = fmin(bounds[p].upper, own->upper);
+            if (lower < upper) {
+                bounds[p].lower = lower;
+                bounds[p].upper = upper;
+            }
+        }
+        set_start(&bounds[p], inside(&bounds[p], bounds[p].start));
+        share_bounds(to, p);
+    }
+    return ROTID_OK;
+}
+
 int states_with_effect(struct pool *pool, const struct states *from, const double *x, const struct effect *effect,
                        const struct cause_kind *cause, const int *fixed, const int *in, struct states *to)
 {
     const struct states states = *from; /* `to` may be the same */
-    const struct job *one = NULL;
-    int added = 0, status = x ? states_started_at(pool, &states, x, to) : states_copy(pool, &states, to);
+    const struct state **acts = POOL_ARRAY(pool, const struct state *, from->nstate);
+    int added = 0, nacts = 0, status = x ? states_started_at(pool, &states, x, to) : states_copy(pool, &states, to);
+    if (!acts)
+        return ROTID_ERROR_MEMORY;
     for (int s = 0; s < states.nstate && !status; s++) {
         struct job *job = &to->state[s].job;
         int before = job->unknowns.nparameter;
@@ -146,22 +191,15 @@ int states_with_effect(struct pool *pool, const struct states *from, const doubl
             continue;
         status = job_with_effect(pool, job, NULL, effect, cause, fixed, job);
         added = job->unknowns.nparameter - before;
-        one = job;
-        if (!status && states.nstate > 1)
+        acts[nacts++] = &to->state[s];
+        if (!status && (states.nstate > 1 || to->state[s].unknown))
             status = map_unknowns(pool, added, states.nparameter, &to->state[s]);
     }
     if (status || states.nstate == 1) {
         take_bounds(to);
         return status;
     }
-    to->nparameter = states.nparameter + added;
-    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, to->nparameter);
-    if (!bounds)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < to->nparameter; p++)
-        bounds[p] = p < states.nparameter ? to->bounds[p] : one->unknowns.bounds[p - to->nparameter + one->unknowns.nparameter];
-    to->bounds = bounds;
-    return ROTID_OK;
+    return add_bounds(pool, &states, acts, nacts, added, to);
 }
 
 void effect_at(const struct state *state, int effect, const double *x, struct effect *out)
@@ -317,19 +355,6 @@ int refit_again(struct pool *pool, const struct states *states, int nown, const 
     rotid_fit_free(better ? *fit : second);
     *fit = better ? second : *fit;
     return ROTID_OK;
-}
-
-/* The bounds of an unknown of all for the states that have it. */
-static void share_bounds(struct states *states, int p)
-{
-    for (int s = 0; s < states->nstate; s++)
-        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
-            if (state_unknown(&states->state[s], q) == p) {
-                rotid_parameter *own = &states->state[s].job.unknowns.bounds[q];
-                own->lower = states->bounds[p].lower;
-                own->upper = states->bounds[p].upper;
-                own->start = states->bounds[p].start;
-            }
 }
 
 /* Kind of the model's parameter that an unknown of all is. */

@@ -25,7 +25,7 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to);
 
 /* The same for the states with `in` [nstate] nonzero (NULL: all), which share the parameters of the effect: unknowns behind those
- * of all. A solid they are all together. */
+ * of all, between what is possible in every one of these states. A solid they are all together. */
 int states_with_effect(struct pool *pool, const struct states *from, const double *x, const struct effect *effect,
                        const struct cause_kind *cause, const int *fixed, const int *in, struct states *to);
 

@@ -175,8 +175,8 @@ static int fit_round(struct engine *engine, struct diagnosis_round *round, struc
     round->result.p_frequency = b->p_frequency;
     round->result.p_total = b->p_total;
     int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
-    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + MOST_PAIRS);
-    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + MOST_PAIRS);
+    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + 2 * MOST_PAIRS);
+    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + 2 * MOST_PAIRS);
     if (!result->set || !result->refit)
         return ROTID_ERROR_MEMORY;
     if (!adequate) {

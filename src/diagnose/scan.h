@@ -67,6 +67,9 @@ int scan_list(struct pool *pool, const struct states *states, struct scan *scan)
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
 const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
 
+/* Whether what acts in the states a [nstate] and what acts in b are together in one of them. */
+int states_meet(int nstate, const int *a, const int *b);
+
 /* Whether the candidates a and b may be there together: the same cause at the same target needs two places. */
 int scan_allows(const struct states *states, const struct scan *scan, int a, int b);
 

@@ -238,12 +238,19 @@ static int add_suspect(struct listing *l, int home, const struct suspect *suspec
     return status;
 }
 
+int states_meet(int nstate, const int *a, const int *b)
+{
+    for (int s = 0; s < nstate; s++)
+        if (a[s] && b[s])
+            return 1;
+    return 0;
+}
+
 int scan_allows(const struct states *states, const struct scan *scan, int a, int b)
 {
     const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
-    if (first->state >= 0 || second->state >= 0) /* of what is in one state, one is named after the other */
-        return 0;
-    if (first->cause != second->cause || first->effect.target != second->effect.target || first->home != second->home)
+    if (first->cause != second->cause || first->effect.target != second->effect.target ||
+        !states_meet(states->nstate, first->in, second->in))
         return a != b;
     int place = first->cause->place;
     return place >= 0 && !first->fixed[place] && !second->fixed[place] && !first->suspect && !second->suspect &&

@@ -103,6 +103,7 @@ static void print_rivals(FILE *out, const rotid_suggestion *s)
         name_cell(out, 1, s->rivals[i].label);
         (void)fputc('\n', out);
     }
+    (void)fprintf(out, "the true one is among them with a chance of %.2f; the chances of the tests allow for it\n", s->among);
 }
 
 /* Of the best rival, were it true: the other one that a test tells from it least, the model as it is where there is no other. */
@@ -158,6 +159,8 @@ void table_suggest(FILE *out, const struct result *result, int all)
     wrap_text(out, 2, WIDTH, "  ", s->sentence);
     if (s->verdict)
         wrap_text(out, 2, WIDTH, "  diagnosis: ", s->verdict);
+    if (s->state)
+        (void)fprintf(out, "  state: plans and tests are made like %s\n", s->state);
     (void)fprintf(out, "  noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
                   s->noise.frequency_assumed ? " (assumed)" : "", 100 * s->noise.shape,
                   s->noise.shape_assumed ? " (assumed)" : "");

@@ -87,6 +87,7 @@ static const struct record cause_parameter_record = RECORD(struct run_cause_para
 static const struct field cause_fields[] = {
     TEXT(struct run_cause, id, 0),
     TEXT(struct run_cause, target, 0),
+    TEXT(struct run_cause, state, IF_KNOWN),
     STRUCTS(struct run_cause, parameters, 0, cause_parameter_record),
     {0},
 };
@@ -104,6 +105,7 @@ static const struct record verdict_record = RECORD(struct run_verdict, verdict_f
 
 static const struct field finding_fields[] = {
     TEXT(struct run_finding, id, 0),
+    TEXT(struct run_finding, state, IF_KNOWN),
     INTEGERS(struct run_finding, sensors, 0),
     TEXT_OF(struct run_finding, block, MAY_BE_NULL, blocks),
     NUMBER(struct run_finding, value, MAY_BE_NULL),

@@ -120,6 +120,7 @@ struct run_cause_parameter {
 struct run_cause {
     const char *id;     /* of the catalogue, docs/diagnosis.md */
     const char *target; /* what it acts on; empty where that is the whole rotor */
+    const char *state;  /* the one in which it acts; NULL: in all */
     int nparameters;
     struct run_cause_parameter *parameters; /* in the order of docs/deck.md */
 };
@@ -136,7 +137,8 @@ struct run_verdict {
 
 /* a fault of the measurement chain */
 struct run_finding {
-    const char *id; /* of the catalogue */
+    const char *id;    /* of the catalogue */
+    const char *state; /* whose data; NULL of a deck that is one */
     int nsensors;
     int *sensors;      /* ids */
     const char *block; /* of noise_level */

@@ -224,8 +224,6 @@ static void check_states(const struct plan *plan, const struct states *states, s
                         states->nstate > 1 ? " in state " : "", states->nstate > 1 ? states->state[s].name : "");
     if (!states->nparameter && plan->command == PLAN_IDENTIFY)
         message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
-    if (states->nstate > 1 && plan->command == PLAN_DIAGNOSE)
-        states_refuse(states, deck, found);
 }
 
 static int check_deck(struct checker *c, int d)

@@ -187,6 +187,7 @@ static struct run_cause *causes(struct pool *pool, int count, const struct candi
             n++;
         list[i] = (struct run_cause){.id = candidate[i].cause->id,
                                      .target = candidate[i].target ? candidate[i].target : "",
+                                     .state = candidate[i].state_name,
                                      .parameters = POOL_ARRAY(pool, struct run_cause_parameter, n)};
         if (!list[i].parameters)
             return NULL;
@@ -217,8 +218,8 @@ static int add_diagnosis(struct pool *pool, const struct experiment *experiment,
     };
     for (int i = 0; i < d->result.ndata_findings && out->data_findings; i++) {
         const rotid_data_finding *finding = &d->result.data_findings[i];
-        out->data_findings[out->ndata_findings++] =
-            (struct run_finding){finding->id, finding->nsensors, finding->sensors, finding->block, finding->value};
+        out->data_findings[out->ndata_findings++] = (struct run_finding){finding->id,      finding->state, finding->nsensors,
+                                                                         finding->sensors, finding->block, finding->value};
     }
     return out->verdict.causes && out->verdict.alternatives && out->data_findings;
 }
@@ -228,8 +229,8 @@ static double extended_truth(const struct experiment *experiment, const struct d
 {
     const struct truth *truth = experiment->made_by;
     const char *dot = strrchr(name, '.');
-    for (int p = 0; p < experiment->job->unknowns.nparameter; p++)
-        if (same_text(name, experiment->job->unknowns.bounds[p].name))
+    for (int p = 0; p < experiment->states.nparameter; p++)
+        if (same_text(name, experiment->states.bounds[p].name))
             return experiment->truth[p];
     for (int i = 0; i < d->ncause && dot; i++) {
         const struct candidate *c = &d->cause[i];
@@ -247,18 +248,20 @@ static double extended_truth(const struct experiment *experiment, const struct d
 char *line_diagnosed(const struct line *line, const struct experiment *experiment, const struct diagnosis *d,
                      const struct message_list *notes)
 {
-    const struct job *job = d->extended.fit ? &d->extended_job : &d->job;
-    const struct identification *final = d->extended.fit ? &d->extended : &d->base;
-    const struct fitted fitted = {NULL, job, &final->compared};
+    const struct states *final = d->extended.fit ? &d->extended_states : &d->judged;
+    const struct identification *of = d->extended.fit ? d->state_extended : d->state_base;
+    const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
     struct pool pool;
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
-    double *truth = POOL_ARRAY(&pool, double, job->unknowns.nparameter);
-    for (int p = 0; p < job->unknowns.nparameter && truth && experiment->made_by; p++)
-        truth[p] = extended_truth(experiment, d, job->unknowns.bounds[p].name);
-    int whole =
-        final->fit && truth &&
-        add_fit(&pool, experiment, 1, &fitted, job->unknowns.bounds, final->fit, experiment->made_by ? truth : NULL, &run) &&
-        (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
+    double *truth = POOL_ARRAY(&pool, double, final->nparameter);
+    struct fitted *fitted = POOL_ARRAY(&pool, struct fitted, final->nstate);
+    for (int p = 0; p < final->nparameter && truth && experiment->made_by; p++)
+        truth[p] = extended_truth(experiment, d, final->bounds[p].name);
+    for (int s = 0; s < final->nstate && fitted; s++)
+        fitted[s] = (struct fitted){final->nstate > 1 ? final->state[s].name : NULL, &final->state[s].job, &of[s].compared};
+    int whole = fit && truth && fitted &&
+                add_fit(&pool, experiment, final->nstate, fitted, final->bounds, fit, experiment->made_by ? truth : NULL, &run) &&
+                (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
     return end(&pool, &run, whole, clock_seconds() - line->begin);
 }

@@ -52,7 +52,7 @@ static char *diagnose(struct pool *pool, const struct study *study, const struct
     const struct diagnose_options options = {.threads = 1, .seed = study->seed, .replicates = study->plan->bootstrap};
     struct diagnosis result;
     char *text = NULL;
-    *status = diagnose_run(pool, experiment->job, &options, environment, notes, &result);
+    *status = diagnose_states(pool, &experiment->states, &options, environment, notes, &result);
     if (*status)
         return NULL;
     if (result.result.interrupted)

@@ -18,7 +18,7 @@ static double place_of_mass(const struct rotor *rotor, const struct cause_kind *
 int score_is_hidden(const struct experiment *e, const struct diagnosis *d, const struct candidate *c)
 {
     const struct truth *truth = e->made_by;
-    if (!truth->effect)
+    if (!truth->effect || c->state >= 0) /* it acts in all states */
         return 0;
     double mass = place_of_mass(&truth->job.rotor, truth->cause, truth->effect),
            found = place_of_mass(&d->job.rotor, c->cause, &c->effect);

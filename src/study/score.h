@@ -18,8 +18,8 @@ enum score {                    /* their words: score_words of result/study.h */
 };
 
 /* The experiment's data were made by a model. A cause is the hidden one by its id, its target, and where it has a place by that,
- * within its width or 3 % of the length; a mass is a mass, whether it is called added or that of an accelerometer there. A fault
- * of the data is known by its id, sensors and block. */
+ * within its width or 3 % of the length; a mass is a mass, whether it is called added or that of an accelerometer there; one that
+ * is said to act in one state alone is another one. A fault of the data is known by its id, sensors and block. */
 enum score score_make(const struct experiment *experiment, const struct diagnosis *diagnosis);
 
 /* Whether a candidate is the hidden cause by those rules. */

@@ -2,7 +2,6 @@
 
 #include "fit/quantile.h"
 
-#define JUDGED 0.01 /* a misfit that noise exceeds less often is no noise */
 #define LIKELY 0.5  /* chance of a name from which on a test is recommended without more ado */
 
 static const char *needed(struct pool *pool, const rotid_suggestion *r)

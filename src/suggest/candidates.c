@@ -82,13 +82,13 @@ static int compare_tests(const void *left, const void *right)
 /* The frequencies that the best rival expects, for the comments of the deck. */
 static int expect_hz(struct pool *pool, const struct rival *best, struct test *t)
 {
-    double *x = POOL_ARRAY(pool, double, best->fit->n);
-    int *own = POOL_ARRAY(pool, int, best->fit->n);
+    double *x = POOL_ARRAY(pool, double, best->job.unknowns.nparameter);
+    int *own = POOL_ARRAY(pool, int, best->job.unknowns.nparameter);
     struct job job;
     const struct planned plan = {t->modes, t->number, t->frequency_std, 0};
     if (!x || !own)
         return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, t, &best->job, best->fit->x, &job, x, own);
+    int status = test_apply(pool, t, &best->job, best->x, &job, x, own);
     if (!status)
         status = planned_measure(pool, &job, x, &plan, &job);
     t->hz = status ? NULL : job.measurement.frequency_hz;
@@ -306,7 +306,7 @@ static int refit_first(struct judging *j)
             if (m->truth || m->rival > MOST_BESIDE)
                 continue;
             pool_open(&scratch, j->pool->allocator);
-            status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].fit->x, &j->out->test[i], &measured);
+            status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].x, &j->out->test[i], &measured);
             if (!status)
                 status = joint_chi2(&scratch, b, &j->out->test[i], &measured, j->environment, &chi2);
             status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;

@@ -30,9 +30,12 @@ static int take_columns(struct columns *c, const struct rival *rival, const doub
         if (!rival_uses(rival, p))
             continue;
         double *column = side->j + (ptrdiff_t)n++ * side->nrow;
-        status = columns_parameter(c, p, column);
+        int q = rival_own(rival, p);
+        if (q < 0) /* of other states alone */
+            continue;
+        status = columns_parameter(c, q, column);
         for (int i = 0; i < side->nrow; i++)
-            column[i] *= x_test[p];
+            column[i] *= x_test[q];
     }
     for (int k = 0; k < c->nmode; k++) {
         const struct columns_mode *mode = &c->mode[k];
@@ -85,12 +88,12 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
     struct columns *c = POOL_NEW(pool, struct columns);
     int nparameter = b->job.unknowns.nparameter;
     double *x = POOL_ARRAY(pool, double, nparameter);
-    int *own = POOL_ARRAY(pool, int, nparameter);
+    int *own = POOL_ARRAY(pool, int, nparameter), *own_of_all = POOL_ARRAY(pool, int, b->fit->n);
     struct job job;
     *s = (struct side){0};
-    if (!c || !x || !own)
+    if (!c || !x || !own || !own_of_all)
         return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, test, &b->job, b->fit->x, &job, x, own);
+    int status = test_apply(pool, test, &b->job, b->x, &job, x, own);
     if (status)
         return status;
     job.measurement = *measured;
@@ -99,8 +102,11 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
         status = columns_prepare(c);
     if (status)
         return status;
-    for (int p = 0; p < nparameter; p++)
+    for (int p = 0; p < b->fit->n; p++) {
+        int q = rival_own(b, p);
         s->n += rival_uses(b, p);
+        own_of_all[p] = q >= 0 && own[q];
+    }
     s->nrow = c->nrow;
     s->j = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)s->n);
     s->unit = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)c->nmode);
@@ -110,7 +116,7 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
         return ROTID_ERROR_MEMORY;
     memcpy(s->d, c->r, (size_t)s->nrow * sizeof *s->d);
     status = take_columns(c, b, x, s);
-    return status ? status : factor_both(pool, b, own, s);
+    return status ? status : factor_both(pool, b, own_of_all, s);
 }
 
 /* Q(z) */
@@ -144,7 +150,7 @@ static int open_sides(struct pool *pool, const struct rivals *rivals, const stru
     struct job job;
     if (!x || !own)
         return ROTID_ERROR_MEMORY;
-    int status = test_apply(pool, test, &a->job, a->fit->x, &job, x, own);
+    int status = test_apply(pool, test, &a->job, a->x, &job, x, own);
     if (!status)
         status = planned_measure(pool, &job, x, &plan, &job);
     for (int b = 0; b < rivals->n && !status; b++)
@@ -256,8 +262,8 @@ static int judge_truth(struct pool *pool, const struct rivals *rivals, const str
     make_spread(a, spread);
     status = draw_all(pool, rivals, truth, side, spread, draws, seed, &count, won);
     const struct rival *true_one = &rivals->rival[truth];
-    out->chance += true_one->share * count.named / draws;
-    out->wrong += true_one->share * count.wrong / draws;
+    out->chance += rivals->among * true_one->share * count.named / draws;
+    out->wrong += rivals->among * true_one->share * count.wrong / draws;
     for (int b = 0; b < n && !status; b++) {
         double before = rivals->rival[b].score - true_one->score;
         if (b != truth)

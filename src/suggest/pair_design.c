@@ -22,13 +22,13 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
         used += rival_uses(b, p);
     int status = c ? planned_sensors(pool, &a->job, places->n, places->z, &source) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = planned_measure(pool, &source, a->fit->x, &plan, &source);
+        status = planned_measure(pool, &source, a->x, &plan, &source);
     if (!status)
         status = planned_sensors(pool, &b->job, places->n, places->z, &job);
     if (status)
         return status;
     job.measurement = source.measurement;
-    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, &none, b->fit->x, c);
+    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, &none, b->x, c);
     if (!status)
         status = columns_prepare(c);
     if (!status)
@@ -41,9 +41,11 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
         double *column = d->column + (ptrdiff_t)q * c->nrow;
         if (!rival_uses(b, p))
             continue;
-        status = columns_parameter(c, p, column);
-        for (int i = 0; i < c->nrow; i++)
-            column[i] *= b->fit->x[p];
+        int own = rival_own(b, p);
+        if (own >= 0)
+            status = columns_parameter(c, own, column);
+        for (int i = 0; i < c->nrow && own >= 0; i++)
+            column[i] *= b->x[own];
         d->prior[q + (ptrdiff_t)q * used] *= 1 + 1e-9; /* a direction that the data leave open */
         q++;
     }

@@ -5,16 +5,17 @@
 
 #include "diagnose/decide.h"
 #include "diagnose/refit.h"
+#include "fit/quantile.h"
 #include "linalg/product.h"
 
 #define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
 #define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
 #define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
 
-struct sources {            /* of rivals */
-    const struct job *base; /* the model with what is named */
-    const double *x;        /* [nparameter] its values */
-    const int *number, *holdout;
+struct sources {                 /* of rivals */
+    const struct states *base;   /* the model with what is named */
+    const double *x;             /* [nparameter] its values */
+    int home, *number, *holdout; /* of the modes of all states */
     const rotid_environment *environment;
 };
 
@@ -23,21 +24,21 @@ static int is_model(const struct candidate *c)
     return c->cause->class == CAUSE_PHYSICAL && c->cause->effect && !c->cause->solid && isfinite(c->result.chi2);
 }
 
-/* The causes [count] of a rival in the job, its own parameters from x (NULL: their starts), the first cause at another place
+/* The causes [count] of a rival in the states, the own parameters from x (NULL: their starts), the first cause at another place
  * where that is finite; held: at their values. */
 static int add_causes(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
-                      double other_place, int held, struct job *to)
+                      double other_place, int held, struct states *to)
 {
     static const int all[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
     int status = ROTID_OK;
     for (int i = 0; i < count && !status; i++) {
         struct effect effect = cause[i].effect;
-        if (i && !(effect.name = scan_free_name(pool, &to->rotor, cause[i].cause->id)))
+        if (i && !(effect.name = states_free_name(pool, to, cause[i].cause->id)))
             return ROTID_ERROR_MEMORY;
         if (!i && isfinite(other_place))
             effect.value[cause->cause->place] = other_place;
-        status =
-            job_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed, to);
+        status = states_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed,
+                                    cause[i].in, to);
     }
     return status;
 }
@@ -47,34 +48,39 @@ static int is_fatal(int status)
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED;
 }
 
-/* refit_keep of a job that is the only state. */
-static int keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit)
-{
-    struct state state;
-    const struct states states = states_of(job, &state);
-    return refit_keep(pool, &states, fit, refit);
-}
-
 /* The fit from there, kept in *refit where it is better. Statuses of memory and cancellation. */
 static int fit_from(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
                     double other_place, struct refit *refit)
 {
-    struct job job;
+    struct states states;
     rotid_fit_result *held = NULL, *fit = NULL;
-    int status = add_causes(pool, from, x, count, cause, other_place, 1, &job);
-    if (!status && job.unknowns.nparameter) /* the rest follows first: it may be far from where the causes were found */
-        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &held);
+    int status = add_causes(pool, from, x, count, cause, other_place, 1, &states);
+    if (!status && states.nparameter) /* the rest follows first: it may be far from where the causes were found */
+        status = refit_states(pool, &states, from->number, from->holdout, from->environment, &held);
     if (!status)
-        status = add_causes(pool, from, held ? held->x : x, count, cause, other_place, 0, &job);
+        status = add_causes(pool, from, held ? held->x : x, count, cause, other_place, 0, &states);
     rotid_fit_free(held);
     if (!status)
-        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
+        status = refit_states(pool, &states, from->number, from->holdout, from->environment, &fit);
     if (status)
         return is_fatal(status) ? status : ROTID_OK;
     if (fit->chi2 < refit->chi2)
-        return keep(pool, &job, fit, refit);
+        return refit_keep(pool, &states, fit, refit);
     rotid_fit_free(fit);
     return ROTID_OK;
+}
+
+/* A fit as a rival of that label. */
+static int take_fit(struct pool *pool, const struct sources *from, const struct refit *refit, struct rival *rival)
+{
+    const struct state *home = &refit->states.state[from->home];
+    rival->states = refit->states;
+    rival->home = from->home;
+    rival->job = home->job;
+    rival->x = state_values(pool, home, refit->fit->x);
+    rival->fit = refit->fit;
+    rival->score = refit->chi2;
+    return rival->x && rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 static const char *label_of(struct pool *pool, int count, const struct candidate *cause, double other_place)
@@ -103,33 +109,29 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     }
     if (status)
         return status;
-    *rival = (struct rival){.label = label_of(pool, count, cause, other_place),
-                            .ncause = count,
-                            .cause = cause,
-                            .job = refit.states.state->job,
-                            .fit = refit.fit,
-                            .score = refit.chi2};
+    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause};
+    rivals->n++;
+    status = take_fit(pool, from, &refit, rival);
     for (int i = 0; i < count; i++)
         rival->score += candidate_score(&cause[i]) - cause[i].result.chi2;
-    rivals->n++;
-    return rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return status;
 }
 
 static int add_base(struct pool *pool, const struct sources *from, struct rivals *rivals)
 {
-    struct job job;
+    struct states states;
     struct refit refit = {0};
     rotid_fit_result *fit = NULL;
-    int status = job_started_at(pool, from->base, from->x, &job);
+    int status = states_started_at(pool, from->base, from->x, &states);
     if (!status)
-        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
+        status = refit_states(pool, &states, from->number, from->holdout, from->environment, &fit);
     if (!status)
-        status = keep(pool, &job, fit, &refit);
+        status = refit_keep(pool, &states, fit, &refit);
     if (status)
         return status;
-    rivals->rival[rivals->n++] =
-        (struct rival){.label = "the model as it is", .job = refit.states.state->job, .fit = refit.fit, .score = refit.chi2};
-    return ROTID_OK;
+    struct rival *rival = &rivals->rival[rivals->n++];
+    *rival = (struct rival){.label = "the model as it is"};
+    return take_fit(pool, from, &refit, rival);
 }
 
 static int by_score(const void *left, const void *right)
@@ -155,27 +157,76 @@ static void share(struct rivals *rivals)
         }
 }
 
+static int is_rival(const struct rivals *rivals, const struct candidate *c)
+{
+    for (int i = 0; i + 1 < rivals->n; i++) {
+        const struct candidate *r = rivals->rival[i].cause;
+        int pair = rivals->rival[i].ncause > 1;
+        if (r->cause == c->cause && r->effect.target == c->effect.target && r->state == c->state && pair == (c->with != NULL) &&
+            (!pair ||
+             (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
+            return 1;
+    }
+    return 0;
+}
+
+/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED)
+ * with the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
+static double share_among(const struct rivals *rivals, const struct diagnosis_round *round)
+{
+    const struct rival *best = rivals->rival;
+    double inside = 0, all = exp(-(rivals->rival[rivals->n - 1].score - best->score) / 2),
+           p = best->fit->dof > 0 ? chi_square_tail(best->fit->chi2, best->fit->dof) : 1;
+    for (int i = 0; i + 1 < rivals->n; i++)
+        inside += exp(-(rivals->rival[i].score - best->score) / 2);
+    for (int i = 0; i < round->ncandidate; i++) {
+        const struct candidate *c = &round->candidate[i];
+        if (c->result.refitted && !c->refused && isfinite(c->result.chi2) && !is_rival(rivals, c))
+            all += exp(-fmax(0, candidate_score(c) - best->score) / 2);
+    }
+    return inside / (inside + all) * p / (p + JUDGED);
+}
+
+int rivals_home(const struct states *states)
+{
+    int home = 0, most = -1;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        int fitted = 0;
+        for (int k = 0; k < job->measurement.nmode; k++)
+            fitted += !job->measurement.holdout[k];
+        fitted *= 1 + (job_fits_shapes(job) ? job->rotor.nsensor : 0);
+        home = fitted > most ? s : home;
+        most = fitted > most ? fitted : most;
+    }
+    return home;
+}
+
 int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals)
 {
     const struct diagnosis_round *last = d->nround ? &d->round[d->nround - 1] : NULL;
     *rivals = (struct rivals){0};
     if (!last || !d->nalternative || !d->base.fit)
         return ROTID_OK;
-    int named = d->extended.fit != NULL, status = ROTID_OK;
-    const struct identification *fitted = named ? &d->extended : &d->base;
-    const struct sources from = {.base = named ? &d->extended_job : &d->job,
-                                 .x = fitted->fit->x,
-                                 .number = fitted->compared.number,
-                                 .environment = environment,
-                                 .holdout = (named ? &d->extended_job : &d->job)->measurement.holdout};
-    int nmode = from.base->measurement.nmode;
+    int named = d->extended.fit != NULL, status = ROTID_OK, modes, at = 0;
+    const struct states *base = named ? &d->extended_states : &d->judged;
+    struct sources from = {
+        .base = base, .x = (named ? d->extended : d->base).fit->x, .home = rivals_home(base), .environment = environment};
+    modes = states_modes(base, base->nstate);
+    from.number = POOL_ARRAY(pool, int, modes);
+    from.holdout = POOL_ARRAY(pool, int, modes);
     rivals->rival = POOL_ARRAY(pool, struct rival, MOST_RIVALS + 1);
-    rivals->number = POOL_ARRAY(pool, int, nmode);
-    if (!rivals->rival || !rivals->number)
+    rivals->number = POOL_ARRAY(pool, int, modes);
+    rivals->home = from.home;
+    if (!rivals->rival || !rivals->number || !from.number || !from.holdout)
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < nmode; k++)
-        if (!from.holdout[k])
-            rivals->number[rivals->nmode++] = from.number[k];
+    for (int s = 0; s < base->nstate; s++)
+        for (int k = 0; k < base->state[s].job.measurement.nmode; k++, at++) {
+            from.number[at] = (named ? d->state_extended : d->state_base)[s].compared.number[k];
+            from.holdout[at] = base->state[s].job.measurement.holdout[k];
+            if (s == from.home && !from.holdout[at])
+                rivals->number[rivals->nmode++] = from.number[at];
+        }
     rivals->margin = fmax(LEAST_MARGIN, isfinite(last->result.required_margin) ? last->result.required_margin : 0);
     rivals->base_margin = fmax(rivals->margin, CLEAR * last->result.threshold);
     for (int i = 0, count; i < d->nalternative && !status; i += count) {
@@ -197,6 +248,8 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
         rivals_free(rivals);
     else
         share(rivals);
+    if (rivals->n)
+        rivals->among = share_among(rivals, last);
     return status;
 }
 
@@ -205,6 +258,15 @@ void rivals_free(struct rivals *rivals)
     for (int i = 0; i < rivals->n; i++)
         rotid_fit_free(rivals->rival[i].fit);
     rivals->n = 0;
+}
+
+int rival_own(const struct rival *rival, int p)
+{
+    const struct state *home = &rival->states.state[rival->home];
+    for (int q = 0; q < home->job.unknowns.nparameter; q++)
+        if (state_unknown(home, q) == p)
+            return q;
+    return -1;
 }
 
 int rival_uses(const struct rival *rival, int p)

@@ -16,7 +16,6 @@
 #define SENSORS         8
 #define MODES           5
 #define REPLICATES      1000
-#define JUDGED          0.01 /* a misfit that noise exceeds less often is no noise */
 
 /* Median of those that are finite; 0 without any. */
 static double median(struct pool *pool, ptrdiff_t n, const double *value)
@@ -58,12 +57,13 @@ static int list_parameters(struct pool *pool, struct suggestion *out)
     rotid_suggestion *r = &out->result;
     const rotid_fit_result *fit = out->found.extended.fit ? out->found.extended.fit : out->found.base.fit;
     int n = POOL_LIST(pool, r->parameters, out->job.unknowns.nparameter);
-    for (int p = 0; p < n; p++) {
-        const rotid_parameter *b = &out->job.unknowns.bounds[p];
+    for (int q = 0; q < n; q++) {
+        const rotid_parameter *b = &out->job.unknowns.bounds[q];
+        int p = state_unknown(&out->home, q);
         rotid_fitted_parameter *to = &r->parameters[r->nparameters++];
         *to = (rotid_fitted_parameter){.name = b->name,
                                        .unit = b->unit,
-                                       .value = out->x[p],
+                                       .value = out->x[q],
                                        .start = b->start,
                                        .lower = b->lower,
                                        .upper = b->upper,
@@ -75,36 +75,48 @@ static int list_parameters(struct pool *pool, struct suggestion *out)
     return n == out->job.unknowns.nparameter ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Without measurements: the model as the deck states it, its unknowns at their starts. */
-static int take_starts(struct pool *pool, const struct job *job, struct suggestion *out)
+static int take_home(struct pool *pool, const struct states *states, int home, const double *x, struct suggestion *out)
 {
-    double *x = POOL_ARRAY(pool, double, job->unknowns.nparameter);
-    for (int p = 0; x && p < job->unknowns.nparameter; p++)
-        x[p] = job->unknowns.bounds[p].start;
-    out->job = *job;
-    out->x = x;
-    return x ? ROTID_OK : ROTID_ERROR_MEMORY;
+    out->home = states->state[home];
+    out->job = out->home.job;
+    out->x = state_values(pool, &out->home, x);
+    return out->x ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int take_diagnosis(struct pool *pool, const struct job *job, const rotid_suggest_options *o,
+/* Without measurements: the model as the deck states it, its unknowns at their starts. */
+static int take_starts(struct pool *pool, const struct states *states, struct suggestion *out)
+{
+    double *x = POOL_ARRAY(pool, double, states->nparameter);
+    for (int p = 0; x && p < states->nparameter; p++)
+        x[p] = states->bounds[p].start;
+    return x ? take_home(pool, states, rivals_home(states), x, out) : ROTID_ERROR_MEMORY;
+}
+
+static int take_diagnosis(struct pool *pool, const struct states *states, const rotid_suggest_options *o,
                           const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
 {
     const struct diagnose_options options = {.threads = o->threads, .replicates = o->replicates, .seed = (unsigned long)o->seed};
-    int status = diagnose_run(pool, job, &options, environment, notes, &out->found);
+    int status = diagnose_states(pool, states, &options, environment, notes, &out->found);
     if (!status && out->found.result.interrupted)
         return ROTID_STOP_CANCELLED;
     if (status)
         return status;
     const struct diagnosis *d = &out->found;
-    out->job = d->extended.fit ? d->extended_job : d->job;
-    out->x = d->extended.fit ? d->extended.fit->x : d->base.fit->x;
-    out->job.models = job->models;
+    const struct states *judged = d->extended.fit ? &d->extended_states : &d->judged;
+    int home = rivals_home(judged);
+    status = take_home(pool, judged, home, (d->extended.fit ? d->extended : d->base).fit->x, out);
+    out->job.models = states->state[home].job.models;
     out->result.verdict = d->result.verdict.sentence;
     out->result.ndetectable = d->result.ndetectable;
     out->result.detectable = d->result.detectable;
-    status = rivals_find(pool, d, environment, &out->rivals);
-    for (int i = 0; i < out->rivals.n; i++)
-        out->rivals.rival[i].job.models = job->models;
+    if (!status)
+        status = rivals_find(pool, d, environment, &out->rivals);
+    for (int i = 0; i < out->rivals.n; i++) {
+        struct rival *rival = &out->rivals.rival[i];
+        for (int s = 0; s < states->nstate; s++)
+            rival->states.state[s].job.models = states->state[s].job.models;
+        rival->job.models = out->job.models;
+    }
     return status;
 }
 
@@ -129,6 +141,7 @@ static int list_rivals(struct pool *pool, struct suggestion *out)
 {
     rotid_suggestion *r = &out->result;
     int n = POOL_LIST(pool, r->rivals, out->rivals.n);
+    r->among = n ? out->rivals.among : (double)NAN;
     for (int i = 0; i < n; i++) {
         const struct rival *rival = &out->rivals.rival[i];
         r->rivals[r->nrivals++] =
@@ -137,13 +150,14 @@ static int list_rivals(struct pool *pool, struct suggestion *out)
     return n == out->rivals.n ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int run(struct pool *pool, const struct job *job, rotid_suggest_options *o, const rotid_environment *environment,
+static int run(struct pool *pool, const struct states *states, rotid_suggest_options *o, const rotid_environment *environment,
                struct message_list *notes, struct suggestion *out)
 {
     rotid_suggestion *r = &out->result;
     struct places places;
-    int *first,
-        status = job->measurement.nmode ? take_diagnosis(pool, job, o, environment, notes, out) : take_starts(pool, job, out);
+    int *first, measured = states_modes(states, states->nstate) > 0,
+                status = measured ? take_diagnosis(pool, states, o, environment, notes, out) : take_starts(pool, states, out);
+    r->state = out->home.name;
     if (!status)
         settle(pool, &out->job, o, &r->noise);
     r->wanted_percent = o->wanted_percent;
@@ -151,7 +165,7 @@ static int run(struct pool *pool, const struct job *job, rotid_suggest_options *
     if (!status)
         status = list_parameters(pool, out);
     if (!status)
-        status = spectrum_compute_parts(pool, job->models, &out->job.rotor, out->job.unknowns.nparameter,
+        status = spectrum_compute_parts(pool, out->job.models, &out->job.rotor, out->job.unknowns.nparameter,
                                         out->job.unknowns.parameter, out->x, ROTID_REDUCTION_NONE, 1, 0, &out->spectrum);
     if (!status)
         status = places_find(pool, &out->job, &places);
@@ -162,7 +176,7 @@ static int run(struct pool *pool, const struct job *job, rotid_suggest_options *
                                          .wanted_percent = o->wanted_percent,
                                          .sensors = o->sensors,
                                          .modes = o->modes,
-                                         .detect = !job->measurement.nmode,
+                                         .detect = !measured,
                                          .threads = o->threads,
                                          .replicates = o->replicates,
                                          .seed = (unsigned long)o->seed,
@@ -181,22 +195,37 @@ static int run(struct pool *pool, const struct job *job, rotid_suggest_options *
     return r->sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-int suggest_run(struct pool *pool, const struct job *job, const rotid_suggest_options *options,
-                const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
+int suggest_states(struct pool *pool, const struct states *states, const rotid_suggest_options *options,
+                   const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
 {
     rotid_suggest_options o = *options;
-    struct job mine = *job;
+    struct states mine;
+    int begun = 0, status = states_copy(pool, states, &mine);
     *out = (struct suggestion){.result = {.noise = {.frequency = NAN, .shape = NAN}}};
-    if (!job->unknowns.nparameter && !job->measurement.nmode) {
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
+    if (!status && !states->nparameter && !states_modes(states, states->nstate)) {
+        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1,
                     "the deck asks for nothing, expected *IDENTIFY with the parameters that a test is to determine");
         return ROTID_ERROR_ARGUMENT;
     }
-    mine.models = models_for_run(pool, job->models);
-    int status = mine.models ? run(pool, &mine, &o, environment, notes, out) : ROTID_ERROR_MEMORY;
-    if (mine.models)
-        models_end_run(pool, mine.models, job->models);
+    for (; begun < states->nstate && !status; begun++) {
+        struct job *job = &mine.state[begun].job;
+        job->models = models_for_run(pool, job->models);
+        status = job->models ? ROTID_OK : ROTID_ERROR_MEMORY;
+    }
+    if (!status)
+        status = run(pool, &mine, &o, environment, notes, out);
+    for (int s = 0; s < begun; s++)
+        if (mine.state[s].job.models)
+            models_end_run(pool, mine.state[s].job.models, states->state[s].job.models);
     return status;
+}
+
+int suggest_run(struct pool *pool, const struct job *job, const rotid_suggest_options *options,
+                const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
+{
+    struct state state;
+    const struct states states = states_of(job, &state);
+    return suggest_states(pool, &states, options, environment, notes, out);
 }
 
 void suggest_free(struct suggestion *out)

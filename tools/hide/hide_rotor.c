@@ -6,6 +6,13 @@
 
 #define MOST_FIELDS 8
 
+/* SET of the stiffness of a spring, until the springs are there. */
+struct later {
+    const char *name, *quantity;
+    double value;
+    int number; /* of the line */
+};
+
 struct reader {
     const struct hide_cards *cards;
     const struct hide_card *card;
@@ -13,6 +20,8 @@ struct reader {
     struct hide_rotor *rotor;
     const struct hide_message *message;
     int number; /* of the line being read */
+    int sets;
+    struct later set[2 * HIDE_MOST_ATTACHED];
 };
 
 static int expected(const struct reader *r, const char *what)
@@ -290,7 +299,12 @@ static int read_identify(struct reader *r)
     return HIDE_OK;
 }
 
-/* SET of the length of a group: its sections in proportion, and what lies to its right moves. */
+static int is_stiffness(const char *quantity)
+{
+    return hide_same(quantity, "k") || hide_same(quantity, "k_rot");
+}
+
+/* SET of the length of a group: its sections in proportion, and what lies to its right moves. That of a spring waits. */
 static int read_set(struct reader *r)
 {
     struct hide_rotor *rotor = r->rotor;
@@ -301,9 +315,15 @@ static int read_set(struct reader *r)
         if ((status = read_line(r, i, 1, &name, 1, 1, &length, "GROUP.length, value")))
             return status;
         dot = strrchr(name, '.');
-        if (!dot || !hide_same(dot + 1, "length") || !(length > 0))
-            return expected(r, "GROUP.length and a value above zero: this program cannot follow another one");
+        if (!dot || !(hide_same(dot + 1, "length") || is_stiffness(dot + 1)) || !(length > 0) ||
+            r->sets == 2 * HIDE_MOST_ATTACHED)
+            return expected(r, "GROUP.length, SPRING.k or SPRING.k_rot and a value above zero: this program cannot follow "
+                               "another one");
         *dot = 0;
+        if (is_stiffness(dot + 1)) {
+            r->set[r->sets++] = (struct later){name, dot + 1, length, r->number};
+            continue;
+        }
         if ((group = hide_find_group(rotor, name)) < 0)
             return expected(r, "a group that the deck has");
         double from = rotor->group[group].from, to = rotor->group[group].to, factor = length / (to - from);
@@ -320,6 +340,22 @@ static int read_set(struct reader *r)
                 *end[e] = *end[e] >= to ? *end[e] + from + length - to : *end[e];
         }
         rotor->length += length - (to - from);
+    }
+    return HIDE_OK;
+}
+
+/* The values that SET gives springs. */
+static int set_springs(struct reader *r)
+{
+    struct hide_rotor *rotor = r->rotor;
+    for (int i = 0; i < r->sets; i++) {
+        const struct later *set = &r->set[i];
+        int s = 0;
+        while (s < rotor->springs && !hide_same(rotor->spring[s].name, set->name))
+            s++;
+        if (s == rotor->springs)
+            return hide_fail(r->message, HIDE_INPUT, "%s:%d: *SET: expected a spring that the deck has", r->deck, set->number);
+        *(hide_same(set->quantity, "k") ? &rotor->spring[s].lateral : &rotor->spring[s].rotational) = set->value;
     }
     return HIDE_OK;
 }
@@ -381,5 +417,5 @@ int hide_rotor_read(const struct hide_cards *cards, const char *name, struct hid
         }
     if (!rotor->groups)
         return hide_fail(message, HIDE_INPUT, "%s: no *SHAFT and no *BEAM, expected one", name);
-    return HIDE_OK;
+    return set_springs(&r);
 }

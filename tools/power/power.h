@@ -43,9 +43,12 @@ struct power_result {
 /* d and truth are NULL where there was no diagnosis. To be freed. */
 char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score);
 
-/* Opens the log to go on with it, and takes what it holds of these cases into result[options->cases]. A line that is not whole,
- * which a power cut may leave, is cut off. NULL where the file cannot be opened, or holds cases of another run: then standard
- * error says so. */
+/* Opens a log to go on with it: each whole line goes to `take`, which says by a nonzero that it is not of this run (NULL: no
+ * JSON). A line that is not whole, which a power cut may leave, is cut off. NULL where the file cannot be opened, or is of
+ * another run: then standard error says so. */
+FILE *power_lines(const char *path, int (*take)(void *context, const cJSON *line), void *context);
+
+/* Opens the log to go on with it, and takes what it holds of these cases into result[options->cases]. NULL likewise. */
 FILE *power_log(const struct power_options *options, struct power_result *result);
 
 /* ---- the run */
@@ -58,11 +61,13 @@ int power_run(const struct power_options *options, const volatile sig_atomic_t *
 int power_interrupted(void *context);
 
 /* The same rotors measured before and after an effect came, with another one in both: what the diagnosis says of the change, a
- * pair a paragraph, and how often it is right. 0 where it is in nine of ten, 1 where not, 3 memory or interrupted. */
+ * pair a paragraph, and how often it is right, of what is finished where it is interrupted. 0 where it is in nine of ten, 1
+ * where not, 3 memory. */
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
-/* Of cases with one physical effect, or of the kind `only`, those that stay ambiguous: makes the test that `rotid suggest` ranks first
- * and the same test again, and counts names beside what was promised. Exit codes as above. */
+/* Of cases with one physical effect, or of the kind `only`, those that stay ambiguous: makes the test that `rotid suggest` ranks
+ * first, the same test again, and that with twice the sensors, diagnoses each with what was measured as two states, and counts
+ * names beside what was promised. 0, or 3: a file or memory. */
 int power_suggest(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Tables and requirements of what is done; 0 where all of these hold. */

@@ -7,17 +7,20 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "deck/deck.h"
+#include "diagnose/decide.h"
 #include "hidden_states.h"
 #include "power.h"
 
 #define NOTHING 5    /* every fifth time nothing changes */
 #define DRAWS   8    /* until an effect is drawn that the rotor can have beside the first */
-#define VISIBLE 60.0 /* chi2 of the change, free of noise, with the noise of both states: below, a name may not result */
+#define VISIBLE 60.0 /* chi2 of the change, free of noise, with the noise of both states: from there on a name is asked for */
 #define ASKED   0.9
 
 struct pair {
+    int done;
     enum hidden_outcome outcome;
     double worth, seconds;
+    double lead; /* of the change over every other explanation of the data without noise; NaN where that was not asked */
     char stays[200], comes[200], said[600];
 };
 
@@ -82,7 +85,7 @@ static double worth(const struct hide_request *r, const cJSON *truth)
     return chi2;
 }
 
-static int diagnose(const char *text, const cJSON *truth, const rotid_environment *environment, struct pair *pair)
+static int diagnose(const char *text, const cJSON *truth, const rotid_environment *environment, int quiet, struct pair *pair)
 {
     const struct diagnose_options options = {.threads = 1, .seed = 1, .before = "before", .after = "after"};
     const struct deck_memory memory = {"pair", strlen(text), text, NULL};
@@ -97,6 +100,13 @@ static int diagnose(const char *text, const cJSON *truth, const rotid_environmen
     double begin = clock_seconds();
     if (!status)
         status = diagnose_states(&pool, &states, &options, environment, &messages, &d);
+    if (quiet) {
+        pair->lead = status || d.result.interrupted ? NAN : hidden_lead(&d, truth);
+        if (!status)
+            diagnose_free(&d);
+        pool_close(&pool);
+        return ROTID_OK;
+    }
     pair->seconds = clock_seconds() - begin;
     pair->outcome = HIDDEN_FAILED;
     for (size_t i = 0; i < messages.count && status; i++)
@@ -112,6 +122,17 @@ static int diagnose(const char *text, const cJSON *truth, const rotid_environmen
     }
     pool_close(&pool);
     return status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+/* The same states without noise, which the deck states all the same. */
+static char *quiet_deck(const struct hide_request *request, const struct hidden_state *states)
+{
+    struct hide_request r = *request;
+    char message[300];
+    r.stated_frequency_noise = r.frequency_noise;
+    r.stated_shape_noise = r.shape_noise;
+    r.frequency_noise = r.shape_noise = 0;
+    return hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
 }
 
 static void keep(const struct power_options *options, int number, const char *text)
@@ -133,6 +154,7 @@ static int run_pair(void *context, int index, int worker)
     struct power_case c;
     char message[300];
     (void)worker;
+    pair->lead = NAN;
     options.only = "none";
     if (*pairs->interrupted)
         return ROTID_STOP_CANCELLED;
@@ -141,7 +163,7 @@ static int run_pair(void *context, int index, int worker)
     struct hide_request *r = &c.hidden.request;
     const char *effect[2] = {pair->stays, pair->comes};
     cJSON *first = hide(r, 0, NULL, r->seed), *second = NULL;
-    char *text = NULL;
+    char *text = NULL, *quiet = NULL;
     int comes = (options.first + index) % NOTHING != 0, status = ROTID_OK;
     r->random = NULL;
     take_spec(first, pair->stays, sizeof pair->stays);
@@ -154,6 +176,10 @@ static int run_pair(void *context, int index, int worker)
             pair->comes[0] = 0;
         const struct hidden_state states[] = {{"before", "", 1, effect}, {"after", "", 1 + comes, effect}};
         text = second ? hidden_states_deck(r, 2, states, NULL, message, sizeof message) : NULL;
+        if (text && comes) {
+            free(quiet);
+            quiet = quiet_deck(r, states);
+        }
     }
     if (text && options.keep)
         keep(&options, options.first + index, text);
@@ -163,7 +189,9 @@ static int run_pair(void *context, int index, int worker)
             cJSON_AddArrayToObject(second, "effects");
         }
         pair->worth = comes ? worth(r, second) : 0;
-        status = diagnose(text, second, &environment, pair);
+        status = diagnose(text, second, &environment, 0, pair);
+        if (!status && quiet && pair->outcome == HIDDEN_IN_SET && pair->worth >= VISIBLE)
+            status = diagnose(quiet, second, &environment, 1, pair);
     } else {
         pair->outcome = HIDDEN_FAILED;
         (void)snprintf(pair->said, sizeof pair->said, "no such rotor: %s", message);
@@ -171,45 +199,78 @@ static int run_pair(void *context, int index, int worker)
     cJSON_Delete(first);
     cJSON_Delete(second);
     free(text);
+    free(quiet);
     free(c.deck);
+    pair->done = !status;
     return status;
+}
+
+/* What a pair is judged by. */
+enum kind { NOTHING_COMES, UNSEEN, VISIBLE_ONE, KINDS };
+
+static enum kind kind_of(const struct pair *p)
+{
+    return !p->comes[0] ? NOTHING_COMES : p->worth < VISIBLE ? UNSEEN : VISIBLE_ONE;
+}
+
+/* Nothing came: quiet. What comes and is worth little: quiet as well, or what is said holds it. What is visible has a name, or is
+ * in a set with something that explains the data as well even without their noise: then a name would be luck. Where the truth
+ * explains these worse than something else, the method is at fault. */
+static int is_right(const struct pair *p)
+{
+    int quiet = p->outcome == HIDDEN_SILENT, named = p->outcome == HIDDEN_RIGHT, holds = named || p->outcome == HIDDEN_IN_SET;
+    switch (kind_of(p)) {
+    case NOTHING_COMES:
+        return quiet;
+    case UNSEEN:
+        return quiet || holds;
+    default:
+        return named || (holds && fabs(p->lead) < LEAST_MARGIN);
+    }
 }
 
 static int report(FILE *out, int count, int first, const struct pair *pair)
 {
-    int visible = 0, named = 0, in_set = 0, nothing = 0, quiet = 0, wrong = 0, failed = 0;
+    static const char *const what[KINDS] = {"nothing changed", "worth less than 60 of chi2", "worth 60 or more"};
+    int all[KINDS] = {0}, right[KINDS] = {0}, outcome[KINDS][HIDDEN_OUTCOMES] = {{0}}, twins = 0, sum = 0, done = 0;
     double seconds = 0;
     for (int i = 0; i < count; i++) {
         const struct pair *p = &pair[i];
-        int comes = p->comes[0] != 0, shows = comes && p->worth >= VISIBLE;
-        fprintf(out, "%3d %-12s %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
-                p->worth, p->seconds, p->stays, comes ? p->comes : "nothing", p->said);
-        failed += p->outcome == HIDDEN_FAILED;
-        wrong += p->outcome == HIDDEN_WRONG;
-        seconds += p->seconds;
-        if (p->outcome == HIDDEN_FAILED)
+        enum kind kind = kind_of(p);
+        if (!p->done)
             continue;
-        nothing += !comes;
-        quiet += !comes && p->outcome == HIDDEN_SILENT;
-        visible += shows;
-        named += shows && p->outcome == HIDDEN_RIGHT;
-        in_set += shows && p->outcome == HIDDEN_IN_SET;
+        done++;
+        fprintf(out, "%3d %-12s %s %9.3g %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
+                is_right(p) ? "right" : "NOT  ", p->worth, p->lead, p->seconds, p->stays, p->comes[0] ? p->comes : "nothing",
+                p->said);
+        seconds += p->seconds;
+        all[kind]++;
+        right[kind] += is_right(p);
+        outcome[kind][p->outcome]++;
+        sum += is_right(p);
+        twins += kind == VISIBLE_ONE && p->outcome == HIDDEN_IN_SET && is_right(p);
     }
-    int right = named + quiet, asked = visible + nothing;
-    fprintf(
-        out,
-        "%d pairs, %.2f s each: of %d changes worth %.0f of chi2 or more %d are named and %d in a set that cannot be told apart; "
-        "of %d without a change %d are quiet; %d wrong names in all, %d failed\nright: %d of %d, %.0f %%\n",
-        count, count ? seconds / count : 0, visible, VISIBLE, named, in_set, nothing, quiet, wrong, failed, right, asked,
-        asked ? 100.0 * right / asked : 0);
-    return !(right >= ASKED * asked);
+    fprintf(out, "%d pairs, %.2f s each\n%-28s pairs  right", done, done ? seconds / done : 0, "");
+    for (int o = 0; o < HIDDEN_OUTCOMES; o++)
+        fprintf(out, "  %11s", o == HIDDEN_RIGHT ? "named" : hidden_outcome_name((enum hidden_outcome)o));
+    for (int k = 0; k < KINDS; k++) {
+        fprintf(out, "\n%-28s %5d  %5d", what[k], all[k], right[k]);
+        for (int o = 0; o < HIDDEN_OUTCOMES; o++)
+            fprintf(out, "  %11d", outcome[k][o]);
+    }
+    fprintf(out,
+            "\nright: %d of %d, %.0f %%; in %d of the sets truth and another one are within %g without noise, so no data of this "
+            "kind "
+            "could name it\n",
+            sum, done, done ? 100.0 * sum / done : 0, twins, LEAST_MARGIN);
+    return !(sum >= ASKED * done);
 }
 
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out)
 {
     struct pairs pairs = {options, interrupted, calloc((size_t)options->cases, sizeof(struct pair))};
     int status = pairs.pair ? parallel_for(options->jobs, options->cases, run_pair, &pairs) : ROTID_ERROR_MEMORY;
-    int code = status ? 3 : report(out, options->cases, options->first, pairs.pair);
+    int code = status == ROTID_ERROR_MEMORY ? 3 : report(out, options->cases, options->first, pairs.pair);
     free(pairs.pair);
     return code;
 }

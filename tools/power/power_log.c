@@ -197,28 +197,32 @@ static void take_score(const cJSON *line, struct hidden_score *s)
     }
 }
 
+struct taking {
+    const struct power_options *options;
+    struct power_result *result;
+};
+
 /* Nonzero where the line is not one of this run. */
-static int take_line(const char *text, const struct power_options *options, struct power_result *result)
+static int take_line(void *context, const cJSON *line)
 {
-    cJSON *line = cJSON_Parse(text);
-    double number = number_of(line, "case") - options->first;
+    const struct taking *t = context;
+    double number = number_of(line, "case") - t->options->first;
     int other = isnan(number);
-    if (number >= 0 && number < options->cases) {
+    if (number >= 0 && number < t->options->cases) {
         struct power_case c;
-        struct power_result *r = &result[(int)number];
-        other = power_draw(options, options->first + (int)number, &c) || strcmp(c.again, text_of(line, "again")) != 0;
+        struct power_result *r = &t->result[(int)number];
+        other = power_draw(t->options, t->options->first + (int)number, &c) || strcmp(c.again, text_of(line, "again")) != 0;
         r->done = !other;
         memcpy(r->again, c.again, sizeof c.again);
         take_score(line, &r->score);
         free(c.deck);
     }
-    cJSON_Delete(line);
     return other;
 }
 
-FILE *power_log(const struct power_options *options, struct power_result *result)
+FILE *power_lines(const char *path, int (*take)(void *context, const cJSON *line), void *context)
 {
-    FILE *file = fopen(options->log, "a+b");
+    FILE *file = fopen(path, "a+b");
     char *text = NULL;
     size_t room = 0;
     ssize_t length;
@@ -228,14 +232,22 @@ FILE *power_log(const struct power_options *options, struct power_result *result
         rewind(file);
     while (file && !other && (length = getline(&text, &room, file)) > 0) {
         int ends = text[length - 1] == '\n';
-        other = ends ? take_line(text, options, result) : *text != '{';
+        cJSON *line = ends ? cJSON_Parse(text) : NULL;
+        other = ends ? take(context, line) : *text != '{';
+        cJSON_Delete(line);
         whole += ends ? length : 0;
     }
     free(text);
     if (file && !other && !ftruncate(fileno(file), whole) && !fseek(file, 0, SEEK_END))
         return file;
-    fprintf(stderr, "power: %s: %s\n", options->log, other ? "expected a log of this run, or no file" : strerror(errno));
+    fprintf(stderr, "power: %s: %s\n", path, other ? "expected a log of this run, or no file" : strerror(errno));
     if (file)
         fclose(file);
     return NULL;
+}
+
+FILE *power_log(const struct power_options *options, struct power_result *result)
+{
+    struct taking taking = {options, result};
+    return power_lines(options->log, take_line, &taking);
 }

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "diagnose/causes/catalogue.h"
+#include "diagnose/decide.h"
 #include "diagnose/refit.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
@@ -297,8 +298,14 @@ static int true_causes(const struct diagnosis *d, const struct candidate *c, con
     return (hidden_which(&d->job, c, truth) >= 0) + (c->with && hidden_which(&d->job, c->with, truth) >= 0);
 }
 
-/* A pair of which one is true neither leads nor is led. */
-static double margin(const struct diagnosis *d, const cJSON *truth)
+static double chi2_of(const struct candidate *c)
+{
+    return c->result.chi2;
+}
+
+/* How far the best of the candidates that are true leads the best other one. A pair of which one is true neither leads nor is
+ * led. */
+static double lead(const struct diagnosis *d, const cJSON *truth, double (*value)(const struct candidate *))
 {
     for (int r = 0; r < d->nround; r++) {
         double right = INFINITY, other = INFINITY;
@@ -307,12 +314,17 @@ static double margin(const struct diagnosis *d, const cJSON *truth)
             int found = true_causes(d, c, truth);
             double *best = found ? &right : &other;
             if (c->result.refitted && isfinite(c->result.chi2) && (!found || found == 1 + (c->with != NULL)))
-                *best = fmin(*best, c->result.chi2);
+                *best = fmin(*best, value(c));
         }
         if (isfinite(right))
             return fmin(other - right, 1e9);
     }
     return NAN;
+}
+
+double hidden_lead(const struct diagnosis *d, const cJSON *truth)
+{
+    return lead(d, truth, candidate_score);
 }
 
 /* ---- intervals, places, sizes */
@@ -393,6 +405,13 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
     return HIDDEN_UNEXPLAINED;
 }
 
+enum hidden_outcome hidden_outcome_of(const struct diagnosis *d, const cJSON *truth)
+{
+    struct hidden_score score = hidden_score_none();
+    score.class = HIDDEN_PHYSICAL;
+    return judge_verdict(d, truth, &score);
+}
+
 int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth,
                       struct hidden_score *s)
 {
@@ -405,7 +424,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;
     int found = judge_findings(d, effects, s), status = measure_chi2(pool, d, read, truth, s);
-    s->margin = margin(d, truth);
+    s->margin = lead(d, truth, chi2_of);
     s->outcome = judge_verdict(d, truth, s);
     if ((s->class == HIDDEN_DATA || s->class == HIDDEN_NOISE) && s->outcome != HIDDEN_WRONG) {
         if (found)

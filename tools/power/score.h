@@ -62,6 +62,13 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, cons
                       struct hidden_score *score);
 struct hidden_score hidden_score_none(void);
 
+/* The outcome alone, of physical effects. */
+enum hidden_outcome hidden_outcome_of(const struct diagnosis *diagnosis, const cJSON *truth);
+
+/* By how much the true effect leads every other candidate of its round, in the score of the decision; NaN where it was not
+ * fitted. Of data without noise: below the margin of a name nobody could tell it apart. */
+double hidden_lead(const struct diagnosis *diagnosis, const cJSON *truth);
+
 /* The number of the true physical effect that a candidate is, or -1. */
 int hidden_which(const struct job *job, const struct candidate *candidate, const cJSON *truth);
 
