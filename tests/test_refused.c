@@ -468,7 +468,7 @@ static void what_a_newer_host_asks_for_is_refused_and_zeros_are_not(void **state
                    pool_format(&test_pool, "options->size is %zu, expected sizeof(rotid_fit_options), here %zu", SIZE_MAX,
                                sizeof f.options));
     f.model.size = 0;
-    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 80");
+    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 96");
     f.model.size = sizeof f.model;
     f.measured.size = 1;
     assert_refused(fit(&f, NULL), "measured->size is 1, expected sizeof(rotid_measured), here 64");

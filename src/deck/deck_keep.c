@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "deck/card_table.h"
 #include "deck/deck.h"
 #include "deck/deck_writer.h"
@@ -359,7 +360,19 @@ static int reads_as(struct pool *pool, const char *text, const char *wanted, int
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
-/* The deck as text; NULL where it is no file, or not that of the diagnosis. */
+/* Nothing in it but characters that are shown, line feeds and tabs? What else a deck holds is not handed on. */
+static int is_plain(const char *text)
+{
+    while (*text) {
+        size_t bytes = text_visible(text);
+        if (!bytes && *text != '\n' && *text != '\t')
+            return 0;
+        text += bytes ? bytes : 1;
+    }
+    return 1;
+}
+
+/* The deck as text; NULL where it is no file, is no plain text, or is not that of the diagnosis. */
 static char *read_deck(struct pool *pool, const char *path)
 {
     struct stat about;
@@ -370,7 +383,7 @@ static char *read_deck(struct pool *pool, const char *path)
     size_t size = about.st_size > 0 && about.st_size <= MOST_BYTES ? (size_t)about.st_size : 0;
     if (size)
         text = pool_get(pool, size + 1, 1);
-    if (text && (fread(text, 1, size, stream) != size || strlen(text) != size || strchr(text, '\r')))
+    if (text && (fread(text, 1, size, stream) != size || strlen(text) != size || !is_plain(text)))
         text = NULL;
     (void)fclose(stream);
     return text;

@@ -56,7 +56,7 @@ int mode_out_fit(const struct states *states, const int *number, const int *hold
             left += !without[m];
         }
         int enough = any_shapes(states) ? left > 0 : left >= states->nparameter;
-        status = left && enough ? refit_states(&pool, states, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
+        status = left && enough ? refit_until(&pool, states, number, without, 0, environment, &fit) : ROTID_ERROR_ARGUMENT;
     }
     if (!status) {
         *error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[own] - 1);

@@ -220,8 +220,8 @@ int states_at(struct pool *pool, const struct states *states, const double *x, s
     return status;
 }
 
-int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
-                 const rotid_environment *environment, rotid_fit_result **fit)
+int refit_until(struct pool *pool, const struct states *states, const int *number, const int *holdout, double objective,
+                const rotid_environment *environment, rotid_fit_result **fit)
 {
     rotid_fit_options options = states->state->job.options.fit;
     const rotid_environment quiet = {.size = sizeof quiet,
@@ -233,7 +233,7 @@ int refit_states(struct pool *pool, const struct states *states, const int *numb
     options.gradient_tolerance = REFIT_GRADIENT;
     options.step_tolerance = REFIT_STEP;
     options.decrease_tolerance = REFIT_DECREASE;
-    options.objective_tolerance = REFIT_OBJECTIVE;
+    options.objective_tolerance = objective;
     struct pool scratch; /* the model of a fit is not needed behind it */
     pool_open(&scratch, pool->allocator);
     int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, fit);
@@ -244,6 +244,12 @@ int refit_states(struct pool *pool, const struct states *states, const int *numb
         return ROTID_STOP_CANCELLED;
     }
     return status;
+}
+
+int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                 const rotid_environment *environment, rotid_fit_result **fit)
+{
+    return refit_until(pool, states, number, holdout, REFIT_OBJECTIVE, environment, fit);
 }
 
 int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,

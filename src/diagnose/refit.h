@@ -66,7 +66,11 @@ int refit_again(struct pool *pool, const struct states *states, int nown, const 
 int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
                  const int *holdout, const rotid_environment *environment, double *drop);
 
-/* One fit with the options of a diagnosis; refit_job: of a job that is the only state. */
+/* One fit with the options of a diagnosis, which ends where another step would gain less than this part of the objective
+ * (REFIT_OBJECTIVE; 0: at the minimum). */
+int refit_until(struct pool *pool, const struct states *states, const int *number, const int *holdout, double objective,
+                const rotid_environment *environment, rotid_fit_result **fit);
+/* One that ends at REFIT_OBJECTIVE; refit_job: of a job that is the only state. */
 int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                  const rotid_environment *environment, rotid_fit_result **fit);
 int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
