@@ -129,7 +129,8 @@ int columns_prepare(struct columns *c)
     size_t images = (size_t)n * (size_t)c->nmode;
     double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n),
            *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
-           *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, 2 * (size_t)n *(size_t)most);
+           *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n),
+           *unit = POOL_ARRAY(pool, double, 2 * (size_t)n * (size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
     if (!c->dphi || !vectors || !zero || !m_phi || !unit)
         return ROTID_ERROR_MEMORY;

@@ -104,9 +104,10 @@ static int try_candidate(void *context, int index, int worker)
     for (int i = 0; i < sizes * places && !status; i++) {
         struct pool scratch;
         struct effect effect = c->effect;
+        int at = i / sizes;
         effect.value[c->cause->size] = size[i % sizes];
         if (place >= 0)
-            effect.value[place] = rotor_length(rotor) * (i / sizes + 0.5) / PLACES;
+            effect.value[place] = rotor_length(rotor) * (at + 0.5) / PLACES;
         pool_open(&scratch, trials->pool[index].allocator);
         status = cost_of(&scratch, trials, &effect, &cost);
         pool_close(&scratch);
@@ -169,9 +170,9 @@ static int fit_nearest(struct engine *engine, const struct trials *trials, doubl
     int *number = NULL, status = found ? ROTID_OK : ROTID_ERROR_MEMORY;
     double least = FEWER * rate;
     for (int fits = 0; fits < MOST_FITS && !status; fits++) {
-        int next = -1, *own;
-        double one;
-        struct effect effect;
+        int next = -1, *own = NULL;
+        double one = INFINITY;
+        struct effect effect = {0};
         for (int i = 0; i < scan->ncandidate; i++)
             if (isfinite(trials->best[i].cost) && (next < 0 || trials->best[i].cost < trials->best[next].cost))
                 next = i;

@@ -83,7 +83,8 @@ INLINE int lu(int n, int kd, double *band, int *pivot)
     const ptrdiff_t lda = 3 * kd + 1;
     for (int j = 0, last = 0; j < n; j++) {
         double *l = band + 2 * (ptrdiff_t)kd + j * lda;
-        int p = j < n - 2 * kd ? lu_step(kd, kd, 2 * kd, lda - 1, l, &last) : lu_step(kd, least(kd, n - 1 - j), n - 1 - j, lda - 1, l, &last);
+        int p = j < n - 2 * kd ? lu_step(kd, kd, 2 * kd, lda - 1, l, &last)
+                               : lu_step(kd, least(kd, n - 1 - j), n - 1 - j, lda - 1, l, &last);
         if (p < 0)
             return 1;
         pivot[j] = j + p + 1;

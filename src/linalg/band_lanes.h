@@ -1,7 +1,7 @@
-/* Solutions with the factors of a narrow band for one number of right-hand sides, interleaved as one vector a row. band.c includes
- * this file once for each number, with LANES (the vector type) and NAMED(kernel) defined; no guard therefore.
- * A row that has all its kd neighbours is a case of its own, whose loops have constant ends where kd is a constant. The neighbour
- * found last comes last in a sum: the others need not wait for it. */
+/* Solutions with the factors of a narrow band for one number of right-hand sides, interleaved as one vector a row. band.c
+ * includes this file once for each number, with LANES (the vector type) and NAMED(kernel) defined; no guard therefore. A row that
+ * has all its kd neighbours is a case of its own, whose loops have constant ends where kd is a constant. The neighbour found last
+ * comes last in a sum: the others need not wait for it. */
 
 /* Row b of L X = B: the columns before it, each one down */
 INLINE void NAMED(below)(int kd, int reach, const double *restrict l, LANES *restrict b)
@@ -77,7 +77,8 @@ INLINE void NAMED(subtract)(int n, int count, const double *restrict x, const LA
 }
 
 /* B [n] := rows row[i] of `columns` columns of length `length`, and zeros behind them */
-INLINE void NAMED(gather)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict x, double *restrict b)
+INLINE void NAMED(gather)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict x,
+                          double *restrict b)
 {
     enum { WIDTH = sizeof(LANES) / sizeof(double) };
     if (columns < WIDTH)
@@ -91,7 +92,8 @@ INLINE void NAMED(gather)(int n, const int *restrict row, int columns, ptrdiff_t
 }
 
 /* The way back */
-INLINE void NAMED(scatter)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict b, double *restrict x)
+INLINE void NAMED(scatter)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict b,
+                           double *restrict x)
 {
     enum { WIDTH = sizeof(LANES) / sizeof(double) };
     for (int i = 0; i < n; i++) {

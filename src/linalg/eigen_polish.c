@@ -11,7 +11,7 @@
 #define ROUNDS    4     /* the error is cubed in each */
 #define TOLERANCE 1e-12 /* of the residual */
 #define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
-#define NEAR      1e-2 /* of the residual of a pair that is not wanted */
+#define NEAR      1e-2  /* of the residual of a pair that is not wanted */
 #define OFFSET    1e-7  /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)

@@ -91,8 +91,9 @@ static void multiply_rows(const rotid_matrix *a, int begin, int end, const doubl
         y[i] = row_product(a->band + (ptrdiff_t)i * ld, ld, kd < n - 1 - i ? kd : n - 1 - i, kd < i ? kd : i, x + i);
 }
 
-/* Rows begin ... begin + count - 1 of `columns` columns, count <= BLOCK, of a band with kd = 3, rows 3 and more from both ends. The
- * diagonals are laid out first, so that the rows are elements of vectors: diagonal[d] holds A(i, i + d) from row begin - 3 on. */
+/* Rows begin ... begin + count - 1 of `columns` columns, count <= BLOCK, of a band with kd = 3, rows 3 and more from both ends.
+ * The diagonals are laid out first, so that the rows are elements of vectors: diagonal[d] holds A(i, i + d) from row begin - 3
+ * on. */
 INLINE void multiply_block(const rotid_matrix *a, int begin, int count, int columns, const double *x, double *y)
 {
     double diagonal[4][BLOCK + 3];
@@ -106,9 +107,9 @@ INLINE void multiply_block(const rotid_matrix *a, int begin, int count, int colu
         int i = 0;
         for (; i + 4 <= count; i += 4) {
             *(four *)(out + i) = FOUR(diagonal[0] + 3 + i) * FOUR(in + i) + FOUR(diagonal[1] + 3 + i) * FOUR(in + i + 1) +
-                                        FOUR(diagonal[2] + 3 + i) * FOUR(in + i + 2) + FOUR(diagonal[3] + 3 + i) * FOUR(in + i + 3) +
-                                        FOUR(diagonal[1] + 2 + i) * FOUR(in + i - 1) + FOUR(diagonal[2] + 1 + i) * FOUR(in + i - 2) +
-                                        FOUR(diagonal[3] + i) * FOUR(in + i - 3);
+                                 FOUR(diagonal[2] + 3 + i) * FOUR(in + i + 2) + FOUR(diagonal[3] + 3 + i) * FOUR(in + i + 3) +
+                                 FOUR(diagonal[1] + 2 + i) * FOUR(in + i - 1) + FOUR(diagonal[2] + 1 + i) * FOUR(in + i - 2) +
+                                 FOUR(diagonal[3] + i) * FOUR(in + i - 3);
         }
         for (; i < count; i++)
             out[i] = row_product(a->band + 4 * (ptrdiff_t)(begin + i), 4, 3, 3, in + i);

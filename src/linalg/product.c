@@ -13,7 +13,7 @@ EACH_MACHINE static double dot(int n, const double *a, const double *b)
     int i = 0;
     for (; i + 8 <= n; i += 8)
         for (int s = 0; s < 2; s++)
-            sum[s] += FOUR(a + i + 4 * s) * FOUR(b + i + 4 * s);
+            sum[s] += FOUR(a + i + 4 * (ptrdiff_t)s) * FOUR(b + i + 4 * (ptrdiff_t)s);
     for (; i < n; i++)
         rest += a[i] * b[i];
     sum[0] += sum[1];

@@ -97,8 +97,8 @@ static int evaluate(struct prediction *p, const double *x, rotid_matrix *k, roti
     return status ? status : matrix_check_entries("the mass of model->matrices", m, p->failure);
 }
 
-/* phi := phi + sum dphi_q (x_q - here_q) for the pairs whose derivatives are known, as a beginning of the solution at x: its error
- * is of second order then. A vector that would turn far is left as it is. */
+/* phi := phi + sum dphi_q (x_q - here_q) for the pairs whose derivatives are known, as a beginning of the solution at x: its
+ * error is of second order then. A vector that would turn far is left as it is. */
 static void extrapolate(struct prediction *p, const double *x)
 {
     int n = p->size, any = 0;

@@ -83,7 +83,8 @@ static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_ma
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
 }
 
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes, int *nrigid)
+int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+                         int *nrigid)
 {
     rotid_matrix structure, k, m;
     discrete_structure(discrete, &structure);

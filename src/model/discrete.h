@@ -40,7 +40,8 @@ void discrete_mass_properties(const struct discrete *discrete, struct mass_prope
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
  * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
  * Statuses of eigen_full_solve. */
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes, int *nrigid);
+int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+                         int *nrigid);
 
 /* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and
  * that degree of freedom. */

@@ -281,7 +281,8 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     s->drop = fitted_chi2(pool, d, &quiet);
     for (int i = 0, tried = 0; s->class == HIDDEN_OUTSIDE && d->nround && i < d->round[0].ncandidate && tried < BEST; i++) {
         const struct candidate *c = &d->round[0].candidate[i];
-        if (!c->result.refitted || !c->cause->effect || !isfinite(c->result.chi2))
+        if (!c->result.refitted || !c->cause->effect || c->cause->solid ||
+            !isfinite(c->result.chi2)) /* a solid has no effect to add */
             continue;
         tried++;
         status = job_with_effect(pool, &quiet, NULL, &c->effect, c->cause, c->fixed, &with);
