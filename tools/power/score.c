@@ -11,6 +11,7 @@
 #include "diagnose/refit.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
+#define PLACE_WIDEST    0.25 /* of it: what an interval may span that tells a place */
 #define VALUE_TOLERANCE 0.1  /* of a gain, a shift, a factor */
 #define VALUE_STDS      4.0
 #define BEST            3 /* causes fitted without noise */
@@ -99,7 +100,15 @@ static int same_target(const struct candidate *c, const char *target)
     return (c->cause->target == TARGET_SPRING || c->cause->target == TARGET_DISK) && c->effect.target + 1 == atoi(name);
 }
 
-/* Whether a candidate is this effect: id, target, and place within one width or 3 % of the length. */
+/* Whether z lies in the interval that the diagnosis states for the place of a candidate, which is narrow enough to be one. */
+static int is_stated(const struct candidate *c, double z, double length)
+{
+    int p = c->cause->place;
+    return p < c->nparameter && c->ci_upper[p] - c->ci_lower[p] <= PLACE_WIDEST * length && z >= c->ci_lower[p] &&
+           z <= c->ci_upper[p];
+}
+
+/* Whether a candidate is this effect: id, target, and place within one width, 3 % of the length or its stated interval. */
 static int is_true(const struct job *job, const struct candidate *c, const cJSON *truth, const cJSON *effect)
 {
     double length = number_of(truth, "length"), mass = place_of_mass(truth, effect), found = place_of_found_mass(job, c);
@@ -114,7 +123,8 @@ static int is_true(const struct job *job, const struct candidate *c, const cJSON
     if (c->cause->place < 0)
         return 1;
     double width = parameter_of(effect, "width"), z = parameter_of(effect, "z");
-    return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length);
+    return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length) ||
+           is_stated(c, z, length);
 }
 
 /* The number of the true effect that a candidate is, or -1. */
