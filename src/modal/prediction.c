@@ -131,7 +131,8 @@ int prediction_compute(struct prediction *p, const double *x)
     if (p->reduction == ROTID_REDUCTION_NONE) {
         extrapolate(p, x);
         status = eigen_full_solve(&p->full, &p->k, &p->m, p->lambda, p->phi);
-        memcpy(p->here, x, (size_t)p->model->nparam * sizeof *x);
+        if (p->model->nparam)
+            memcpy(p->here, x, (size_t)p->model->nparam * sizeof *x);
         return status;
     }
     status = reduction_compute(&p->condensed, &p->k, &p->m);
