@@ -28,32 +28,6 @@ int line_parameters(const struct sensor_line *line)
     return line->flip + (line->shift != 0) + (line->scale != 1);
 }
 
-/* A mode of the model at z, cubic between the nodes. */
-static double shape_at(const struct shape_data *data, int k, double z)
-{
-    const double *x = data->axis_z, *y = data->axis_shape + (ptrdiff_t)k * data->naxis;
-    int low = 0, high = data->naxis - 1, points = data->naxis < 4 ? data->naxis : 4;
-    double sum = 0;
-    while (high - low > 1) {
-        int mid = (low + high) / 2;
-        if (x[mid] <= z)
-            low = mid;
-        else
-            high = mid;
-    }
-    int first = low - 1 > 0 ? low - 1 : 0;
-    if (first + points > data->naxis)
-        first = data->naxis - points;
-    for (int i = first; i < first + points; i++) {
-        double product = y[i];
-        for (int j = first; j < first + points; j++)
-            if (j != i)
-                product *= (z - x[j]) / (x[i] - x[j]);
-        sum += product;
-    }
-    return sum;
-}
-
 /* r [nrow] with every mode at its best scale; returns chi2, INFINITY where a sensor leaves the rotor. */
 static double residual(const struct line_search *search, const struct sensor_line *line, double *r)
 {
@@ -69,7 +43,7 @@ static double residual(const struct line_search *search, const struct sensor_lin
             double z = sensor_line_place(line, search->length, data->z[s]);
             if (!isfinite(data->shape[at]) || !isfinite(data->std[at]))
                 continue;
-            double p = shape_at(data, k, fmin(fmax(z, data->axis_z[0]), data->axis_z[data->naxis - 1])) / data->std[at];
+            double p = shape_data_model(data, k, fmin(fmax(z, data->axis_z[0]), data->axis_z[data->naxis - 1])) / data->std[at];
             square += p * p;
             product += p * data->shape[at] / data->std[at];
             *r++ = p;

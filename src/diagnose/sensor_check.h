@@ -17,6 +17,9 @@ struct shape_data {
     const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there, times the best scale to the measured */
 };
 
+/* Mode k of the model at z [m], from the first node to the last, cubic between the nodes (Lagrange, on the four around z). */
+double shape_data_model(const struct shape_data *data, int k, double z);
+
 enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
 
 struct sensor_fault {

@@ -14,28 +14,7 @@ static const double mixing[] = {0.005, 0.05};
 
 double field_model(const struct sensor_field *field, int k, double z)
 {
-    const struct shape_data *data = field->data;
-    const double *x = data->axis_z, *y = data->axis_shape + (ptrdiff_t)k * data->naxis;
-    int low = 0, high = data->naxis - 1, points = data->naxis < 4 ? data->naxis : 4;
-    while (high - low > 1) {
-        int mid = (low + high) / 2;
-        if (x[mid] <= z)
-            low = mid;
-        else
-            high = mid;
-    }
-    int first = low - 1 > 0 ? low - 1 : 0;
-    if (first + points > data->naxis)
-        first = data->naxis - points;
-    double sum = 0;
-    for (int i = first; i < first + points; i++) {
-        double product = y[i];
-        for (int j = first; j < first + points; j++)
-            if (j != i)
-                product *= (z - x[j]) / (x[i] - x[j]);
-        sum += product;
-    }
-    return sum * field->scale[k];
+    return shape_data_model(field->data, k, z) * field->scale[k];
 }
 
 struct ratio {
