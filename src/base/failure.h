@@ -11,7 +11,7 @@
 int failure_say(char *failure, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* An argument out of its range: the text names it as rotid.h does, its value, and what was expected. */
-#define refuse(failure, ...) failure_say((failure), ROTID_ERROR_ARGUMENT, __VA_ARGS__)
+#define refuse(failure, ...) ((void)failure_say((failure), ROTID_ERROR_ARGUMENT, __VA_ARGS__), ROTID_ERROR_ARGUMENT)
 
 /* Puts the text in front of what is there already; nothing where nothing is. Returns status. */
 int failure_say_of(char *failure, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));

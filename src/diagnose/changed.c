@@ -241,9 +241,10 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
                    const char *name, struct job *job)
 {
     struct spectrum spectrum;
-    struct comparison compared;
+    struct comparison compared = {0};
     struct message_list quiet;
-    int n = job->unknowns.nparameter, shapes = job_fits_shapes(before) && job_fits_shapes(job), left_out = 0;
+    int n = job->unknowns.nparameter, left_out = 0;
+    int shapes = job_fits_shapes(before) && job_fits_shapes(job) && job->measurement.shape;
     double *x = POOL_ARRAY(pool, double, n), *work = POOL_ARRAY(pool, double, 3 * (size_t)job->rotor.nsensor);
     if (!x || !work)
         return ROTID_ERROR_MEMORY;

@@ -149,7 +149,7 @@ static double search_line(const struct line_search *search, int flip, const int 
     double least = residual(search, &best, search->r);
     for (int i = 0; i < (free[0] ? SHIFTS : 1); i++)
         for (int j = 0; j < (free[1] ? SCALES : 1); j++) {
-            struct sensor_line one = {.flip = flip, .scale = free[1] ? 1 + SCALE_STEP * (j - SCALES / 2) : 1};
+            struct sensor_line one = {.flip = flip, .scale = free[1] ? 1 + SCALE_STEP * (j - (SCALES - 1) / 2.0) : 1};
             one.shift = free[0] ? REACH * search->length * (2.0 * i / (SHIFTS - 1) - 1) : 0;
             one.shift += free[0] ? (1 - one.scale) * search->length / 2 : 0; /* a scale about the middle */
             double chi2 = residual(search, &one, search->r);

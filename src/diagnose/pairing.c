@@ -216,7 +216,7 @@ int pairing_settle(struct engine *engine, const struct round_result *result, int
         chi2 = fmin(chi2, result->refit[i].chi2);
     }
     int better = engine->dropped ? best.rate < AS_WELL * fmax(1, rate) : best.chi2 + LEAST_MARGIN * fmax(1, rate) < chi2;
-    if (!isfinite(best.rate) || !better)
+    if (!best.number || !better)
         return ROTID_OK;
     *changed = 1;
     return pairing_adopt(engine, measured, best.number);

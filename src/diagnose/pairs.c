@@ -120,7 +120,7 @@ static void try_pair(const struct states *states, const struct scan *scan, const
                      int a, int b, int most, struct scan_set *set, int *count)
 {
     const struct rotor *rotor = &states->state[scan->candidate[a].home].job.rotor;
-    struct scan_set pair;
+    struct scan_set pair = {0};
     int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
     if (left >= LEAST_RESIDUALS && scan_allows(states, scan, a, b) &&
         best_items(scan, products, along, a, b, APART * rotor_length(rotor), &pair) > 0)

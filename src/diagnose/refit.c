@@ -425,6 +425,7 @@ static int states_with_set(struct pool *pool, const struct states *states, const
                            const struct scan_set *set, const struct effect *effect, struct states *to)
 {
     int status = ROTID_OK;
+    *to = *states; /* the first cause makes a copy of these */
     for (int m = 0; m < set->count && !status; m++) {
         const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
         struct effect named = effect[m];

@@ -200,7 +200,9 @@ static const double *residual_noise(const struct fit *fit, double *std)
         std[i] = 1;
     for (int s = 0; s < joint->nstate; s++) {
         const rotid_measured *measured = joint->part[s].functional.measured;
-        if (!measured->frequency_std && joint->part[s].functional.nresidual)
+        if (!joint->part[s].functional.nresidual)
+            continue;
+        if (!measured->frequency_std)
             return NULL;
         for (int k = 0; k < measured->nmode && fit->options.functional != ROTID_LIKELIHOOD; k++)
             if (functional_fits(measured, k)) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */

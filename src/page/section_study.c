@@ -35,10 +35,11 @@ static struct shares add_up(const struct study_outcome *s)
             sum.reached += cell->is.reached_best;
         }
         sum.judged += cell->is.diagnoses ? cell->is.diagnoses->count : 0;
-        for (int k = 0; k < STUDY_SCORES && summary_is_scored(&cell->is); k++) {
-            sum.scored += cell->is.diagnoses->scores[k];
-            sum.good += k == 0 || k == 2 || k == 3 ? cell->is.diagnoses->scores[k] : 0;
-            sum.false_alarm += k == 1 || k == 7 ? cell->is.diagnoses->scores[k] : 0;
+        const int *scores = summary_is_scored(&cell->is) ? cell->is.diagnoses->scores : NULL;
+        for (int k = 0; k < STUDY_SCORES && scores; k++) {
+            sum.scored += scores[k];
+            sum.good += k == 0 || k == 2 || k == 3 ? scores[k] : 0;
+            sum.false_alarm += k == 1 || k == 7 ? scores[k] : 0;
         }
     }
     return sum;

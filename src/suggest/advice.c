@@ -2,7 +2,7 @@
 
 #include "fit/quantile.h"
 
-#define LIKELY 0.5  /* chance of a name from which on a test is recommended without more ado */
+#define LIKELY 0.5 /* chance of a name from which on a test is recommended without more ado */
 
 static const char *needed(struct pool *pool, const rotid_suggestion *r)
 {
@@ -34,16 +34,16 @@ static const char *plan(struct pool *pool, const rotid_suggestion *r)
 static const char *tests(struct pool *pool, const struct suggestion *s)
 {
     const rotid_suggestion *r = &s->result;
-    const rotid_suggested_test *best = &r->tests[0], *again = NULL;
-    int causes = r->nrivals - 1;
+    const rotid_suggested_test *best = &r->tests[0];
+    int causes = r->nrivals - 1, again = 0; /* number of the same test; the best one's where there is none or it is the best */
     for (int i = 0; i < r->ntests; i++)
         if (s->test[i].kind == TEST_AGAIN)
-            again = &r->tests[i];
+            again = i;
     const rotid_fit_result *fit = s->rivals.rival[0].fit;
     int doubtful = s->rivals.left_out || (fit->dof > 0 && chi_square_tail(fit->chi2, fit->dof) < JUDGED);
     const char *unless = doubtful ? "If one of these rivals is the true one: " : "Next: ";
     const char *who = causes > 1 ? pool_format(pool, "the true one of the %d rivals", causes) : "the one cause that is left";
-    const char *instead = again && again != best ? pool_format(pool, "; the same test again: %.2f", again->chance) : "";
+    const char *instead = again ? pool_format(pool, "; the same test again: %.2f", r->tests[again].chance) : "";
     if (!who || !instead)
         return NULL;
     if (best->chance < LIKELY)

@@ -102,7 +102,7 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     int status = fit_from(pool, from, from->x, count, cause, other_place, &refit);
     if (!status && !(refit.chi2 < cause->result.chi2 + SAME_CHI2)) /* the base may end at a bound, far away */
         status = fit_from(pool, from, NULL, count, cause, other_place, &refit);
-    if (!status && !(refit.chi2 < SAME_MODEL * cause->result.chi2 + SAME_CHI2)) {
+    if (!status && (!refit.states.state || !(refit.chi2 < SAME_MODEL * cause->result.chi2 + SAME_CHI2))) {
         rotid_fit_free(refit.fit);
         rivals->left_out++;
         return ROTID_OK;
