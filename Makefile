@@ -251,7 +251,7 @@ bench-check: all $(BUILD)/hide
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, fine meshes or figures: what
 # they call is in the others
-DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds diagnose_states \
+DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
                  diagnose_solid stiff_supports held_mesh suggest chain
 COUNT_MANY := ema_statistics accelerometer hide sensor_check solid_frequencies page_figures
 check-asan:
