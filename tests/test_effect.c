@@ -137,6 +137,53 @@ static void shapes_are_differentiated_by_place_and_shear_factor(void **state)
     }
 }
 
+/* K [16] of an element in two parts with springs at the node between them, that node condensed. */
+static void condensed_in_two(const struct element *whole, double xi, double lateral, double rotational, double *k)
+{
+    struct element part = *whole;
+    double two[36] = {0}, m[16], one[16];
+    const int place[2][4] = {{0, 1, 4, 5}, {4, 5, 2, 3}};
+    for (int side = 0; side < 2; side++) {
+        part.length = (side ? 1 - xi : xi) * whole->length;
+        element_matrices(&part, one, m);
+        for (int i = 0; i < 16; i++)
+            two[place[side][i % 4] + 6 * place[side][i / 4]] += one[i];
+    }
+    two[4 + 6 * 4] += lateral;
+    two[5 + 6 * 5] += rotational;
+    for (int pivot = 5; pivot > 3; pivot--)
+        for (int j = 0; j < pivot; j++)
+            for (int i = 0; i < pivot; i++)
+                two[i + 6 * j] -= two[i + 6 * pivot] * two[pivot + 6 * j] / two[pivot + 6 * pivot];
+    for (int i = 0; i < 16; i++)
+        k[i] = two[i % 4 + 6 * (i / 4)];
+}
+
+static void springs_inside_an_element_are_at_a_node_that_has_been_condensed(void **state)
+{
+    (void)state;
+    const double place[] = {0.05, 0.3, 0.5, 0.81}, stiff[] = {0, 1e-2, 1, 1e4};
+    for (size_t n = 0; n < 3; n++) /* the last one has no bending to speak of beside its shear */
+        for (int p = 0; p < 4; p++)
+            for (int s = 1; s < 16; s++) {
+                const struct element *e = &elements[n];
+                double z[2] = {0, e->length}, k[16], m[16], expected[16], l = e->length;
+                struct beam beam = {.mesh.z = z};
+                struct lumped lumped = {.point = {.z = place[p] * l}};
+                lumped.point.lateral = stiff[s % 4] * 3 * e->ei / l / l / l;
+                lumped.point.rotational = stiff[s / 4] * 3 * e->ei / l;
+                element_matrices(e, k, m);
+                lumped_add(&beam, &lumped, e, k, m);
+                condensed_in_two(e, place[p], lumped.point.lateral, lumped.point.rotational, expected);
+                for (int i = 0; i < 16; i++) {
+                    double scale = (i % 4 % 2 ? l : 1) * (i / 4 % 2 ? l : 1);
+                    k[i] /= scale;
+                    expected[i] /= scale;
+                }
+                assert_close(relative_difference(16, k, expected), 0, 0, 1e-10);
+            }
+}
+
 static void a_mass_at_a_node_is_a_disk(void **state)
 {
     (void)state;
@@ -408,6 +455,7 @@ int main(void)
         TEST(rods_instead_of_a_tube_are_the_rods_of_the_deck),
         TEST(shapes_are_those_that_the_mass_matrix_integrates),
         TEST(shapes_are_differentiated_by_place_and_shear_factor),
+        TEST(springs_inside_an_element_are_at_a_node_that_has_been_condensed),
         TEST(a_mass_at_a_node_is_a_disk),
         TEST(a_mass_moves_smoothly_from_element_to_element),
         TEST(mass_properties_know_of_effects),

@@ -59,6 +59,75 @@ void lumped_shapes(const struct element *element, double xi, struct lumped_shape
     }
 }
 
+/* Flexibility of the point at xi between the clamped ends of the element, and its derivative in the direction d with the place
+ * moving by dz: of both parts as cantilevers, F = A + B, it is (A^-1 + B^-1)^-1 = A F^-1 B, whose derivative is
+ * P' dA P + Q' dB Q with P = F^-1 B and Q = F^-1 A. A part without length has none. */
+struct pair { /* [v, theta] symmetric */
+    double vv, vt, tt;
+};
+
+struct part { /* of the element, from its clamped end to the point; side -1: the end is on the left */
+    double length, dlength, side;
+};
+
+static struct pair tip(const struct element *e, const struct part *part)
+{
+    double c = part->length;
+    return (struct pair){c * c * c / 3 / e->ei + c / e->kgs, part->side * c * c / 2 / e->ei, c / e->ei};
+}
+
+static struct pair tip_rate(const struct element *e, const struct element *d, const struct part *part)
+{
+    double c = part->length, dc = part->dlength, ei = d->ei / e->ei / e->ei, kgs = d->kgs / e->kgs / e->kgs;
+    return (struct pair){(c * c / e->ei + 1 / e->kgs) * dc - c * c * c / 3 * ei - c * kgs,
+                         part->side * (c / e->ei * dc - c * c / 2 * ei), dc / e->ei - c * ei};
+}
+
+/* x [2 * 2] := F^-1 A */
+static void solve(struct pair f, struct pair a, double x[4])
+{
+    double det = f.vv * f.tt - f.vt * f.vt;
+    x[0] = (f.tt * a.vv - f.vt * a.vt) / det;
+    x[1] = (f.vv * a.vt - f.vt * a.vv) / det;
+    x[2] = (f.tt * a.vt - f.vt * a.tt) / det;
+    x[3] = (f.vv * a.tt - f.vt * a.vt) / det;
+}
+
+/* X' S X */
+static struct pair turned(const double x[4], struct pair s)
+{
+    return (struct pair){x[0] * (s.vv * x[0] + s.vt * x[1]) + x[1] * (s.vt * x[0] + s.tt * x[1]),
+                         x[0] * (s.vv * x[2] + s.vt * x[3]) + x[1] * (s.vt * x[2] + s.tt * x[3]),
+                         x[2] * (s.vv * x[2] + s.vt * x[3]) + x[3] * (s.vt * x[2] + s.tt * x[3])};
+}
+
+static struct pair flexibility(const struct element *e, const struct element *d, double xi, double dz, struct pair *rate)
+{
+    const struct part left = {xi * e->length, dz, -1}, right = {(1 - xi) * e->length, -dz, 1};
+    struct pair a = tip(e, &left), b = tip(e, &right), f = {a.vv + b.vv, a.vt + b.vt, a.tt + b.tt};
+    double p[4], q[4];
+    solve(f, b, p);
+    solve(f, a, q);
+    if (d) {
+        struct pair by_a = turned(p, tip_rate(e, d, &left)), by_b = turned(q, tip_rate(e, d, &right));
+        *rate = (struct pair){by_a.vv + by_b.vv, by_a.vt + by_b.vt, by_a.tt + by_b.tt};
+    }
+    return (struct pair){a.vv * p[0] + a.vt * p[1], a.vv * p[2] + a.vt * p[3], a.vt * p[2] + a.tt * p[3]};
+}
+
+/* C = S W, W = (I + G S)^-1: the springs S of the point in series with its flexibility G, W [2 * 2] being what of the
+ * displacement without them is left. */
+static struct pair held(const struct effect_point *s, struct pair g, double w[4])
+{
+    double lateral = 1 + g.vv * s->lateral, rotational = 1 + g.tt * s->rotational,
+           det = lateral * rotational - g.vt * g.vt * s->lateral * s->rotational;
+    w[0] = rotational / det;
+    w[1] = -g.vt * s->lateral / det;
+    w[2] = -g.vt * s->rotational / det;
+    w[3] = lateral / det;
+    return (struct pair){s->lateral * w[0], s->lateral * w[2], s->rotational * w[3]};
+}
+
 /* m += s (x y' + y x')/2 */
 static void add_product(double s, const double *x, const double *y, double *m)
 {
@@ -131,8 +200,13 @@ void lumped_add(const struct beam *beam, const struct lumped *lumped, const stru
     add_product(point->inertia, n.theta, n.theta, m);
     if (beam->elastic_only)
         return;
-    add_product(point->lateral, n.v, n.v, k);
-    add_product(point->rotational, n.theta, n.theta, k);
+    if (point->lateral == 0 && point->rotational == 0)
+        return;
+    double xi = place_in(&beam->mesh, lumped), w[4];
+    struct pair c = held(point, flexibility(element, NULL, xi, 0, NULL), w);
+    add_product(c.vv, n.v, n.v, k);
+    add_product(2 * c.vt, n.v, n.theta, k);
+    add_product(c.tt, n.theta, n.theta, k);
 }
 
 static int rate_of(const struct beam *beam, struct parameter parameter, const struct lumped *lumped, struct effect_point *d)
@@ -153,7 +227,7 @@ int lumped_differentiate(const struct beam *beam, struct parameter parameter, co
     struct effect_point dpoint = {.z = 0};
     struct lumped_shape n, by_xi, by_phi;
     int own = rate_of(beam, parameter, lumped, &dpoint);
-    if (!own && dphi == 0)
+    if (!own && d->ei == 0 && d->kgs == 0)
         return 0;
     double dxi = lumped->clamped ? 0 : dpoint.z / element->length;
     lumped_shapes(element, place_in(&beam->mesh, lumped), &n, &by_xi, &by_phi);
@@ -165,9 +239,19 @@ int lumped_differentiate(const struct beam *beam, struct parameter parameter, co
     add_product(dpoint.inertia, n.theta, n.theta, dm);
     add_product(2 * point->mass, n.v, by_xi.v, dm);
     add_product(2 * point->inertia, n.theta, by_xi.theta, dm);
-    add_product(dpoint.lateral, n.v, n.v, dk);
-    add_product(dpoint.rotational, n.theta, n.theta, dk);
-    add_product(2 * point->lateral, n.v, by_xi.v, dk);
-    add_product(2 * point->rotational, n.theta, by_xi.theta, dk);
+    if (point->lateral == 0 && point->rotational == 0 && dpoint.lateral == 0 && dpoint.rotational == 0)
+        return 1;
+    struct pair dg;
+    double xi = place_in(&beam->mesh, lumped), w[4];
+    struct pair c = held(point, flexibility(element, d, xi, dxi * element->length, &dg), w),
+                by_spring = turned(w, (struct pair){dpoint.lateral, 0, dpoint.rotational}),
+                by_element = turned((double[]){c.vv, c.vt, c.vt, c.tt}, dg); /* dC = W' dS W - C dG C */
+    add_product(by_spring.vv - by_element.vv, n.v, n.v, dk);
+    add_product(2 * (by_spring.vt - by_element.vt), n.v, n.theta, dk);
+    add_product(by_spring.tt - by_element.tt, n.theta, n.theta, dk);
+    add_product(2 * c.vv, n.v, by_xi.v, dk);
+    add_product(2 * c.vt, n.v, by_xi.theta, dk);
+    add_product(2 * c.vt, n.theta, by_xi.v, dk);
+    add_product(2 * c.tt, n.theta, by_xi.theta, dk);
     return 1;
 }

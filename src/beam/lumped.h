@@ -1,8 +1,10 @@
 /* Lumped masses and springs to the ground at any place of the axis: those that effects put there, and the springs of the deck
  * that an effect may move. The element around the place carries them with its own static shapes, those that its consistent mass
  * matrix integrates, so that nothing jumps as the place crosses a node; a mass at a node is a disk, and a spring at a node the
- * deck's. Inside an element the jump of the shear force is beyond these shapes: that leaves out a flexibility of at most l/(4
- * kGS), an error of first order in l, 1e-5 of the frequency for 5 kg on a thin end of the paper's rotor. */
+ * deck's. Inside an element the jump of the shear force and of the moment is beyond these shapes. A spring therefore acts in
+ * series with the flexibility G of its place between the clamped ends of the element, which is what the shapes leave out: exact
+ * for a static load, however stiff the spring is. A mass does without: the error is of first order in l, 1e-5 of the frequency
+ * for 5 kg on a thin end of the paper's rotor. */
 #ifndef ROTID_BEAM_LUMPED_H
 #define ROTID_BEAM_LUMPED_H
 
@@ -32,8 +34,8 @@ int lumped_next(const struct beam *beam, struct lumped *lumped);
 /* Its name in the deck; may be NULL for a spring. */
 const char *lumped_name(const struct beam *beam, const struct lumped *lumped);
 
-/* Adds to k [16] of its element lateral v v' + rotational theta theta', unless the beam is to be elastic_only, and to m [16]
- * mass v v' + inertia theta theta'. */
+/* Adds to k [16] of its element B' (S^-1 + G)^-1 B, B = [v; theta], S = diag(lateral, rotational), unless the beam is to be
+ * elastic_only, and to m [16] mass v v' + inertia theta theta'. */
 void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *k, double *m);
 
 /* Adds the derivatives to dk and dm, d being the direction of the element's quantities. Returns 0 where it adds nothing. */

@@ -187,14 +187,35 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     round->ncandidate++;
 }
 
-/* Whether a rival is the best one over again with more parameters, such as a zone so narrow that it is the joint beside it: both
- * predict the same, |r - r'|^2 being no more than what parameters without effect gain in 95 % of tests and little of the drop. As
- * a rival that contains the best one it could never lose to it by more than its parameters cost. */
-static int is_twin(const struct candidate *best, const struct candidate *c)
+/* Whether a rival stands where it turns into the best one: a zone at an interface or inside a group, a spring at a support. */
+static int is_at_limit(const struct rotor *rotor, const struct candidate *best, const struct candidate *c)
+{
+    const struct cause_kind *cause = c->cause;
+    double from, to, near = ONE_PLACE * rotor_length(rotor);
+    if (!best->cause->limit_of || strcmp(best->cause->limit_of, cause->id) != 0)
+        return 0;
+    if (cause->width >= 0)
+        near = fmax(near, c->effect.value[cause->width]);
+    if (best->cause->target == TARGET_SPRING) {
+        from = to = rotor->spring[best->effect.target].position;
+    } else {
+        rotor_group_span(rotor, best->effect.target, &from, &to);
+        from = best->cause->target == TARGET_INTERFACE ? to : from;
+    }
+    return c->effect.value[cause->place] > from - near && c->effect.value[cause->place] < to + near;
+}
+
+/* Whether a rival is the best one over again with more parameters, such as a zone so narrow that it is the joint beside it: it
+ * stands where it turns into that, and both predict the same, |r - r'|^2 being no more than what parameters without effect gain
+ * in 95 % of tests and little of the drop. As a rival that contains the best one it could never lose to it by more than its
+ * parameters cost, and chance seldom puts it just there. Another cause that predicts the same is a rival, whatever its
+ * parameters. */
+static int is_twin(const struct rotor *rotor, const struct candidate *best, const struct candidate *c)
 {
     int more = free_parameters(c) - free_parameters(best);
     double apart = 0;
-    if (more < 1 || !best->residual || !c->residual || best->nresidual != c->nresidual || best->with || c->with)
+    if (more < 1 || !best->residual || !c->residual || best->nresidual != c->nresidual || best->with || c->with ||
+        !is_at_limit(rotor, best, c))
         return 0;
     for (int i = 0; i < c->nresidual; i++)
         apart += (c->residual[i] - best->residual[i]) * (c->residual[i] - best->residual[i]);
@@ -287,7 +308,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         }
         if (c->result.rejected_because)
             continue;
-        if (c != best && candidate_score(c) <= limit && is_twin(best, c)) {
+        if (c != best && candidate_score(c) <= limit && is_twin(&engine->states.state[best->home].job.rotor, best, c)) {
             c->result.rejected_because = pool_format(pool, "is %s over again, with more parameters", name);
             c->refused = 1;
         } else if (candidate_score(c) <= limit)

@@ -194,6 +194,91 @@ static int renumber(struct engine *engine, const struct round_result *result, in
     return data_add_pairing(engine, now.number[from], number[from], text);
 }
 
+/* Modes k and k + 1 of [nsensor * nmode] change places. */
+static void exchange_columns(double *values, int nsensor, int k)
+{
+    double *one = values + (ptrdiff_t)k * nsensor, *two = one + nsensor;
+    for (int s = 0; s < nsensor && values; s++) {
+        double keep = one[s];
+        one[s] = two[s];
+        two[s] = keep;
+    }
+}
+
+/* *exchanged := a copy of the measurement with the shapes of modes k and k + 1 in each other's place, the numbers rising as the
+ * frequencies do; *chi2 of the model without a cause beside it: INFINITY where there is none. */
+static int fit_exchanged(struct engine *engine, const struct job_measurement *measured, int k, struct job_measurement *exchanged,
+                         double *chi2)
+{
+    struct job job;
+    rotid_fit_result *fit = NULL;
+    *chi2 = INFINITY;
+    int status = job_started_at(engine->pool, engine->job, engine->deck_start, &job);
+    job.measurement = *measured;
+    if (!status)
+        status = data_copy(engine->pool, &job);
+    if (status)
+        return status;
+    exchange_columns(job.measurement.shape, job.rotor.nsensor, k);
+    exchange_columns(job.measurement.shape_std, job.rotor.nsensor, k);
+    if (job.measurement.raw) {
+        exchange_columns(job.measurement.raw->shape, job.measurement.raw->nsensor, k);
+        exchange_columns(job.measurement.raw->shape_std, job.measurement.raw->nsensor, k);
+    }
+    for (int i = 1; i < measured->nmode; i++) /* the shapes may have given them */
+        for (int j = i; j > 0 && job.measurement.number[j] < job.measurement.number[j - 1]; j--) {
+            int keep = job.measurement.number[j];
+            job.measurement.number[j] = job.measurement.number[j - 1];
+            job.measurement.number[j - 1] = keep;
+        }
+    *exchanged = job.measurement;
+    status = refit_job(engine->pool, &job, job.measurement.number, job.measurement.holdout, engine->environment, &fit);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    if (fit)
+        *chi2 = fit->chi2;
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+/* The shapes of two neighbours may stand under each other's number, while the frequencies, which rise, cannot. Paired by such
+ * shapes both frequencies are wrong, and nothing that a cause does mends that: where no cause explains the data, and the model
+ * without one comes nearer to them than every cause does once the shapes are exchanged, they are. */
+static int exchange(struct engine *engine, const struct round_result *result, const struct job_measurement *measured,
+                    int *changed)
+{
+    struct job_measurement exchanged, best = {0};
+    double rival = engine->fit->chi2, least = INFINITY, chi2;
+    int at = -1, dof = engine->fit->dof, status = ROTID_OK;
+    for (int i = 0; i < result->nrefit; i++)
+        if (result->refit[i].fit && result->refit[i].chi2 < rival) {
+            rival = result->refit[i].chi2;
+            dof = result->refit[i].fit->dof;
+        }
+    if (dof < 1 || chi_square_tail(rival, dof) > UNEXPLAINED)
+        return ROTID_OK;
+    for (int k = 0; k + 1 < measured->nmode && !status; k++) {
+        status = fit_exchanged(engine, measured, k, &exchanged, &chi2);
+        if (status || !(chi2 < least))
+            continue;
+        least = chi2;
+        best = exchanged;
+        at = k;
+    }
+    if (status || at < 0 || least + LEAST_MARGIN * fmax(1, least / dof) > rival)
+        return status;
+    engine->job->measurement = best;
+    engine->job->measurement.paired = *changed = 1;
+    engine->number = best.number;
+    engine->dropped = 0;
+    take_back(engine);
+    return data_add_pairing(engine, best.number[at], best.number[at + 1],
+                            pool_format(engine->pool,
+                                        "the shapes of measured modes %d and %d (%.6g and %.6g Hz) stand under each other's "
+                                        "number; they are exchanged",
+                                        best.number[at], best.number[at + 1], best.frequency_hz[at], best.frequency_hz[at + 1]));
+}
+
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
 {
     const struct job_measurement now = engine->job->measurement, *measured = engine->dropped ? &engine->measured : &now;
@@ -202,8 +287,11 @@ int pairing_settle(struct engine *engine, const struct round_result *result, int
     *changed = 0;
     if (!now.shape)
         return renumber(engine, result, changed);
-    if (now.paired || now.ncorrection != measured->ncorrection)
+    if (now.ncorrection != measured->ncorrection)
         return ROTID_OK;
+    int exchanged = exchange(engine, result, measured, changed);
+    if (exchanged || *changed || now.paired)
+        return exchanged;
     for (int i = 0; i < result->nrefit; i++) {
         struct pairing pairing;
         if (!result->refit[i].fit)

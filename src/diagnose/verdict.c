@@ -121,6 +121,17 @@ static double left_over(const struct diagnosis_round *last)
     return fmax(scan, fmax(whole, block));
 }
 
+/* Whether no single cause of the last round explains what is left: two more, or nothing of the catalogue, and then what was named
+ * before may as well stand in for what is not in it. */
+static int is_beyond_one(const struct diagnosis_round *last)
+{
+    double least = last->result.chi2;
+    for (int i = 0; i < last->ncandidate; i++)
+        if (last->candidate[i].result.refitted && !last->candidate[i].with && last->candidate[i].cause->class == CAUSE_PHYSICAL)
+            least = fmin(least, last->candidate[i].result.chi2);
+    return last->result.kind == ROTID_AMBIGUOUS && beyond_noise(least, last->result.dof) > 0;
+}
+
 /* By how much the named cause of a round beats the best of the others. */
 static double margin_of(const struct diagnosis_round *round)
 {
@@ -247,7 +258,7 @@ int reach_verdict(struct engine *engine, struct round_result *last)
         const struct diagnosis_round *round = &out->round[r];
         if (round->result.kind != ROTID_NAMED)
             continue;
-        int stacked = out->ncause >= MANY && !verdict->adequate_after;
+        int stacked = is_beyond_one(end) || (out->ncause >= MANY && !verdict->adequate_after);
         if (!stacked && (excess == 0 || margin_of(round) >= round->result.required_margin + excess))
             continue;
         withdraw(out);

@@ -39,6 +39,8 @@ struct cause_kind {
     int secant; /* no derivative at neutral: the scan uses the difference to `typical` */
     int solid;  /* the remedy is not in the rotor: the rotor is to be a solid */
     const char
+        *limit_of; /* the cause with a place that is this one where it stands here: a zone at an interface is a joint; NULL */
+    const char
         *variant[5]; /* words of option SHAPE= (stiffness_local, added_mass) or MOUNT= (accelerometer_mass), NULL at the end */
     const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
     /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */

@@ -56,6 +56,7 @@ const struct cause_kind cause_joint = {
     .parameter = {{.typical = 2e-10, .one_sided = 1}},
     .place = -1,
     .width = -1,
+    .limit_of = "stiffness_local",
     .applies = applies,
     .bounds = bounds,
     .widest = 100,

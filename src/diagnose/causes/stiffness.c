@@ -21,6 +21,7 @@ const struct cause_kind cause_stiffness = {
     .parameter = {{.neutral = 1, .typical = 1.05}},
     .place = -1,
     .width = -1,
+    .limit_of = "stiffness_local",
     .applies = applies_to_known_group,
     .bounds = bounds_of_factor,
     .widest = 4,

@@ -32,6 +32,7 @@ const struct cause_kind cause_stiffness_profile = {
     .parameter = {{.typical = 0.1}},
     .place = -1,
     .width = -1,
+    .limit_of = "stiffness_local",
     .bounds = bounds,
     .sentence = "stiffness that differs between the ends and the middle of the group",
     .check = "measure the shapes at more points in the middle of the group, or the pressure along it",

@@ -28,6 +28,7 @@ const struct cause_kind cause_support = {
     .parameter = {{.neutral = 1, .typical = 2}},
     .place = -1,
     .width = -1,
+    .limit_of = "support_extra",
     .applies = applies_to_felt_spring,
     .bounds = bounds,
     .widest = 100,
