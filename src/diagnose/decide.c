@@ -279,7 +279,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {
         struct candidate *c = &round->candidate[i];
-        if (c->result.refitted && c->result.at_bound && candidate_score(c) < candidate_score(best))
+        if (c->result.refitted && c->result.at_bound && (!c->with || c->explains) && candidate_score(c) < candidate_score(best))
             refused = 1;
         if (doubted[i] && candidate_score(c) <= limit) { /* it cannot be named, and keeps the best one from that */
             c->result.rejected_because = NULL;
