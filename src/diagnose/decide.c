@@ -187,18 +187,38 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     round->ncandidate++;
 }
 
+/* |r - r'|^2 of two candidates, INFINITY where it is not known. */
+static double apart(const struct candidate *a, const struct candidate *b)
+{
+    double sum = 0;
+    if (!a->residual || !b->residual || a->nresidual != b->nresidual)
+        return INFINITY;
+    for (int i = 0; i < a->nresidual; i++)
+        sum += (b->residual[i] - a->residual[i]) * (b->residual[i] - a->residual[i]);
+    return sum;
+}
+
 /* Whether a rival is the best one over again with more parameters, such as a zone so narrow that it is the joint beside it: both
  * predict the same, |r - r'|^2 being no more than what parameters without effect gain in 95 % of tests and little of the drop. As
  * a rival that contains the best one it could never lose to it by more than its parameters cost. */
 static int is_twin(const struct candidate *best, const struct candidate *c)
 {
     int more = free_parameters(c) - free_parameters(best);
-    double apart = 0;
-    if (more < 1 || !best->residual || !c->residual || best->nresidual != c->nresidual || best->with || c->with)
+    double distance = apart(best, c);
+    if (more < 1 || best->with || c->with)
         return 0;
-    for (int i = 0; i < c->nresidual; i++)
-        apart += (c->residual[i] - best->residual[i]) * (c->residual[i] - best->residual[i]);
-    return chi_square_tail(apart, more) > 0.05 && apart < SAME * best->result.chi2_drop;
+    return chi_square_tail(distance, more) > 0.05 && distance < SAME * best->result.chi2_drop;
+}
+
+/* Whether c is a cause in one state alone of which these data cannot tell that it is not in the others: both predict the same.
+ * What is there does not go by itself, so it is in all of them. */
+static int is_in_all(const struct candidate *all, const struct candidate *c)
+{
+    if (all->with || c->with || all->state >= 0 || c->state < 0 || all->cause != c->cause ||
+        all->effect.target != c->effect.target || all->effect.variant != c->effect.variant)
+        return 0;
+    double distance = apart(all, c);
+    return distance < SAME * all->result.chi2_drop && chi_square_tail(distance, 1) > 0.05;
 }
 
 static int has_cause(const struct candidate *set, const struct candidate *cause)
@@ -267,6 +287,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
             left_frequency = c->result.chi2_frequency;
         }
     }
+    for (int i = 0; i < round->ncandidate && best; i++)
+        if (!round->candidate[i].result.rejected_because && is_in_all(&round->candidate[i], best))
+            best = &round->candidate[i];
     double doubt = engine->coloured ? COLOURED : 1;
     round->result.required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
     for (int i = 0; i < round->ncandidate; i++)
@@ -287,7 +310,11 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         }
         if (c->result.rejected_because)
             continue;
-        if (c != best && candidate_score(c) <= limit && is_twin(best, c)) {
+        if (is_in_all(best, c)) {
+            c->result.rejected_because =
+                pool_format(pool, "is %s, of which these data cannot tell that it is in one state alone", name);
+            c->refused = 1;
+        } else if (c != best && candidate_score(c) <= limit && is_twin(best, c)) {
             c->result.rejected_because = pool_format(pool, "is %s over again, with more parameters", name);
             c->refused = 1;
         } else if (candidate_score(c) <= limit)
