@@ -187,6 +187,17 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     round->ncandidate++;
 }
 
+/* |r - r'|^2 of two candidates, INFINITY where it is not known. */
+static double apart(const struct candidate *a, const struct candidate *b)
+{
+    double sum = 0;
+    if (!a->residual || !b->residual || a->nresidual != b->nresidual)
+        return INFINITY;
+    for (int i = 0; i < a->nresidual; i++)
+        sum += (b->residual[i] - a->residual[i]) * (b->residual[i] - a->residual[i]);
+    return sum;
+}
+
 /* Whether a rival stands where it turns into the best one: a zone at an interface or inside a group, a spring at a support. */
 static int is_at_limit(const struct rotor *rotor, const struct candidate *best, const struct candidate *c)
 {
@@ -213,13 +224,21 @@ static int is_at_limit(const struct rotor *rotor, const struct candidate *best, 
 static int is_twin(const struct rotor *rotor, const struct candidate *best, const struct candidate *c)
 {
     int more = free_parameters(c) - free_parameters(best);
-    double apart = 0;
-    if (more < 1 || !best->residual || !c->residual || best->nresidual != c->nresidual || best->with || c->with ||
-        !is_at_limit(rotor, best, c))
+    double distance = apart(best, c);
+    if (more < 1 || best->with || c->with || !is_at_limit(rotor, best, c))
         return 0;
-    for (int i = 0; i < c->nresidual; i++)
-        apart += (c->residual[i] - best->residual[i]) * (c->residual[i] - best->residual[i]);
-    return chi_square_tail(apart, more) > 0.05 && apart < SAME * best->result.chi2_drop;
+    return chi_square_tail(distance, more) > 0.05 && distance < SAME * best->result.chi2_drop;
+}
+
+/* Whether c is a cause in one state alone of which these data cannot tell that it is not in the others: both predict the same.
+ * What is there does not go by itself, so it is in all of them. */
+static int is_in_all(const struct candidate *all, const struct candidate *c)
+{
+    if (all->with || c->with || all->state >= 0 || c->state < 0 || all->cause != c->cause ||
+        all->effect.target != c->effect.target || all->effect.variant != c->effect.variant)
+        return 0;
+    double distance = apart(all, c);
+    return distance < SAME * all->result.chi2_drop && chi_square_tail(distance, 1) > 0.05;
 }
 
 static int has_cause(const struct candidate *set, const struct candidate *cause)
@@ -288,6 +307,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
             left_frequency = c->result.chi2_frequency;
         }
     }
+    for (int i = 0; i < round->ncandidate && best; i++)
+        if (!round->candidate[i].result.rejected_because && is_in_all(&round->candidate[i], best))
+            best = &round->candidate[i];
     double doubt = engine->coloured ? COLOURED : 1;
     round->result.required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
     for (int i = 0; i < round->ncandidate; i++)
@@ -300,7 +322,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {
         struct candidate *c = &round->candidate[i];
-        if (c->result.refitted && c->result.at_bound && candidate_score(c) < candidate_score(best))
+        if (c->result.refitted && c->result.at_bound && (!c->with || c->explains) && candidate_score(c) < candidate_score(best))
             refused = 1;
         if (doubted[i] && candidate_score(c) <= limit) { /* it cannot be named, and keeps the best one from that */
             c->result.rejected_because = NULL;
@@ -308,7 +330,11 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         }
         if (c->result.rejected_because)
             continue;
-        if (c != best && candidate_score(c) <= limit && is_twin(&engine->states.state[best->home].job.rotor, best, c)) {
+        if (is_in_all(best, c)) {
+            c->result.rejected_because =
+                pool_format(pool, "is %s, of which these data cannot tell that it is in one state alone", name);
+            c->refused = 1;
+        } else if (c != best && candidate_score(c) <= limit && is_twin(&engine->states.state[best->home].job.rotor, best, c)) {
             c->result.rejected_because = pool_format(pool, "is %s over again, with more parameters", name);
             c->refused = 1;
         } else if (candidate_score(c) <= limit)

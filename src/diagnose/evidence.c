@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
+#include "diagnose/discrepancy.h"
 #include "diagnose/evidence.h"
 #include "diagnose/leave_out.h"
 #include "diagnose/refit.h"
@@ -109,16 +110,6 @@ static struct candidate scanned(const struct round_result *result, int index)
     return c;
 }
 
-/* Number of effect m of a set in the rotor of its home: the last ones are those of the set. */
-static int effect_of(const struct refit *refit, const struct scan *scan, const struct scan_set *set, int m)
-{
-    const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
-    int behind = 0;
-    for (int other = m + 1; other < set->count; other++)
-        behind += scan->candidate[set->candidate[other]].in[c->home] != 0;
-    return refit->states.state[c->home].job.rotor.neffect - 1 - behind;
-}
-
 /* The unknowns of the deck as the fit has them. */
 static int take_identified(struct engine *engine, const struct refit *refit, struct candidate *c)
 {
@@ -168,10 +159,12 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->explains = fit_explains(scan, refit->fit);
     c->residual = refit->fit->r;
     c->nresidual = refit->fit->nresidual;
-    take_parameters(refit, &refit->states.state[c->home], effect_of(refit, scan, set, 0), c);
+    const struct state *home = &refit->states.state[c->home];
+    take_parameters(refit, home, refit_effect(scan, set, 0, c->home, &home->job.rotor), c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {
-        take_parameters(refit, &refit->states.state[c->with->home], effect_of(refit, scan, set, 1), c->with);
+        home = &refit->states.state[c->with->home];
+        take_parameters(refit, home, refit_effect(scan, set, 1, c->with->home, &home->job.rotor), c->with);
         mend_intervals(scan, NULL, c->with);
         c->result.at_bound |= c->with->result.at_bound;
     }
@@ -179,6 +172,40 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     int status = take_identified(engine, refit, c);
     return status ? status
                   : sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
+}
+
+/* Whether a pair explains the data but for what one of its causes leaves as an approximation, which is noise once it is named. */
+static int explains_nearly(struct engine *engine, const struct scan *scan, const struct refit *refit, struct candidate *c)
+{
+    struct states states;
+    rotid_fit_result *fit = NULL;
+    int status = states_copy(engine->pool, &refit->states, &states);
+    for (const struct candidate *member = c; member && !status; member = member->with)
+        status = discrepancy_add(engine->pool, member, 1, &states);
+    if (!status)
+        status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    c->explains = !status && fit_explains(scan, fit);
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+/* Of the pairs near the best one. */
+static int judge_approximations(struct engine *engine, const struct round_result *result, struct candidate *candidate)
+{
+    double best = INFINITY;
+    int status = ROTID_OK;
+    for (int i = 0; i < result->nrefit; i++)
+        if (candidate[i].with && isfinite(candidate[i].result.chi2))
+            best = fmin(best, candidate_score(&candidate[i]));
+    for (int i = 0; i < result->nrefit && !status; i++) {
+        struct candidate *c = &candidate[i];
+        if (c->with && !c->explains && candidate_score(c) < best + OUT_MARGIN &&
+            (discrepancy_of(c->cause) || discrepancy_of(c->with->cause)))
+            status = explains_nearly(engine, &result->scan, &result->refit[i], c);
+    }
+    return status;
 }
 
 struct leave_out {
@@ -293,6 +320,8 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < result->nrefit && !status; i++)
         status = fill_candidate(engine, result, i, &round->candidate[i]);
+    if (!status)
+        status = judge_approximations(engine, result, round->candidate);
     if (!status && result->nrefit)
         status = leave_modes_out(engine, result, round->candidate);
     if (status)

@@ -187,3 +187,72 @@ int pairs_choose(struct pool *pool, const struct states *states, const struct sc
     *count += single;
     return status;
 }
+
+/* The candidate of a scan that is candidate c of another one, -1 where it has none. */
+static int same_candidate(const struct scan *scan, const struct scan_candidate *c)
+{
+    for (int i = 0; i < scan->ncandidate; i++) {
+        const struct scan_candidate *own = &scan->candidate[i];
+        if (own->cause == c->cause && own->effect.target == c->effect.target && own->effect.variant == c->effect.variant &&
+            own->state == c->state && own->suspect == c->suspect)
+            return i;
+    }
+    return -1;
+}
+
+/* The partners that promise most beside a cause, in score. */
+static void enter_partners(const struct states *states, const struct scan *scan, struct scan *beside, struct scan_set from,
+                           int most, struct scan_set *set, int *count)
+{
+    for (int entered = 0; entered < most;) {
+        int best = -1;
+        double score = 0;
+        for (int i = 0; i < beside->ncandidate; i++) {
+            double worth = scan_best_drop(beside, i) - PARAMETER_PENALTY * searched(&beside->candidate[i]);
+            if (beside->candidate[i].best >= 0 && worth > score) {
+                best = i;
+                score = worth;
+            }
+        }
+        if (best < 0)
+            return;
+        const struct scan_candidate *partner = &beside->candidate[best];
+        const struct scan_item *item = &beside->item[partner->best];
+        int a = from.candidate[0], b = same_candidate(scan, partner);
+        beside->candidate[best].best = -1;
+        if (b < 0 || !scan_allows(states, scan, a, b) ||
+            scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]) < LEAST_RESIDUALS)
+            continue;
+        from.candidate[1] = b;
+        from.drop = item->drop;
+        from.start[1] = item->effect;
+        from.start[1].name = scan->candidate[b].effect.name;
+        if (!scan->candidate[b].fixed[partner->cause->size])
+            from.start[1].value[partner->cause->size] += item->amplitude * item->unit;
+        set[(*count)++] = from;
+        entered++;
+    }
+}
+
+int pairs_beside(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+                 const struct scan *scan, int candidate, const struct effect *effect, int most, struct scan_set *set, int *count)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    struct pool scratch;
+    struct states with;
+    struct scan beside = {0};
+    pool_open(&scratch, pool->allocator);
+    int status = states_with_effect(&scratch, states, x, effect, c->cause, c->fixed, c->in, &with);
+    double *start = POOL_ARRAY(&scratch, double, status ? 0 : with.nparameter);
+    if (!status && !start)
+        status = ROTID_ERROR_MEMORY;
+    for (int p = 0; !status && p < with.nparameter; p++)
+        start[p] = with.bounds[p].start;
+    if (!status)
+        status = scan_run(&scratch, &with, number, holdout, start, &beside);
+    if (!status)
+        enter_partners(states, scan, &beside, (struct scan_set){.count = 2, .candidate = {candidate}, .x = x, .start = {*effect}},
+                       most, set, count);
+    pool_close(&scratch);
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* no such model: no partner */
+}

@@ -13,4 +13,10 @@
 int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
                  int *count);
 
+/* The same where one of the two causes is known well enough to be in the model: *effect of `candidate`, with the states' own
+ * parameters at x [nparameter], both of a fit, since columns at no effect say little of large ones. The scan is made again there,
+ * and the `most` partners that promise most, in score, go behind the *count sets. ROTID_OK or ROTID_ERROR_MEMORY. */
+int pairs_beside(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+                 const struct scan *scan, int candidate, const struct effect *effect, int most, struct scan_set *set, int *count);
+
 #endif

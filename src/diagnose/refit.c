@@ -304,7 +304,7 @@ static int starting_effects(const struct scan *scan, const struct scan_set *set,
         effect[count++][0] = *c->far;
     if (set->count > 1) {
         for (int m = 0; m < 2; m++)
-            effect[0][m] = effect_of_item(scan, set->item[m], set->amplitude[m]);
+            effect[0][m] = set->x ? set->start[m] : effect_of_item(scan, set->item[m], set->amplitude[m]);
         count = 1;
     }
     return count;
@@ -403,6 +403,14 @@ int refit_beyond(struct pool *pool, const struct states *states, int nown, const
     return ROTID_OK;
 }
 
+int refit_effect(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor)
+{
+    int behind = 0;
+    for (int other = m + 1; other < set->count; other++)
+        behind += scan->candidate[set->candidate[other]].in[s] != 0;
+    return rotor->neffect - 1 - behind;
+}
+
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)
 {
     struct states started;
@@ -476,7 +484,7 @@ int refit_set(struct pool *pool, const struct states *states, const int *number,
         nested &= c->cause->effect->nparameter && !c->fixed[c->cause->size];
     }
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
-    int status = fit_from(pool, states, number, holdout, x, scan, set, environment, refit);
+    int status = fit_from(pool, states, number, holdout, set->x ? set->x : x, scan, set, environment, refit);
     if (!status && deck &&
         (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter)))
         status = fit_from(pool, states, number, holdout, deck, scan, set, environment, refit);

@@ -7,10 +7,10 @@
 #include "run/identify.h"
 
 /* Tolerances of the fits of a diagnosis: enough for chi2 to 1e-6 but in a valley; the final model is fitted to the end. */
-#define REFIT_GRADIENT 1e-5
-#define REFIT_STEP     1e-7
+#define REFIT_GRADIENT  1e-5
+#define REFIT_STEP      1e-7
 #define REFIT_OBJECTIVE 1e-6 /* what another step would gain: sizes are good to a hundredth of their standard deviation */
-#define REFIT_DECREASE 1e-4 /* a tenth of a unit of chi2 is worth nothing beside margins of some */
+#define REFIT_DECREASE  1e-4 /* a tenth of a unit of chi2 is worth nothing beside margins of some */
 /* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
 #define REFIT_WORSE 0.01
 
@@ -44,12 +44,15 @@ struct refit {
 };
 
 /* Best of the fits from the most promising places of the set, the states' own parameters starting at x [nparameter], which is
- * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded or one of these
- * parameters ends at a bound. Statuses of memory and cancellation only: where every fit fails, or ends above the model without
- * its causes, which it contains, fit is NULL. */
+ * where the scan was made (at those of the set, where it has some); and at `deck` [nparameter] (NULL: none) as well where none of
+ * those fits succeeded or one of these parameters ends at a bound. Statuses of memory and cancellation only: where every fit
+ * fails, or ends above the model without its causes, which it contains, fit is NULL. */
 int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit);
+
+/* Number of effect m of a set in the rotor of state s with the set, in which it acts: the last ones are those of the set. */
+int refit_effect(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor);
 
 /* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);

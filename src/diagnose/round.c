@@ -19,6 +19,7 @@
 #define MOST_REFITS         16
 #define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
 #define MOST_PAIRS_OF_SOLID 6
+#define PARTNERS            3    /* of a cause that has been fitted */
 #define MOST_PASSES         5    /* of a round, each with better data */
 #define WORTH               3.0  /* a promised drop below this is noise */
 #define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
@@ -88,24 +89,93 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
     return status;
 }
 
-/* Pairs, where the best single cause does not explain the data. Where that is the rotor as a solid the rounds go on with it
- * first: it is no column that could be one of two. */
-static int run_pairs(struct engine *engine, struct round_result *result)
+/* The number of the best fit in score from `first` on that is not taken, -1 where there is none. */
+static int best_refit(const struct round_result *result, int first, int besides)
 {
-    const struct scan *scan = &result->scan;
-    int best = -1, count = 0, most = engine->job->options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
+    int best = -1;
     double least = INFINITY;
-    for (int i = 0; i < result->nrefit; i++) {
-        double score = result->refit[i].fit ? result->refit[i].chi2 + PARAMETER_PENALTY * result->refit[i].fit->n : INFINITY;
-        if (score < least) {
+    for (int i = first; i < result->nrefit; i++) {
+        const rotid_fit_result *fit = result->refit[i].fit;
+        double score = fit ? fit->chi2 + PARAMETER_PENALTY * fit->n : INFINITY;
+        if (score < least && i != besides) {
             least = score;
             best = i;
         }
     }
+    return best;
+}
+
+/* Partners beside cause m of a fit, behind the `count` sets that are to be fitted. */
+static int add_partners(struct engine *engine, struct round_result *result, int number, int m, int most, int *count)
+{
+    const struct refit *refit = &result->refit[number];
+    const struct scan_set *set = &result->set[number];
+    const struct scan_candidate *c = &result->scan.candidate[set->candidate[m]];
+    if (c->cause->solid)
+        return ROTID_OK;
+    const struct rotor *rotor = &refit->states.state[c->home].job.rotor;
+    return pairs_beside(engine->pool, &engine->states, engine->number, engine->holdout, refit->fit->x, &result->scan,
+                        set->candidate[m], &rotor->effect[refit_effect(&result->scan, set, m, c->home, rotor)], most,
+                        result->set + result->nrefit, count);
+}
+
+static int same_pair(const struct scan_set *a, const struct scan_set *b)
+{
+    return a->count == b->count && ((a->candidate[0] == b->candidate[0] && a->candidate[1] == b->candidate[1]) ||
+                                    (a->candidate[0] == b->candidate[1] && a->candidate[1] == b->candidate[0]));
+}
+
+/* Of a pair that was fitted from several starts the best fit stays. */
+static void merge_pairs(struct round_result *result, int first)
+{
+    int kept = first;
+    for (int i = first; i < result->nrefit; i++) {
+        int same = first;
+        while (same < kept && !same_pair(&result->set[same], &result->set[i]))
+            same++;
+        int better = same == kept ||
+                     (result->refit[i].fit && (!result->refit[same].fit || result->refit[i].chi2 < result->refit[same].chi2));
+        if (same < kept)
+            rotid_fit_free(result->refit[better ? same : i].fit);
+        if (better) {
+            result->set[same] = result->set[i];
+            result->refit[same] = result->refit[i];
+        }
+        kept += same == kept;
+    }
+    result->nrefit = kept;
+}
+
+/* Pairs, where the best single cause does not explain the data. Where that is the rotor as a solid the rounds go on with it
+ * first: it is no column that could be one of two. Columns without effects choose them, and columns beside the best single
+ * causes; and where no pair explains the data, columns beside each cause of the best pair. */
+static int run_pairs(struct engine *engine, struct round_result *result)
+{
+    const struct scan *scan = &result->scan;
+    int first = result->nrefit, solid = engine->job->options.solid, best = best_refit(result, 0, -1), count = 0, beside = 0;
     if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid || fit_explains(scan, result->refit[best].fit))
         return ROTID_OK;
-    int status = pairs_choose(engine->pool, &engine->states, scan, most, result->set + result->nrefit, &count);
-    return status ? status : run_refits(engine, result, count);
+    int status = pairs_choose(engine->pool, &engine->states, scan, solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS,
+                              result->set + result->nrefit, &count);
+    int second = best_refit(result, 0, best);
+    if (!status)
+        status = add_partners(engine, result, best, 0, PARTNERS, &count);
+    if (!status && second >= 0)
+        status = add_partners(engine, result, second, 0, PARTNERS, &count);
+    if (!status)
+        status = run_refits(engine, result, count);
+    if (status)
+        return status;
+    merge_pairs(result, first);
+    best = best_refit(result, first, -1);
+    if (best < 0 || solid || fit_explains(scan, result->refit[best].fit))
+        return ROTID_OK;
+    for (int m = 0; m < 2 && !status; m++)
+        status = add_partners(engine, result, best, m, PARTNERS, &beside);
+    if (!status)
+        status = run_refits(engine, result, beside);
+    merge_pairs(result, first);
+    return status;
 }
 
 /* The model before the round once more, its data having changed. */
@@ -175,8 +245,8 @@ static int fit_round(struct engine *engine, struct diagnosis_round *round, struc
     round->result.p_frequency = b->p_frequency;
     round->result.p_total = b->p_total;
     int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
-    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + 2 * MOST_PAIRS);
-    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + 2 * MOST_PAIRS);
+    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + 2 * MOST_PAIRS + 4 * PARTNERS);
+    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + 2 * MOST_PAIRS + 4 * PARTNERS);
     if (!result->set || !result->refit)
         return ROTID_ERROR_MEMORY;
     if (!adequate) {

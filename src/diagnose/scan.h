@@ -28,9 +28,9 @@ struct scan_candidate {     /* a cause at a target, with all its places */
     struct effect effect; /* variant and target; a user's values where fixed */
     const char *target;
     int suspect, fixed[EFFECT_MOST_PARAMETERS];
-    int first, count; /* items */
-    int best;         /* item of the largest drop, -1: none is usable */
-    double promise;   /* drop where there is no column */
+    int first, count;         /* items */
+    int best;                 /* item of the largest drop, -1: none is usable */
+    double promise;           /* drop where there is no column */
     const struct effect *far; /* where a fit starts as well (far_starts.h), NULL */
 };
 
@@ -57,6 +57,8 @@ struct scan_set { /* one cause, or two at once: what a round fits */
     int count, candidate[2];
     int item[2]; /* of a pair: the columns that promise most together, with their amplitudes */
     double amplitude[2], drop;
+    const double *x;        /* a pair found beside one of its causes: what the states' own parameters start at, else NULL */
+    struct effect start[2]; /* and its causes */
 };
 
 /* The candidates: every physical cause of the catalogue at every target where it applies and is not in the model yet, and the

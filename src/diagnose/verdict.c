@@ -5,46 +5,22 @@
 
 #include "diagnose/advice.h"
 #include "diagnose/decide.h"
+#include "diagnose/discrepancy.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
 #include "diagnose/verdict.h"
 
 #define MANY 3 /* causes that together still leave something imitate what none of them is */
 
-/* What a cause that is an approximation leaves, added to the noise of a job. */
-static int add_to_noise(struct engine *engine, const struct cause_kind *cause, struct job *job)
-{
-    ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode;
-    double *std = POOL_ARRAY(engine->pool, double, job->measurement.nmode);
-    if (!std)
-        return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        std[k] = hypot(job->measurement.frequency_std[k], cause->discrepancy_frequency);
-    job->measurement.frequency_std = std;
-    if (!job->measurement.shape || !(cause->discrepancy_shape > 0))
-        return ROTID_OK;
-    double *shapes = POOL_ARRAY(engine->pool, double, components);
-    if (!shapes)
-        return ROTID_ERROR_MEMORY;
-    for (ptrdiff_t i = 0; i < components; i++)
-        shapes[i] = hypot(job->measurement.shape_std[i], cause->discrepancy_shape);
-    job->measurement.shape_std = shapes;
-    return ROTID_OK;
-}
-
-/* The same of the states in which it acts, and says so. */
+/* Adds what an approximate cause leaves to the noise, and says so. */
 static int add_discrepancy(struct engine *engine, const struct candidate *c, struct states *states)
 {
     const struct cause_kind *cause = c->cause;
-    int status = ROTID_OK;
     message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                 "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
                 "to the noise behind it, in later rounds, in the extended model and its intervals",
                 cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
-    for (int s = 0; s < states->nstate && !status; s++)
-        if (c->in[s])
-            status = add_to_noise(engine, cause, &states->state[s].job);
-    return status;
+    return discrepancy_add(engine->pool, c, 1, states);
 }
 
 /* A size that was found only where the bounds had been widened. */
@@ -75,7 +51,7 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
         out->cause[out->ncause] = *c;
         out->cause[out->ncause++].with = NULL;
         note_size(engine, c);
-        if (!(c->cause->discrepancy_frequency > 0 || c->cause->discrepancy_shape > 0))
+        if (!discrepancy_of(c->cause))
             continue;
         approximate = 1;
         status = add_discrepancy(engine, c, &states);
@@ -180,7 +156,7 @@ static int same_cause(const struct candidate *a, const struct candidate *b)
     return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
 }
 
-/* The states of the base with all named causes but one, their data as they are now. */
+/* The states of the base with all named causes but one, their data as they are now, but without what that one leaves. */
 static int states_without(struct engine *engine, int left_out, struct states *states)
 {
     struct diagnosis *out = engine->out;
@@ -193,47 +169,131 @@ static int states_without(struct engine *engine, int left_out, struct states *st
         states->state[s].job.measurement.frequency_std = engine->states.state[s].job.measurement.frequency_std;
         states->state[s].job.measurement.shape_std = engine->states.state[s].job.measurement.shape_std;
     }
+    return status ? status : discrepancy_add(engine->pool, &out->cause[left_out], -1, states);
+}
+
+/* What a round says without a cause that was named. */
+struct doubt {
+    int cause;           /* its number, or -1 */
+    int alone;           /* of causes named together it is the only doubtful one, and the others stay named without it */
+    struct engine other; /* without it: its states and their fit */
+    struct diagnosis_round round;
+    struct round_result result;
+};
+
+static void doubt_free(struct doubt *d)
+{
+    round_free(&d->result);
+    rotid_fit_free(d->other.fit);
+    d->other.fit = NULL;
+}
+
+/* The round without cause number `cause`. */
+static int doubt_cause(struct engine *engine, int cause, struct doubt *d)
+{
+    struct diagnosis *out = engine->out;
+    rotid_fit_result *fit = NULL;
+    struct engine *other = &d->other;
+    *d = (struct doubt){.cause = cause, .other = *engine};
+    other->fit = NULL;
+    int status = states_without(engine, cause, &other->states);
+    if (!status)
+        status = refit_states(engine->pool, &other->states, engine->number, engine->holdout, engine->environment, &fit);
+    if (!status && fit_at_bound(fit, engine->nown)) /* with all causes it may lie elsewhere */
+        status = refit_again(engine->pool, &other->states, engine->nown, engine->fit->x, engine->number, engine->holdout,
+                             engine->environment, &fit);
+    other->fit = fit;
+    if (!status)
+        status = states_started_at(engine->pool, &other->states, fit->x, &other->states);
+    other->job = &other->states.state->job;
+    if (!status)
+        status = round_run(other, &d->round, &d->result); /* which may put another fit in its place */
+    engine->clock = other->clock;
+    engine->coloured = other->coloured;
+    engine->job->measurement.correction =
+        out->judged.state->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
+    engine->job->measurement.ncorrection = out->judged.state->job.measurement.ncorrection;
     return status;
 }
 
+/* Alone, or with another one that follows what an approximation leaves. */
+static int is_named(const struct doubt *d, const struct candidate *c)
+{
+    const struct candidate *named = &d->round.candidate[0];
+    return d->round.result.kind == ROTID_NAMED && (same_cause(named, c) || (named->with && same_cause(named->with, c)));
+}
+
+/* Whether the other one of a pair stays named: where it is in question only what comes beside it, the doubtful one being in the
+ * set, or where beside it nothing is missing any more, since the noise has what it leaves as an approximation. */
+static int other_stays(const struct diagnosis *out, const struct doubt *d)
+{
+    int stays = d->round.result.kind == ROTID_ADEQUATE;
+    for (int i = 0; i < d->round.result.set && d->round.result.kind == ROTID_AMBIGUOUS; i++)
+        stays |= !d->round.candidate[i].with && same_cause(&d->round.candidate[i], &out->cause[d->cause]);
+    return stays && out->ncause == 2;
+}
+
 /* With two causes or more each is doubted again in the presence of the others, but one that was named last and alone: a first
- * cause may have been the best single stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful:
- * its index, or -1. */
-static int confirm(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *doubtful)
+ * cause may have been the best single stand-in for two. *found: the first one that is not named again. */
+static int confirm(struct engine *engine, struct doubt *found)
 {
     struct diagnosis *out = engine->out;
     const struct diagnosis_round *last = out->round; /* that named something */
     for (int r = 0; r < out->nround; r++)
         last = out->round[r].result.kind == ROTID_NAMED ? &out->round[r] : last;
-    int status = ROTID_OK, doubted = last->candidate[0].with ? out->ncause : out->ncause - 1;
-    *doubtful = -1;
-    for (int c = 0; c < doubted && !status && *doubtful < 0; c++) {
-        struct engine other = *engine;
-        rotid_fit_result *fit = NULL;
-        status = states_without(engine, c, &other.states);
-        other.job = &other.states.state->job;
-        if (!status)
-            status = refit_states(engine->pool, &other.states, engine->number, engine->holdout, engine->environment, &fit);
-        if (!status && fit_at_bound(fit, engine->nown)) /* with all causes it may lie elsewhere */
-            status = refit_again(engine->pool, &other.states, engine->nown, engine->fit->x, engine->number, engine->holdout,
-                                 engine->environment, &fit);
-        other.fit = fit;
-        if (!status)
-            status = states_started_at(engine->pool, &other.states, fit->x, &other.states);
-        other.job = &other.states.state->job;
-        round_free(result);
-        if (!status)
-            status = round_run(&other, round, result);
-        rotid_fit_free(other.fit); /* the round may have put another one in its place */
-        engine->clock = other.clock;
-        engine->coloured = other.coloured;
-        engine->job->measurement.correction =
-            out->judged.state->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
-        engine->job->measurement.ncorrection = out->judged.state->job.measurement.ncorrection;
-        if (!status && !(round->result.kind == ROTID_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
-            *doubtful = c;
+    int status = ROTID_OK, together = last->candidate[0].with != NULL, doubted = together ? out->ncause : out->ncause - 1;
+    *found = (struct doubt){.cause = -1};
+    for (int c = 0; c < doubted && !status && (found->cause < 0 || found->alone); c++) {
+        struct doubt d;
+        if (together && c && same_cause(&out->cause[c], &out->cause[0])) /* the model without the one is that without the other */
+            continue;
+        status = doubt_cause(engine, c, &d);
+        if (status || is_named(&d, &out->cause[c])) {
+            doubt_free(&d);
+        } else if (found->cause >= 0) {
+            found->alone = 0;
+            doubt_free(&d);
+        } else {
+            *found = d;
+            found->alone = together && other_stays(out, found);
+        }
     }
     return status;
+}
+
+/* Takes one name back: the model is the one without it. */
+static void take_back(struct engine *engine, struct doubt *d, struct round_result *last)
+{
+    struct diagnosis *out = engine->out;
+    for (int c = d->cause; c + 1 < out->ncause; c++)
+        out->cause[c] = out->cause[c + 1];
+    out->ncause--;
+    if (engine->fit != out->base.fit)
+        rotid_fit_free(engine->fit);
+    engine->fit = d->other.fit;
+    engine->states = d->other.states;
+    engine_look_at(engine, 0);
+    engine->job->measurement.correction = out->judged.state->job.measurement.correction;
+    engine->job->measurement.ncorrection = out->judged.state->job.measurement.ncorrection;
+    round_free(last);
+    *last = d->result;
+    d->other.fit = NULL;
+    d->result.nrefit = 0;
+    out->result.verdict.kind = ROTID_NAMED;
+    out->result.verdict.adequate_after = d->round.result.kind == ROTID_ADEQUATE;
+}
+
+/* The set of a doubt, and what to measure for it. */
+static int open_doubt(struct engine *engine, const struct doubt *d, const struct round_result *result)
+{
+    double margin = d->round.result.required_margin;
+    int status = take_set(engine, &d->round, isfinite(margin) ? margin : 0);
+    if (status || engine->out->result.verdict.adequate_after)
+        return status;
+    if (!engine->out->nalternative && !engine->out->ncause)
+        engine->out->result.verdict.kind = ROTID_UNEXPLAINED;
+    engine->out->result.verdict.next_measurement = advise(engine, &d->round, result);
+    return engine->out->result.verdict.next_measurement ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* Takes the names back: what they would have explained is open between the members of a set. */
@@ -249,9 +309,8 @@ int reach_verdict(struct engine *engine, struct round_result *last)
     struct diagnosis *out = engine->out;
     rotid_verdict *verdict = &out->result.verdict;
     const struct diagnosis_round *first = &out->round[0], *end = &out->round[out->nround - 1];
-    struct diagnosis_round *again = POOL_ARRAY(engine->pool, struct diagnosis_round, 1);
     double excess = left_over(end);
-    int status = again ? ROTID_OK : ROTID_ERROR_MEMORY, doubtful = -1;
+    int status = ROTID_OK;
     verdict->p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
     verdict->adequate_after = end->result.kind == ROTID_ADEQUATE;
     for (int r = 0; r < out->nround && !status; r++) {
@@ -270,18 +329,18 @@ int reach_verdict(struct engine *engine, struct round_result *last)
         return status || !verdict->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;
     }
     if (!status && out->ncause > 1) {
-        struct round_result result = {0};
-        status = confirm(engine, again, &result, &doubtful);
-        if (!status && doubtful >= 0) {
+        struct doubt found;
+        status = confirm(engine, &found);
+        int doubtful = found.cause >= 0, alone = doubtful && found.alone;
+        if (!status && alone)
+            take_back(engine, &found, last);
+        else if (!status && doubtful)
             withdraw(out);
-            status = take_set(engine, again, isfinite(again->result.required_margin) ? again->result.required_margin : 0);
-            if (!status && !out->nalternative)
-                verdict->kind = ROTID_UNEXPLAINED;
-            if (!status && !(verdict->next_measurement = advise(engine, again, &result)))
-                status = ROTID_ERROR_MEMORY;
-        }
-        round_free(&result);
-        if (status || doubtful >= 0)
+        if (!status && doubtful)
+            status = open_doubt(engine, &found, alone ? last : &found.result);
+        if (doubtful)
+            doubt_free(&found);
+        if (status || doubtful)
             return status;
     }
     verdict->kind = out->ncause ? ROTID_NAMED : end->result.kind;

@@ -29,15 +29,6 @@ static int size_parameter(const struct job *job, int e, int size)
     return -1;
 }
 
-/* Effect m of a set in a state: the last ones of its rotor are those that act there. */
-static int effect_of_set(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor)
-{
-    int behind = 0;
-    for (int other = m + 1; other < set->count; other++)
-        behind += scan->candidate[set->candidate[other]].in[s] != 0;
-    return rotor->neffect - 1 - behind;
-}
-
 /* The bounds of the effect in the states where it acts, and those of its size. */
 static void set_bounds(const struct scan *scan, const struct scan_set *set, int m, const struct effect *effect, double start,
                        struct states *states)
@@ -47,7 +38,7 @@ static void set_bounds(const struct scan *scan, const struct scan_set *set, int 
         struct job *job = &states->state[s].job;
         if (!c->in[s])
             continue;
-        int e = effect_of_set(scan, set, m, s, &job->rotor), q = size_parameter(job, e, c->cause->size);
+        int e = refit_effect(scan, set, m, s, &job->rotor), q = size_parameter(job, e, c->cause->size);
         memcpy(job->rotor.effect[e].bound, effect->bound, sizeof effect->bound);
         rotid_parameter *const bounds[] = {&job->unknowns.bounds[q], &states->bounds[state_unknown(&states->state[s], q)]};
         for (int i = 0; i < 2; i++) {
@@ -78,7 +69,7 @@ static int widen(struct pool *pool, const struct scan *scan, const struct scan_s
         const struct state *home = &refit->states.state[c->home];
         if (c->cause->solid || c->effect.bound[0] < c->effect.bound[1])
             continue;
-        int e = effect_of_set(scan, set, m, c->home, &home->job.rotor), size = c->cause->size,
+        int e = refit_effect(scan, set, m, c->home, &home->job.rotor), size = c->cause->size,
             q = size_parameter(&home->job, e, size);
         if (q < 0)
             continue;
