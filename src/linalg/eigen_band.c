@@ -16,6 +16,7 @@
 #define NEAR        0.03  /* residual from which polishing converges */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
+#define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
 #define DEPTH       3 /* Krylov blocks a cycle */
@@ -157,11 +158,34 @@ static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid
     return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
 }
 
-static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+/* Motions under smooth loads, cosines along the degrees of freedom: where neighbours have neighbouring numbers, as along a beam,
+ * they are near the lowest modes. */
+static int start_smooth(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int n = e->n, size = 0;
+    for (int j = 0; j < e->block; j++) {
+        double *x = e->ritz + (ptrdiff_t)j * n, now = cos(PI * j / (2.0 * n)), step = 2 * cos(PI * j / n), before = now;
+        for (int i = 0; i < n; i++) { /* cos(pi j (i + 1/2)/n) */
+            x[i] = now;
+            double next = step * now - before;
+            before = now;
+            now = next;
+        }
+    }
+    matrix_multiply(m, e->block, e->ritz, e->image);
+    factor_solve(&e->factor, e->block, e->image);
+    for (int j = 0; j < e->block; j++) {
+        size = append(e, m, size, e->image + (ptrdiff_t)j * n);
+        if (size < 0)
+            return size;
+    }
+    return size < e->block ? ROTID_ERROR_EIGEN : rayleigh_ritz(e, k, size);
+}
+
+static int start_random(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     struct random_stream stream = {20240229};
     int n = e->n;
-    e->shift = -FIRST_SHIFT * e->largest;
     for (int j = 0; j < e->block; j++) {
         double *x = e->ritz + (ptrdiff_t)j * n;
         for (int i = 0; i < n; i++)
@@ -170,9 +194,15 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
         cblas_dscal(n, 1 / sqrt(cblas_ddot(n, x, 1, e->work, 1)), x, 1);
         e->value[j] = 0;
     }
-    int watched = e->block < 3 ? e->block : 3, status = refactor(e, k, m);
+    return converge(e, k, m, e->block < 3 ? e->block : 3, 1e-3);
+}
+
+static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    e->shift = -FIRST_SHIFT * e->largest;
+    int status = refactor(e, k, m);
     if (!status)
-        status = converge(e, k, m, watched, 1e-3);
+        status = e->plain || e->failures ? start_random(e, k, m) : start_smooth(e, k, m);
     return status ? status : choose_shift(e, k, m);
 }
 

@@ -183,3 +183,11 @@ struct mesh_limit discrete_mesh_limit(const struct discrete *discrete)
 {
     return discrete->as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, OF_COARSE, 1} : (struct mesh_limit){2, -4.0 / 3, 0};
 }
+
+int discrete_prolong(const struct discrete *discrete, const double *u, const struct discrete *fine, double *fine_u)
+{
+    if (discrete->as == AS_SOLID)
+        return 0;
+    beam_prolong(&discrete->beam, u, &fine->beam.mesh, fine_u);
+    return 1;
+}

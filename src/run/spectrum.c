@@ -8,14 +8,24 @@
 
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes */
+struct solved { /* a model, and its modes */
+    struct rotor_model *model;
+    struct prediction prediction;
+};
+
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes; coarse:
+ * what has been solved on a coarser mesh, or NULL */
 static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                      const struct parameter *parameter, const double *x, int refine, int *count, struct rotor_model *model,
-                      struct prediction *prediction)
+                      const struct parameter *parameter, const double *x, int refine, const struct solved *coarse, int *count,
+                      struct solved *solved)
 {
+    struct rotor_model *model = solved->model;
+    struct prediction *prediction = &solved->prediction;
     int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
     *count = *count < most ? *count : most;
+    if (!status && coarse)
+        status = model_begin_with(scratch, model, coarse->model, coarse->prediction.count, coarse->prediction.phi);
     if (!status)
         status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count,
                                 0, prediction);
@@ -87,16 +97,18 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
                    const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct spectrum *s)
 {
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *other = POOL_NEW(pool, struct rotor_model);
-    struct prediction p, q;
+    struct solved here = {.model = model}, there = {.model = other};
+    const struct prediction *p = &here.prediction, *q = &there.prediction;
     if (!model || !other)
         return ROTID_ERROR_MEMORY;
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
+    int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, NULL, &count, &here);
     if (status)
         return status;
     const struct mesh_limit limit = model_mesh_limit(model);
     if (parts & SPECTRUM_MESH)
-        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, limit.refine, &count, other, &q);
+        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, limit.refine,
+                            limit.refine > refine ? &here : NULL, &count, &there);
     double *meshed_hz = POOL_ARRAY(scratch, double, count);
     if (status || !meshed_hz)
         return status ? status : ROTID_ERROR_MEMORY;
@@ -105,7 +117,7 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
                            .nmaster = model->equations.nmaster,
                            .nnode = model->naxis,
                            .model = model,
-                           .phi = copy(pool, p.phi + (ptrdiff_t)model->equations.nrigid * p.size, p.size, count)};
+                           .phi = copy(pool, p->phi + (ptrdiff_t)model->equations.nrigid * p->size, p->size, count)};
     double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
@@ -118,19 +130,19 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
     if (!s->phi || !s->shape || (alike && !s->other_shape) || !s->master_z || !s->rigid_hz)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
-        s->rigid_hz[j] = prediction_hz(&p, j);
+        s->rigid_hz[j] = prediction_hz(p, j);
     for (int i = 0; i < s->nmaster; i++)
         s->master_z[i] = model_master_z(model, i);
-    keep_shapes(model, &p, count, s->shape);
+    keep_shapes(model, p, count, s->shape);
     if (alike)
-        keep_shapes(other, &q, count, s->other_shape);
+        keep_shapes(other, q, count, s->other_shape);
     for (int j = 0; j < count; j++) {
-        double hz = prediction_hz(&p, s->nrigid + j);
+        double hz = prediction_hz(p, s->nrigid + j);
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
         s->full_hz[j] = meshed_hz[j] = hz;
         if (!(parts & SPECTRUM_MESH))
             continue;
-        s->other_hz[j] = prediction_hz(&q, other->equations.nrigid + j);
+        s->other_hz[j] = prediction_hz(q, other->equations.nrigid + j);
         double led_to = hz - limit.share * (s->other_hz[j] - hz);
         s->full_hz[j] = limit.counts ? led_to : hz;
         s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
