@@ -10,8 +10,8 @@
 void tierod_deflection(const struct beam *beam, int tierod, const double *u, int npoint, double *z, double *v);
 void bars_deflection(const struct beam *beam, int bars, const double *u, int npoint, double *z, double *v);
 
-/* fine_u [ndof of fine]: the motion u [ndof] of the beam, by the same shapes, at the nodes of a mesh whose elements are those of the
- * beam cut into equal parts. */
+/* fine_u [ndof of fine]: the motion u [ndof] of the beam, by the same shapes, at the nodes of a mesh whose elements are those of
+ * the beam cut into equal parts. */
 void beam_prolong(const struct beam *beam, const double *u, const struct mesh *fine, double *fine_u);
 
 #endif

@@ -175,7 +175,8 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
         bars_deflection(&discrete->beam, bars, u, npoint, z, v);
 }
 
-#define OF_COARSE 0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28 */
+#define OF_COARSE 0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28   \
+                          */
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
  * which no mesh of a reasonable size resolves. */

@@ -60,8 +60,7 @@ static int counted(const struct models *models, const struct rotor *rotor)
             struct rotor known = e->rotor, asked = *rotor;
             if (solid)
                 known.neffect = asked.neffect = 0;
-            if (e->nrigid >= 0 && rotor_same_shape(&known, &asked) &&
-                rotor_same_values(&known, &asked))
+            if (e->nrigid >= 0 && rotor_same_shape(&known, &asked) && rotor_same_values(&known, &asked))
                 return e->nrigid;
         }
     return -1;

@@ -13,8 +13,8 @@ struct solved { /* a model, and its modes */
     struct prediction prediction;
 };
 
-/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes; coarse:
- * what has been solved on a coarser mesh, or NULL */
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes;
+ * coarse: what has been solved on a coarser mesh, or NULL */
 static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, const double *x, int refine, const struct solved *coarse, int *count,
                       struct solved *solved)
