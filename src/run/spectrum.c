@@ -60,36 +60,48 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
     return to;
 }
 
-/* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO; full_hz: of the same mesh in full. */
-static int condensed_model(struct pool *pool, struct pool *scratch, struct rotor_model *model, const double *x, int reduction,
-                           const double *full_hz, struct spectrum *s)
+/* Nothing to condense onto, with one sensor, say, and nothing to report */
+static int is_impossible(int status)
+{
+    return status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS;
+}
+
+/* Guyan's mass for the NCO */
+static int condensed_mass(struct pool *pool, struct pool *scratch, const struct solved *full, struct spectrum *s)
+{
+    struct reduction r;
+    const struct prediction *p = &full->prediction;
+    int status = reduction_new(scratch, ROTID_GUYAN, &p->k, s->nmaster, full->model->equations.master, &r);
+    if (!status)
+        status = reduction_compute(&r, &p->k, &p->m);
+    if (!status && !(s->mass = copy(pool, r.mc, s->nmaster, s->nmaster)))
+        status = ROTID_ERROR_MEMORY;
+    return is_impossible(status) ? ROTID_OK : status;
+}
+
+/* Frequencies of the condensed model as far as it has any, beginning with the modes of the full one; full_hz: of the same mesh in
+ * full */
+static int condensed_model(struct pool *scratch, const struct solved *full, const double *x, int reduction, const double *full_hz,
+                           struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
+    rotid_model model = full->model->equations;
     struct prediction p;
-    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS; kind++) {
-        if (kind == ROTID_IRS && reduction != ROTID_IRS)
-            break;
-        int status = prediction_new(scratch, &model->equations, kind, ROTID_NELSON, count, 0, &p);
-        if (status)
-            return status;
+    model.modes = full->prediction.phi;
+    model.nmodes = full->prediction.count;
+    int status = prediction_new(scratch, &model, reduction, ROTID_NELSON, count, 0, &p);
+    if (!status)
         status = prediction_compute(&p, x);
-        if (status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS)
-            return ROTID_OK; /* one sensor, say: nothing to condense onto, and nothing to report */
-        if (status)
-            return status;
-        if (kind == ROTID_GUYAN && !(s->mass = copy(pool, p.condensed.mc, s->nmaster, s->nmaster)))
-            return ROTID_ERROR_MEMORY;
-        for (int j = 0; j < s->count && kind == reduction; j++)
-            s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
-    }
-    return ROTID_OK;
+    for (int j = 0; j < s->count && !status; j++)
+        s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
+    return is_impossible(status) ? ROTID_OK : status;
 }
 
 int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                      const struct parameter *parameter, const double *x, int reduction, int count, struct spectrum *spectrum)
 {
     return spectrum_compute_parts(pool, models, rotor, nparameter, parameter, x, reduction, count,
-                                  SPECTRUM_MESH | SPECTRUM_REDUCED, spectrum);
+                                  SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS, spectrum);
 }
 
 /* The matrices and factors of a solution, ten times what is kept of it, are in the scratch. */
@@ -149,8 +161,11 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
     }
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other->equations.n < model->equations.n;
-    if (parts & SPECTRUM_REDUCED)
-        status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : meshed_hz, s);
+    const struct solved *cheap = on_other ? &there : &here;
+    if (parts & SPECTRUM_MASS && s->nmaster <= MOST_MASTERS)
+        status = condensed_mass(pool, scratch, cheap, s);
+    if (parts & SPECTRUM_REDUCED && s->nmaster <= MOST_MASTERS && !status)
+        status = condensed_model(scratch, cheap, x, reduction, on_other ? s->other_hz : meshed_hz, s);
     for (int j = 0; j < count && !status; j++)
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
     return status;
