@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "linalg/machine.h"
-#include "rotid.h"
 
 #define INLINE static inline __attribute__((always_inline))
 #define LOST   1e-7 /* of what was added up: a smaller pivot leaves nine digits or less to the solution */
-#define USUAL  5    /* half band of a chain with a force beside every rotation */
+#define CHAIN  3    /* half band of a chain of elements */
+#define FORCES 5    /* and with a force beside every rotation */
 
 static int new_matrix(struct pool *pool, const struct arrow *a, struct arrow_matrix *matrix)
 {
@@ -55,6 +55,26 @@ void arrow_add(struct arrow *a, struct arrow_matrix *matrix, int i, int j, doubl
     matrix->corner[high + low * a->stride] += value;
     if (high != low)
         matrix->corner[low + high * a->stride] += value;
+}
+
+void arrow_take(struct arrow *a, struct arrow_matrix *matrix, const rotid_matrix *from, const int *row)
+{
+    int n = from->n, kd = from->kd;
+    arrow_zero(a, matrix);
+    for (int j = 0; j < n; j++) {
+        int reach = kd < n - 1 - j ? kd : n - 1 - j;
+        const double *column = from->band + (ptrdiff_t)j * (kd + 1);
+        if (row[j] < a->n && row[j + reach] == row[j] + reach) { /* none of them far */
+            memcpy(matrix->band + (ptrdiff_t)row[j] * (kd + 1), column, (size_t)(reach + 1) * sizeof *column);
+            continue;
+        }
+        for (int d = 0; d <= reach; d++)
+            if (column[d] != 0)
+                arrow_add(a, matrix, row[j + d], row[j], column[d]);
+    }
+    for (int q = 0; q < from->nfar; q++)
+        for (int p = q; p < from->nfar; p++)
+            arrow_add(a, matrix, row[from->far[p]], row[from->far[q]], from->block[p + q * from->nfar]);
 }
 
 INLINE void combine(int count, const double *restrict k, double sigma, const double *restrict m, double *restrict out)
@@ -128,6 +148,20 @@ INLINE int factor_band(struct arrow *a, int kd, int stride)
     return third < 0 ? -1 : first + second + third;
 }
 
+INLINE int factor_chain(struct arrow *a, int kd)
+{
+    switch (a->stride) {
+    case 0:
+        return factor_band(a, kd, 0);
+    case 4:
+        return factor_band(a, kd, 4);
+    case 8:
+        return factor_band(a, kd, 8);
+    default:
+        return factor_band(a, kd, a->stride);
+    }
+}
+
 EACH_MACHINE static int factor_any(struct arrow *a, double sigma)
 {
     int full = a->full ? a->stride : 0;
@@ -138,9 +172,9 @@ EACH_MACHINE static int factor_any(struct arrow *a, double sigma)
         a->magnitude[j] = fabs(a->factor.band[(ptrdiff_t)j * (a->kd + 1)]);
     for (int p = 0; p < a->full; p++)
         a->magnitude[a->n + p] = fabs(a->factor.corner[p + (ptrdiff_t)p * a->stride]);
-    if (a->kd == USUAL && a->stride <= 2 * 4)
-        return a->stride == 0 ? factor_band(a, USUAL, 0) : a->stride == 4 ? factor_band(a, USUAL, 4) : factor_band(a, USUAL, 8);
-    return factor_band(a, a->kd, a->stride);
+    if (a->kd == CHAIN)
+        return factor_chain(a, CHAIN);
+    return a->kd == FORCES ? factor_chain(a, FORCES) : factor_band(a, a->kd, a->stride);
 }
 
 int arrow_factor(struct arrow *a, double sigma)
@@ -224,8 +258,10 @@ INLINE void solve(const struct arrow *a, int kd, double *b)
 
 void arrow_solve(const struct arrow *a, double *b)
 {
-    if (a->kd == USUAL)
-        solve(a, USUAL, b);
+    if (a->kd == CHAIN)
+        solve(a, CHAIN, b);
+    else if (a->kd == FORCES)
+        solve(a, FORCES, b);
     else
         solve(a, a->kd, b);
 }

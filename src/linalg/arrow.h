@@ -4,6 +4,7 @@
 #define ROTID_LINALG_ARROW_H
 
 #include "base/pool.h"
+#include "rotid.h"
 
 struct arrow_matrix {
     double *band;   /* [(kd + 1) * n] lower triangle, A(i, j) = band[(i - j) + j (kd + 1)] */
@@ -26,6 +27,9 @@ void arrow_zero(struct arrow *a, struct arrow_matrix *matrix);
 
 /* Adds to entries (i, j) and (j, i); rows from n on are the full ones. A diagonal entry gets it once. */
 void arrow_add(struct arrow *a, struct arrow_matrix *matrix, int i, int j, double value);
+
+/* matrix := A, whose degree of freedom i is row row[i] here: far ones are full rows, the others keep their order. */
+void arrow_take(struct arrow *a, struct arrow_matrix *matrix, const rotid_matrix *from, const int *row);
 
 /* Factors K - sigma M. Returns the number of its negative eigenvalues, or -1 where a pivot is lost. */
 int arrow_factor(struct arrow *a, double sigma);
