@@ -180,6 +180,15 @@ static void differentiate_springs(const struct beam *beam, struct parameter para
     }
 }
 
+/* Of an effect: a lumped mass, say, changes no element but that which carries it. */
+static int moves_axis(const struct beam *beam, struct parameter parameter)
+{
+    if (parameter.kind != PARAMETER_EFFECT || beam->nhinge)
+        return 1;
+    const struct effect_kind *kind = beam->rotor.effect[parameter.index].kind;
+    return kind->field || kind->section || kind->tierod;
+}
+
 void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm)
 {
     const struct mesh *mesh = &beam->mesh;
@@ -187,7 +196,7 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
     struct element element, d;
     struct stretch stretch, dstretch;
     double ek[16], em[16];
-    for (int e = 0; e < mesh->nelement; e++)
+    for (int e = 0; e < mesh->nelement && moves_axis(beam, parameter); e++)
         differentiate_axis_element(beam, parameter, e, dk, dm);
     differentiate_lumped(beam, parameter, dk, dm);
     for (int i = 0; i < beam->rotor.ntierod; i++)

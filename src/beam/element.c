@@ -11,13 +11,22 @@ struct entries {
     double a, b, c, d, e, f;
 };
 
-static void fill(const struct entries *p, double factor, double *matrix)
+/* matrix [16] := that of these entries */
+static void fill(const struct entries *p, double *matrix)
 {
-    const double rows[4][4] = {
-        {p->a, p->b, p->c, p->d}, {p->b, p->e, -p->d, p->f}, {p->c, -p->d, p->a, -p->b}, {p->d, p->f, -p->b, p->e}};
-    for (int j = 0; j < 4; j++)
-        for (int i = 0; i < 4; i++)
-            matrix[i + 4 * j] += factor * rows[i][j];
+    const double rows[16] = {p->a, p->b, p->c,  p->d,  p->b, p->e, -p->d, p->f,
+                             p->c, -p->d, p->a, -p->b, p->d, p->f, -p->b, p->e};
+    memcpy(matrix, rows, sizeof rows);
+}
+
+static inline void accumulate(const struct entries *p, double factor, struct entries *sum)
+{
+    sum->a += factor * p->a;
+    sum->b += factor * p->b;
+    sum->c += factor * p->c;
+    sum->d += factor * p->d;
+    sum->e += factor * p->e;
+    sum->f += factor * p->f;
 }
 
 /* (A.1) times (1 + phi) l^3 / EI, and its derivative with respect to phi */
@@ -58,20 +67,20 @@ static void rotation_entries(double phi, double l, struct entries *p, struct ent
 typedef void entries_of(double phi, double l, struct entries *p, struct entries *dp);
 
 /* adds d[s P/(1 + phi)^q] = (ds P + s dphi (P' - q P/(1 + phi)))/(1 + phi)^q */
-static void add_derivative(entries_of *of, double phi, double l, int q, double s, double ds, double dphi, double *matrix)
+static void add_derivative(entries_of *of, double phi, double l, int q, double s, double ds, double dphi, struct entries *sum)
 {
     struct entries p, dp;
     of(phi, l, &p, &dp);
     double scale = q == 1 ? 1 / (1 + phi) : 1 / ((1 + phi) * (1 + phi));
-    fill(&p, (ds - s * dphi * q / (1 + phi)) * scale, matrix);
-    fill(&dp, s * dphi * scale, matrix);
+    accumulate(&p, (ds - s * dphi * q / (1 + phi)) * scale, sum);
+    accumulate(&dp, s * dphi * scale, sum);
 }
 
-static void add(entries_of *of, double phi, double l, int q, double s, double *matrix)
+static void add(entries_of *of, double phi, double l, int q, double s, struct entries *sum)
 {
     struct entries p, dp;
     of(phi, l, &p, &dp);
-    fill(&p, q == 1 ? s / (1 + phi) : s / ((1 + phi) * (1 + phi)), matrix);
+    accumulate(&p, q == 1 ? s / (1 + phi) : s / ((1 + phi) * (1 + phi)), sum);
 }
 
 static double shear_factor(double ei, double kgs, double l)
@@ -81,21 +90,24 @@ static double shear_factor(double ei, double kgs, double l)
 
 HOST_COMPUTES void stiffness_matrix(double ei, double kgs, double l, double *stiffness)
 {
-    memset(stiffness, 0, 16 * sizeof(double));
-    add(stiffness_entries, shear_factor(ei, kgs, l), l, 1, ei / (l * l * l), stiffness);
+    struct entries sum = {0};
+    add(stiffness_entries, shear_factor(ei, kgs, l), l, 1, ei / (l * l * l), &sum);
+    fill(&sum, stiffness);
 }
 
 HOST_COMPUTES void geometric_matrix(double force, double phi, double l, double *stiffness)
 {
-    memset(stiffness, 0, 16 * sizeof(double));
-    add(geometric_entries, phi, l, 2, force / (60 * l), stiffness);
+    struct entries sum = {0};
+    add(geometric_entries, phi, l, 2, force / (60 * l), &sum);
+    fill(&sum, stiffness);
 }
 
 HOST_COMPUTES void mass_matrix(double rhos, double rhoi, double phi, double l, double *mass)
 {
-    memset(mass, 0, 16 * sizeof(double));
-    add(translation_entries, phi, l, 2, rhos * l / 840, mass);
-    add(rotation_entries, phi, l, 2, rhoi * l / 840, mass);
+    struct entries sum = {0};
+    add(translation_entries, phi, l, 2, rhos * l / 840, &sum);
+    add(rotation_entries, phi, l, 2, rhoi * l / 840, &sum);
+    fill(&sum, mass);
 }
 
 void rotid_element_stiffness(double ei, double kgs, double l, double *stiffness)
@@ -125,9 +137,11 @@ void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *
 void element_matrices(const struct element *element, double *k, double *m)
 {
     double l = element->length, phi = shear_factor(element->ei, element->kgs, l);
-    stiffness_matrix(element->ei, element->kgs, l, k);
+    struct entries sum = {0};
+    add(stiffness_entries, phi, l, 1, element->ei / (l * l * l), &sum);
     if (element->force != 0)
-        add(geometric_entries, phi, l, 2, element->force / (60 * l), k);
+        add(geometric_entries, phi, l, 2, element->force / (60 * l), &sum);
+    fill(&sum, k);
     mass_matrix(element->rhos, element->rhoi, phi, l, m);
 }
 
@@ -135,10 +149,12 @@ void element_derivatives(const struct element *element, const struct element *d,
 {
     double l = element->length, phi = shear_factor(element->ei, element->kgs, l);
     double dphi = phi * (d->ei / element->ei - d->kgs / element->kgs), cube = l * l * l;
-    memset(dk, 0, 16 * sizeof(double));
-    memset(dm, 0, 16 * sizeof(double));
-    add_derivative(stiffness_entries, phi, l, 1, element->ei / cube, d->ei / cube, dphi, dk);
-    add_derivative(geometric_entries, phi, l, 2, element->force / (60 * l), d->force / (60 * l), dphi, dk);
-    add_derivative(translation_entries, phi, l, 2, element->rhos * l / 840, d->rhos * l / 840, dphi, dm);
-    add_derivative(rotation_entries, phi, l, 2, element->rhoi * l / 840, d->rhoi * l / 840, dphi, dm);
+    struct entries stiffness = {0}, mass = {0};
+    add_derivative(stiffness_entries, phi, l, 1, element->ei / cube, d->ei / cube, dphi, &stiffness);
+    if (element->force != 0 || d->force != 0)
+        add_derivative(geometric_entries, phi, l, 2, element->force / (60 * l), d->force / (60 * l), dphi, &stiffness);
+    add_derivative(translation_entries, phi, l, 2, element->rhos * l / 840, d->rhos * l / 840, dphi, &mass);
+    add_derivative(rotation_entries, phi, l, 2, element->rhoi * l / 840, d->rhoi * l / 840, dphi, &mass);
+    fill(&stiffness, dk);
+    fill(&mass, dm);
 }

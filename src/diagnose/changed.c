@@ -252,7 +252,7 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
         x[p] = job->unknowns.bounds[p].start;
     message_open(&quiet, pool);
     int status = spectrum_compute_parts(pool, job->models, &job->rotor, n, job->unknowns.parameter, x, ROTID_GUYAN,
-                                        comparison_candidates(job), job->measurement.shape ? SPECTRUM_REDUCED : 0, &spectrum);
+                                        comparison_candidates(job), job->measurement.shape ? SPECTRUM_MASS : 0, &spectrum);
     if (!status)
         status = comparison_make(pool, job, &spectrum, &quiet, &compared);
     while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {

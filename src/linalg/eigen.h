@@ -3,6 +3,7 @@
 #define ROTID_LINALG_EIGEN_H
 
 #include "base/pool.h"
+#include "linalg/arrow.h"
 #include "linalg/eigen_wide.h"
 #include "linalg/factor.h"
 #include "rotid.h"
@@ -38,6 +39,9 @@ struct eigen_band {
     int known;             /* Ritz values in `value`: count, or with the guards of the block iteration block */
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     struct factor factor, inertia, indefinite;
+    int by_arrow; /* K - lambda M is factored as an arrow, which is quicker where few are far */
+    int *row;     /* [n] of it */
+    struct arrow arrow;
     int *all; /* [n] 0 ... n - 1: no row is left out */
     rotid_matrix shifted;
     double *basis;      /* [n * block * depth], M-orthonormal */

@@ -16,6 +16,8 @@
 #define NEAR        0.03  /* residual from which polishing converges */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
+#define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
+#define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
 #define DEPTH       3 /* Krylov blocks a cycle */
@@ -26,6 +28,21 @@ static int is_narrow(const rotid_matrix *structure, int count)
 {
     double kd = structure->kd;
     return kd * (kd + 3.0 * structure->nfar) < 10 * kd + 36.0 * count;
+}
+
+/* Rows of the arrow: far degrees of freedom last */
+static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct eigen_band *e)
+{
+    int n = structure->n, nfar = structure->nfar;
+    e->by_arrow = nfar <= FEW_FAR && !factor_is_wide(structure);
+    if (!e->by_arrow)
+        return ROTID_OK;
+    e->row = POOL_ARRAY(pool, int, n);
+    if (!e->row)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0, f = 0, inner = 0; i < n; i++)
+        e->row[i] = f < nfar && structure->far[f] == i ? n - nfar + f++ : inner++;
+    return arrow_new(pool, n - nfar, structure->kd, nfar, &e->arrow);
 }
 
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
@@ -54,7 +71,9 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
         status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
     if (!status)
         status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->inertia);
-    return status ? status : factor_new(pool, FACTOR_LU, structure, n, e->all, &e->indefinite);
+    if (!status)
+        status = factor_new(pool, FACTOR_LU, structure, n, e->all, &e->indefinite);
+    return status ? status : new_arrow(pool, structure, e);
 }
 
 /* Appends x [n] to the `size` M-orthonormal columns of the basis. Returns the new size; x is left out where it adds nothing, and
@@ -157,11 +176,34 @@ static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid
     return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
 }
 
-static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+/* Motions under smooth loads, cosines along the degrees of freedom: where neighbours have neighbouring numbers, as along a beam,
+ * they are near the lowest modes. */
+static int start_smooth(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int n = e->n, size = 0;
+    for (int j = 0; j < e->block; j++) {
+        double *x = e->ritz + (ptrdiff_t)j * n, now = cos(PI * j / (2.0 * n)), step = 2 * cos(PI * j / n), before = now;
+        for (int i = 0; i < n; i++) { /* cos(pi j (i + 1/2)/n) */
+            x[i] = now;
+            double next = step * now - before;
+            before = now;
+            now = next;
+        }
+    }
+    matrix_multiply(m, e->block, e->ritz, e->image);
+    factor_solve(&e->factor, e->block, e->image);
+    for (int j = 0; j < e->block; j++) {
+        size = append(e, m, size, e->image + (ptrdiff_t)j * n);
+        if (size < 0)
+            return size;
+    }
+    return size < e->block ? ROTID_ERROR_EIGEN : rayleigh_ritz(e, k, size);
+}
+
+static int start_random(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     struct random_stream stream = {20240229};
     int n = e->n;
-    e->shift = -FIRST_SHIFT * e->largest;
     for (int j = 0; j < e->block; j++) {
         double *x = e->ritz + (ptrdiff_t)j * n;
         for (int i = 0; i < n; i++)
@@ -170,9 +212,15 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
         cblas_dscal(n, 1 / sqrt(cblas_ddot(n, x, 1, e->work, 1)), x, 1);
         e->value[j] = 0;
     }
-    int watched = e->block < 3 ? e->block : 3, status = refactor(e, k, m);
+    return converge(e, k, m, e->block < 3 ? e->block : 3, 1e-3);
+}
+
+static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    e->shift = -FIRST_SHIFT * e->largest;
+    int status = refactor(e, k, m);
     if (!status)
-        status = converge(e, k, m, watched, 1e-3);
+        status = e->plain || e->failures ? start_random(e, k, m) : start_smooth(e, k, m);
     return status ? status : choose_shift(e, k, m);
 }
 
@@ -196,6 +244,9 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
     int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;
+    int negative = e->by_arrow ? arrow_factor(&e->arrow, shift) : -1;
+    if (negative >= 0)
+        return negative == expected;
     matrix_combine(1, k, -shift, m, &e->shifted);
     return factor_negative_count(&e->inertia, &e->shifted) == expected;
 }
@@ -257,6 +308,10 @@ int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_ma
     int status = check(e, k, m);
     if (status)
         return status;
+    if (e->by_arrow) {
+        arrow_take(&e->arrow, &e->arrow.k, k, e->row);
+        arrow_take(&e->arrow, &e->arrow.m, m, e->row);
+    }
     for (e->plain = e->failures >= FAILURES;;) {
         status = attempt(e, k, m);
         if (!status && e->value[0] < -FIRST_SHIFT * e->largest)

@@ -52,6 +52,23 @@ static int cluster_end(const struct eigen_band *e, int j)
     return j + 1;
 }
 
+/* By the arrow. Returns 1 where that has lost a pivot. */
+static int solve_by_arrow(struct eigen_band *e, double sigma, int begin, int end)
+{
+    double *row = e->work;
+    if (arrow_factor(&e->arrow, sigma) < 0)
+        return 1;
+    for (int j = begin; j < end; j++) {
+        double *x = e->image + (ptrdiff_t)j * e->n;
+        for (int i = 0; i < e->n; i++)
+            row[e->row[i]] = x[i];
+        arrow_solve(&e->arrow, row);
+        for (int i = 0; i < e->n; i++)
+            x[i] = row[e->row[i]];
+    }
+    return 0;
+}
+
 /* image [n * (end - begin)] := (K - sigma M)^-1 image with the shift of pairs begin ... end - 1, which is returned; NAN: singular
  */
 static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, int begin, int end)
@@ -59,6 +76,8 @@ static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const r
     double scale = fabs(e->value[begin]) - e->shift, spread = e->value[end - 1] - e->value[begin],
            sigma = end - begin > 1 ? e->value[begin] - fmax(spread, OFFSET * scale) : e->value[begin];
     for (int attempt = 0; attempt < 2; attempt++, sigma -= OFFSET * scale) {
+        if (e->by_arrow && !solve_by_arrow(e, sigma, begin, end))
+            return sigma;
         matrix_combine(1, k, -sigma, m, &e->shifted);
         if (factor_compute(&e->indefinite, &e->shifted))
             continue;

@@ -57,6 +57,17 @@ void matrix_add(rotid_matrix *a, int i, int j, double value)
 
 void matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e)
 {
+    int increasing = dof[nd - 1] - dof[0] <= a->kd;
+    for (int i = 1; i < nd; i++)
+        increasing &= dof[i] > dof[i - 1];
+    if (increasing) { /* in the band, all of it */
+        for (int j = 0; j < nd; j++) {
+            double *column = a->band + (ptrdiff_t)dof[j] * (a->kd + 1) - dof[j];
+            for (int i = j; i < nd; i++)
+                column[dof[i]] += e[i + j * nd];
+        }
+        return;
+    }
     for (int j = 0; j < nd; j++)
         for (int i = j; i < nd; i++)
             matrix_add(a, dof[i], dof[j], e[i + j * nd]);

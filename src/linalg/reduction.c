@@ -152,12 +152,18 @@ static int improve(struct reduction *r, const rotid_matrix *k, const rotid_matri
     return ROTID_OK;
 }
 
-int reduction_compute(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m)
+int reduction_begin(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m)
 {
     r->k = k;
     r->m = m;
-    if (factor_compute(&r->factor, k) || factor_is_singular(&r->factor, k))
-        return ROTID_ERROR_SLAVE;
+    return factor_compute(&r->factor, k) || factor_is_singular(&r->factor, k) ? ROTID_ERROR_SLAVE : ROTID_OK;
+}
+
+int reduction_compute(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int status = reduction_begin(r, k, m);
+    if (status)
+        return status;
     constraint_modes(r, k);
     guyan_stiffness(r, k);
     congruence(r, m, r->psi, r->mg);
@@ -353,4 +359,19 @@ void reduction_mode_prepare(struct reduction *r, double lambda, const double *x,
     cblas_daxpy(r->n, -lambda, r->u1, 1, mode->residual, 1);
     if (r->kind == ROTID_GUYAN)
         slave_solve(r, mode->residual, mode->adjoint);
+}
+
+/* On the slave rows K u is zero. */
+void reduction_adjoint(struct reduction *r, int count, const double *lambda, const double *u, double *adjoint, double *work)
+{
+    int n = r->n, ni = r->ni;
+    matrix_multiply(r->m, count, u, adjoint);
+    for (int j = 0; j < count; j++)
+        for (int s = 0; s < ni; s++)
+            work[s + (ptrdiff_t)j * ni] = -lambda[j] * adjoint[r->slave[s] + (ptrdiff_t)j * n];
+    factor_solve(&r->factor, count, work);
+    memset(adjoint, 0, (size_t)n * (size_t)count * sizeof(double));
+    for (int j = 0; j < count; j++)
+        for (int s = 0; s < ni; s++)
+            adjoint[r->slave[s] + (ptrdiff_t)j * n] = work[s + (ptrdiff_t)j * ni];
 }

@@ -56,6 +56,11 @@ struct reduction_mode {
 
 void reduction_mode_prepare(struct reduction *r, double lambda, const double *x, struct reduction_mode *mode);
 
+/* For Guyan's reduction without T, K~ and M~: reduction_begin in place of reduction_compute, ROTID_OK or ROTID_ERROR_SLAVE, then
+ * adjoint [n * count] := S (K - lambda M) u for u [n * count] = T x. Workspace [n * count]. */
+int reduction_begin(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m);
+void reduction_adjoint(struct reduction *r, int count, const double *lambda, const double *u, double *adjoint, double *work);
+
 /* dlambda = x' (dK~ - lambda dM~) x = u' (dK - lambda dM) u + 2 (K - lambda M) u . dT x, for x' M~ x = 1: (36). */
 double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda,
                                        const double *x, const struct reduction_mode *mode);

@@ -1,4 +1,5 @@
 #include "modal/prediction.h"
+#include "modal/condensed_pairs.h"
 
 #include <math.h>
 #include <string.h>
@@ -39,6 +40,8 @@ static int new_solvers(struct pool *pool, const rotid_model *model, int with_vec
     }
     if (!status)
         status = eigen_dense_new(pool, p->size, p->count, &p->dense);
+    if (!status && !with_vectors)
+        status = condensed_new(pool, p);
     return status || !with_vectors ? status : nelson_dense_new(pool, p->size, &p->nelson_dense);
 }
 
@@ -135,8 +138,7 @@ int prediction_compute(struct prediction *p, const double *x)
             memcpy(p->here, x, (size_t)p->model->nparam * sizeof *x);
         return status;
     }
-    status = reduction_compute(&p->condensed, &p->k, &p->m);
-    return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
+    return condensed_compute(p, x);
 }
 
 /* dK and dM by differences of fourth order over steps of h, for a host that gives none: of A(x + h) - A(x), K and M at x being
@@ -365,6 +367,8 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
     int status = ROTID_OK;
     if (with_vectors)
         return differentiate_vectors(p, x, wanted);
+    if (p->by_bands)
+        return condensed_differentiate(p, x, wanted);
     for (int k = 0; k < p->count && p->reduction != ROTID_REDUCTION_NONE; k++)
         if (wanted[k])
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);

@@ -4,6 +4,7 @@
 
 #include "base/pool.h"
 #include "linalg/eigen.h"
+#include "linalg/eigen_guyan.h"
 #include "linalg/reduction.h"
 #include "modal/eigenvector_derivative.h"
 #include "rotid.h"
@@ -18,6 +19,11 @@ struct prediction {
     int dk_is_zero, dm_is_zero; /* most parameters leave one of the matrices alone */
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */
+    struct eigen_guyan guyan;    /* in place of what follows, where it applies */
+    int by_bands;                /* the pairs are those of `guyan`, and K~ and M~ have not been formed */
+    int begun;                   /* lambda is near the pairs of the next solution */
+    double *full_phi;            /* [n * count] T phi */
+    double *adjoint;             /* [n * count] */
     struct eigen_dense dense;
     struct eigen_full full;
     struct nelson_dense nelson_dense;
@@ -33,8 +39,9 @@ struct prediction {
     double *below;    /* [size * nparam]: of a cluster that goes on, dphi with an eigenvalue below */
     double *image;    /* [2 size * count] dK phi and dM phi of the full matrices */
     double *x, *work;
-    int *turned;   /* [count] pairs whose dphi is that of the last prediction_compute; none where vectors are not differentiated */
-    double *here;  /* [nparam] x of that */
+    int *turned;  /* [count] pairs whose derivatives are those of the last prediction_compute; of the vectors in full, else of
+                     lambda */
+    double *here; /* [nparam] x of that */
 };
 
 /* count <= nmaster (condensed) or n. with_vectors: room for dphi. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT. */

@@ -175,11 +175,20 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
         bars_deflection(&discrete->beam, bars, u, npoint, z, v);
 }
 
-#define OF_COARSE 0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28 */
+#define OF_COARSE 0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28   \
+                          */
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
  * which no mesh of a reasonable size resolves. */
 struct mesh_limit discrete_mesh_limit(const struct discrete *discrete)
 {
     return discrete->as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, OF_COARSE, 1} : (struct mesh_limit){2, -4.0 / 3, 0};
+}
+
+int discrete_prolong(const struct discrete *discrete, const double *u, const struct discrete *fine, double *fine_u)
+{
+    if (discrete->as == AS_SOLID)
+        return 0;
+    beam_prolong(&discrete->beam, u, &fine->beam.mesh, fine_u);
+    return 1;
 }

@@ -69,4 +69,8 @@ struct mesh_limit {
 };
 struct mesh_limit discrete_mesh_limit(const struct discrete *discrete);
 
+/* fine_u := the motion u on a mesh whose elements are those of the first one cut into equal parts; values of parameters as at the
+ * last assembly. Returns 0 where there is no such routine: solids. */
+int discrete_prolong(const struct discrete *discrete, const double *u, const struct discrete *fine, double *fine_u);
+
 #endif

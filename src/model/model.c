@@ -89,6 +89,20 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     return status;
 }
 
+int model_begin_with(struct pool *pool, struct rotor_model *fine, const struct rotor_model *coarse, int count, const double *phi)
+{
+    int n = coarse->equations.n, nfine = fine->equations.n;
+    double *modes = POOL_ARRAY(pool, double, (size_t)nfine *(size_t)count);
+    if (!modes)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < count; k++)
+        if (!discrete_prolong(&coarse->discrete, phi + (ptrdiff_t)k * n, &fine->discrete, modes + (ptrdiff_t)k * nfine))
+            return ROTID_OK;
+    fine->equations.modes = modes;
+    fine->equations.nmodes = count;
+    return ROTID_OK;
+}
+
 double model_master_z(const struct rotor_model *model, int i)
 {
     return model->rotor->nsensor ? discrete_sensor_z(&model->discrete, i) : model->z[i];

@@ -50,4 +50,8 @@ int model_exchange_effect(struct pool *pool, struct rotor_model *model, const st
  * is asked no less. ROTID_OK or ROTID_ERROR_MEMORY. */
 int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int *alone);
 
+/* The solutions of a model on a finer mesh, of equal parts of each element, begin with phi [n * count], modes of the coarse one
+ * where it was evaluated last. Solids are left alone. ROTID_OK or ROTID_ERROR_MEMORY. */
+int model_begin_with(struct pool *pool, struct rotor_model *fine, const struct rotor_model *coarse, int count, const double *phi);
+
 #endif

@@ -50,9 +50,9 @@ static struct entry *find(const struct models *models, const struct rotor *rotor
     return found;
 }
 
-/* What has been counted, -1: nothing. Of a solid, where counting costs as much as its modes: with any mesh, and whatever causes
- * are in the rotor, which make no suspension of a bending mode. */
-static int counted(const struct models *models, const struct rotor *rotor, int refine)
+/* What has been counted with any mesh, -1: nothing. Of a solid, where counting costs as much as its modes, whatever causes are in
+ * the rotor, which make no suspension of a bending mode. */
+static int counted(const struct models *models, const struct rotor *rotor)
 {
     for (; models; models = models->older)
         for (const struct entry *e = models->first; e; e = e->next) {
@@ -60,8 +60,7 @@ static int counted(const struct models *models, const struct rotor *rotor, int r
             struct rotor known = e->rotor, asked = *rotor;
             if (solid)
                 known.neffect = asked.neffect = 0;
-            if (e->nrigid >= 0 && (solid || e->refine == refine) && rotor_same_shape(&known, &asked) &&
-                rotor_same_values(&known, &asked))
+            if (e->nrigid >= 0 && rotor_same_shape(&known, &asked) && rotor_same_values(&known, &asked))
                 return e->nrigid;
         }
     return -1;
@@ -171,7 +170,7 @@ int models_discretise(struct pool *pool, struct models *models, const struct rot
     struct entry *e = find(models, rotor, refine, &same_values);
     if (takes_up && (!same_values || e->owner != models))
         status = add(models, rotor, refine, e, &e, failed);
-    *nrigid = status ? -1 : rotor->settled_rigid ? rotor->settled_rigid - 1 : counted(models, rotor, refine);
+    *nrigid = status ? -1 : rotor->settled_rigid ? rotor->settled_rigid - 1 : counted(models, rotor);
     if (takes_up)
         (void)pthread_mutex_unlock(&models->lock);
     if (status)

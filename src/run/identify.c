@@ -172,7 +172,7 @@ static int pair_state(struct pool *pool, struct running *run, const double *x, i
     message_open(&run->quiet, pool);
     if (!own)
         return ROTID_ERROR_MEMORY;
-    parts |= run->state->job.measurement.shape ? SPECTRUM_REDUCED : 0;
+    parts |= run->state->job.measurement.shape ? SPECTRUM_MASS : 0;
     int status = compute_spectrum(pool, &run->state->job, own, run->candidates, parts, &run->out->spectrum);
     return status ? status : comparison_make(pool, &run->state->job, &run->out->spectrum, &run->quiet, pairs);
 }

@@ -31,8 +31,9 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
 /* The same with the parts that are wanted alone; the others are NaN or NULL. */
 enum spectrum_part {
     SPECTRUM_MESH = 1,    /* other_hz, other_shape, mesh_error_percent: a second mesh, for a beam half of the time */
-    SPECTRUM_REDUCED = 2, /* reduced_hz, reduction_error_percent, mass */
-    SPECTRUM_COARSE = 4   /* of a solid: on the coarse mesh */
+    SPECTRUM_REDUCED = 2, /* reduced_hz, reduction_error_percent */
+    SPECTRUM_COARSE = 4,  /* of a solid: on the coarse mesh */
+    SPECTRUM_MASS = 8     /* mass */
 };
 int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,
