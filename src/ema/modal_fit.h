@@ -12,6 +12,10 @@
 #include "base/complex.h"
 #include "base/pool.h"
 #include "ema/band.h"
+#include "ema/modal_gram.h"
+
+/* what modal_fit_evaluate leaves: chi2, linear, singular; score and schur as well; mix and spread as well */
+enum modal_fit_part { MODAL_FIT_LINEAR, MODAL_FIT_POLES, MODAL_FIT_SPREAD };
 
 struct modal_fit {
     int nline, nchannel, nmode, nlinear, ncolumn; /* nlinear = 2 nmode + 4 of phi, L, U; ncolumn = nlinear + 2 nmode */
@@ -27,6 +31,7 @@ struct modal_fit {
     int *held;                                    /* [nmode] nonzero: refine_poles leaves the pole where it is */
     double *basis;                                /* [2 nline * ncolumn] */
     double *gram, *right;                         /* flat weights: [ncolumn^2] and [ncolumn * nchannel] */
+    struct modal_gram summed;                     /* weights of each channel */
     int threads;
     double **work;
     /* of each channel, after modal_fit_evaluate: */
@@ -44,9 +49,9 @@ struct modal_fit {
 int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
                   int threads, struct modal_fit *fit);
 
-/* Everything of each channel at fit->pole; with spread too where asked for. Normal equations with scaled columns: their rounding
- * does not move where the score vanishes by more than eps of a bandwidth. Returns sum chi2. Allocates nothing. */
-double modal_fit_evaluate(struct modal_fit *fit, int with_spread);
+/* That part for each channel at fit->pole. Normal equations with scaled columns: their rounding does not move where the score
+ * vanishes by more than eps of a bandwidth. Returns sum chi2. Allocates nothing. */
+double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part);
 
 /* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
 void modal_fit_noise(struct modal_fit *fit);
