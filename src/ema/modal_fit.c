@@ -20,10 +20,10 @@ static int is_summed(const struct modal_fit *fit)
 static size_t workspace(const struct modal_fit *fit)
 {
     size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode, lines = (size_t)fit->nline;
-    size_t rows = fit->weight ? 2 * lines * columns : 0;
+    size_t rows = fit->weight ? 2 * lines * columns : 0, least = lines * (2 * TOGETHER + 1);
     if (is_summed(fit))
         rows += ((size_t)modal_gram_functions(fit->nmode) + (size_t)fit->ncolumn + 3 * lines) * TOGETHER;
-    return rows + columns * columns + q * q + q * (p + 1) + q + p * p;
+    return (rows > least ? rows : least) + columns * columns + q * q + q * (p + 1) + q + p * p;
 }
 
 int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
@@ -131,24 +131,47 @@ static void fill_basis(struct modal_fit *fit)
     }
 }
 
-double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths)
+/* squares [nline]: of what channel c leaves, over its variance; rows: y less what the columns explain */
+static void square_residual(const struct modal_fit *fit, int c, const double *rows, double *squares)
 {
-    int n = fit->nline, q = fit->nlinear, count = 0;
-    double reach = widths * 2 * fabs(creal(fit->pole[r])), sum = 0;
-    const double *x = fit->linear + (ptrdiff_t)c * q, *y = fit->y + (ptrdiff_t)2 * n * c;
+    int n = fit->nline;
+    double flat = fit->weight ? 1 : 1 / fit->sigma[c];
+    const double *weight = fit->weight ? fit->weight + (ptrdiff_t)c * n : NULL;
     for (int i = 0; i < n; i++) {
-        if (fabs(fit->nu[i] - cimag(fit->pole[r])) > reach)
-            continue;
-        double weight = fit->weight ? fit->weight[i + (ptrdiff_t)c * n] : 1 / fit->sigma[c];
-        for (int part = i; part < 2 * n; part += n) {
-            double left = y[part];
-            for (int j = 0; j < q; j++)
-                left -= fit->basis[part + (ptrdiff_t)2 * n * j] * x[j];
-            sum += weight * weight * left * left;
-            count++;
+        double re = rows[i], im = rows[i + n], w = weight ? weight[i] : flat;
+        squares[i] = w * w * (re * re + im * im);
+    }
+}
+
+/* Lines nu of [from, to] are first ... last - 1. */
+static void lines_within(const struct modal_fit *fit, double from, double to, int *first, int *last)
+{
+    for (*first = 0; *first < fit->nline && fit->nu[*first] < from;)
+        ++*first;
+    for (*last = *first; *last < fit->nline && fit->nu[*last] <= to;)
+        ++*last;
+}
+
+void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths, double *noise)
+{
+    int n = fit->nline, at_once = fit->nchannel < TOGETHER ? fit->nchannel : TOGETHER;
+    double *rows = fit->work[0], *squares = rows + (ptrdiff_t)2 * n * TOGETHER;
+    for (int from = 0; from < fit->nchannel; from += at_once) {
+        int channels = fit->nchannel - from < at_once ? fit->nchannel - from : at_once;
+        memcpy(rows, fit->y + (ptrdiff_t)2 * n * from, 2 * (size_t)n * (size_t)channels * sizeof(double));
+        product_subtract(2 * n, channels, fit->nlinear, fit->basis, fit->linear + (ptrdiff_t)fit->nlinear * from, rows);
+        for (int k = 0; k < channels; k++) {
+            square_residual(fit, from + k, rows + (ptrdiff_t)2 * n * k, squares);
+            for (int r = 0; r < count; r++) {
+                int first, last;
+                double centre = cimag(fit->pole[r]), reach = widths * 2 * fabs(creal(fit->pole[r])), sum = 0;
+                lines_within(fit, centre - reach, centre + reach, &first, &last);
+                for (int i = first; i < last; i++)
+                    sum += squares[i];
+                noise[from + k + (ptrdiff_t)r * fit->nchannel] = last - first >= 4 ? sum / (2 * (last - first)) : 1;
+            }
         }
     }
-    return count >= 8 ? sum / count : 1;
 }
 
 /* Gram matrix [(ncolumn + 1)^2] of basis and y with flat weights, from that of all channels. */

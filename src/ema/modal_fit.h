@@ -56,9 +56,10 @@ double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part);
 /* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
 void modal_fit_noise(struct modal_fit *fit);
 
-/* Mean square of the residual over its standard deviation in channel c within `widths` half-power bandwidths of mode r: 1 where
- * the noise is what it was taken for; 1 too where fewer than four lines tell. */
-double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths);
+/* Mean square of the residual over its standard deviation in each channel within `widths` half-power bandwidths of each of the
+ * modes 0 ... count - 1, to noise [nchannel * count]: 1 where the noise is what it was taken for; 1 too where fewer than four lines
+ * tell. At fit->pole as it was evaluated last. */
+void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths, double *noise);
 
 /* The lines of the band within `widths` half-power bandwidths 2 |Re lambda| of a pole, at least ten on each side; every second,
  * third ... of those further than three bandwidths from all poles where there would be more than `most`. Returns their number,
