@@ -96,23 +96,44 @@ static void put(double *column, int nline, int i, double re, double im)
     column[i + nline] = im;
 }
 
-/* In real arithmetic: complex division and product of C guard against infinities at ten times the cost. */
-static void fill_mode(const struct modal_fit *fit, double complex pole, double *phi, double *psi)
+/* In real arithmetic: complex division and product of C guard against infinities at ten times the cost. psi may be NULL. */
+static void fill_mode(int n, const double *at, double complex pole, double *phi, double *psi)
 {
-    int n = fit->nline;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
     double a = creal(pole), b = cimag(pole);
     for (int i = 0; i < n; i++) {
-        double nu = fit->nu[i], square = -nu * nu, below = nu - b, above = nu + b;
+        double nu = at[i], square = -nu * nu, below = nu - b, above = nu + b;
         /* g = 1/(-a + i (nu - b)), mirror = 1/(-a + i (nu + b)) */
         double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above);
         double gr = -a * d, gi = -below * d, mr = -a * e, mi = -above * e;
-        double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
         put(phi, n, i, square * (gr + mr), square * (gi + mi));
         put(phi + rows, n, i, -square * (gi - mi), square * (gr - mr));
+        if (!psi)
+            continue;
+        double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
         put(psi, n, i, square * (g2r + m2r), square * (g2i + m2i));
         put(psi + rows, n, i, -square * (g2i - m2i), square * (g2r - m2r));
     }
+}
+
+static void fill_rest(int n, const double *nu, double *rest)
+{
+    ptrdiff_t rows = (ptrdiff_t)2 * n;
+    for (int i = 0; i < n; i++) {
+        double square = -nu[i] * nu[i];
+        put(rest, n, i, 1, 0);
+        put(rest + rows, n, i, 0, 1);
+        put(rest + 2 * rows, n, i, square, 0);
+        put(rest + 3 * rows, n, i, 0, square);
+    }
+}
+
+void modal_fit_columns(int nline, const double *nu, int nmode, const double complex *pole, double *phi)
+{
+    ptrdiff_t rows = (ptrdiff_t)2 * nline;
+    for (int r = 0; r < nmode; r++)
+        fill_mode(nline, nu, pole[r], phi + rows * 2 * r, NULL);
+    fill_rest(nline, nu, phi + rows * 2 * nmode);
 }
 
 static void fill_basis(struct modal_fit *fit)
@@ -120,15 +141,8 @@ static void fill_basis(struct modal_fit *fit)
     int n = fit->nline, m = fit->nmode;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
     for (int r = 0; r < m; r++)
-        fill_mode(fit, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
-    double *rest = fit->basis + rows * 2 * m;
-    for (int i = 0; i < n; i++) {
-        double square = -fit->nu[i] * fit->nu[i];
-        put(rest, n, i, 1, 0);
-        put(rest + rows, n, i, 0, 1);
-        put(rest + 2 * rows, n, i, square, 0);
-        put(rest + 3 * rows, n, i, 0, square);
-    }
+        fill_mode(n, fit->nu, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
+    fill_rest(n, fit->nu, fit->basis + rows * 2 * m);
 }
 
 /* squares [nline]: of what channel c leaves, over its variance; rows: y less what the columns explain */

@@ -53,6 +53,9 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
  * vanishes by more than eps of a bandwidth. Returns sum chi2. Allocates nothing. */
 double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part);
 
+/* Columns of residues and rests, phi [2 nline * (2 nmode + 4)], on the lines nu of omega/scale for poles in that unit. */
+void modal_fit_columns(int nline, const double *nu, int nmode, const double complex *pole, double *phi);
+
 /* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
 void modal_fit_noise(struct modal_fit *fit);
 
