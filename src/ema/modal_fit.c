@@ -22,7 +22,7 @@ static size_t workspace(const struct modal_fit *fit)
     size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode, lines = (size_t)fit->nline;
     size_t rows = fit->weight ? 2 * lines * columns : 0, least = lines * (2 * TOGETHER + 1);
     if (is_summed(fit))
-        rows += ((size_t)modal_gram_functions(fit->nmode) + (size_t)fit->ncolumn + 3 * lines) * TOGETHER;
+        rows += ((size_t)modal_gram_functions(fit->nmode) + q + 3 * lines) * TOGETHER;
     return (rows > least ? rows : least) + columns * columns + q * q + q * (p + 1) + q + p * p;
 }
 
@@ -323,7 +323,7 @@ struct evaluation {
     int summed;
 };
 
-/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [ncolumn] */
+/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear] */
 static void sum_channels(const struct modal_fit *fit, int from, int count, double *work, double *sum, double *right)
 {
     int n = fit->nline;
@@ -338,18 +338,38 @@ static void sum_channels(const struct modal_fit *fit, int from, int count, doubl
         }
     }
     product_transposed(modal_gram_functions(fit->nmode), count, n, fit->summed.table, square, sum);
-    product_transposed(fit->ncolumn, count, 2 * n, fit->basis, wy, right);
+    product_transposed(fit->nlinear, count, 2 * n, fit->basis, wy, right);
 }
 
-static double weighted_square(const struct modal_fit *fit, int c)
+/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times the
+ * signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace. */
+static void settle_channels(struct modal_fit *fit, int from, int count, enum modal_fit_part part, double *rest, double *right)
 {
-    const double *weight = fit->weight + (ptrdiff_t)c * fit->nline, *y = fit->y + (ptrdiff_t)2 * fit->nline * c;
-    double sum = 0;
-    for (int i = 0; i < fit->nline; i++) {
-        double re = weight[i] * y[i], im = weight[i] * y[i + fit->nline];
-        sum += re * re + im * im;
+    int n = fit->nline, p = 2 * fit->nmode, q = fit->nlinear;
+    memcpy(rest, fit->y + (ptrdiff_t)2 * n * from, 2 * (size_t)n * (size_t)count * sizeof(double));
+    product_subtract(2 * n, count, q, fit->basis, fit->linear + (ptrdiff_t)q * from, rest);
+    for (int c = 0; c < count; c++) {
+        const double *weight = fit->weight + (ptrdiff_t)(from + c) * n;
+        double *left = rest + (ptrdiff_t)2 * n * c, sum = 0;
+        for (int i = 0; i < n; i++) {
+            double w = weight[i] * weight[i], re = left[i], im = left[i + n];
+            sum += w * (re * re + im * im);
+            left[i] = w * re;
+            left[i + n] = w * im;
+        }
+        fit->chi2[from + c] = sum;
     }
-    return sum;
+    if (part == MODAL_FIT_LINEAR)
+        return;
+    product_transposed(p, count, 2 * n, fit->basis + (ptrdiff_t)2 * n * q, rest, right);
+    for (int c = 0; c < count; c++) {
+        const double *x = fit->linear + (ptrdiff_t)q * (from + c), *t = right + (ptrdiff_t)p * c;
+        double *score = fit->score + (ptrdiff_t)p * (from + c);
+        for (int k = 0; k < p && !fit->singular[from + c]; k += 2) {
+            score[k] = x[k] * t[k] + x[k + 1] * t[k + 1];
+            score[k + 1] = x[k] * t[k + 1] - x[k + 1] * t[k];
+        }
+    }
 }
 
 static int evaluate_channels(void *context, int index, int worker)
@@ -368,8 +388,9 @@ static int evaluate_channels(void *context, int index, int worker)
             flat_gram(fit, c, gram);
         } else if (evaluation->summed) {
             modal_gram_assemble(&fit->summed, sum + (ptrdiff_t)k * functions, gram);
-            memcpy(gram + (all - 1) * all, right + k * (all - 1), (size_t)(all - 1) * sizeof(double));
-            gram[all * all - 1] = weighted_square(fit, c);
+            /* score and chi2, which ask for the rest of the column, come afterwards */
+            memset(gram + (all - 1) * all, 0, (size_t)all * sizeof(double));
+            memcpy(gram + (all - 1) * all, right + k * q, (size_t)q * sizeof(double));
         } else {
             channel_gram(fit, c, evaluation->part, rows, gram);
         }
@@ -377,6 +398,8 @@ static int evaluate_channels(void *context, int index, int worker)
         if (evaluation->part == MODAL_FIT_SPREAD)
             channel_spread(fit, c, rest, rest + q * q + q * (p + 1));
     }
+    if (evaluation->summed)
+        settle_channels(fit, from, count, evaluation->part, rows, right);
     return 0;
 }
 
