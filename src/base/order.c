@@ -14,6 +14,31 @@ void sort_doubles(size_t count, double *value)
     qsort(value, count, sizeof *value, compare);
 }
 
+double double_of_rank(size_t count, size_t rank, double *value)
+{
+    /* Hoare's selection: all up to j are no more than the pivot, all from i on no less, and what is between is the pivot */
+    for (ptrdiff_t low = 0, high = (ptrdiff_t)count - 1, at = (ptrdiff_t)rank; low < high;) {
+        double pivot = value[at];
+        ptrdiff_t i = low, j = high;
+        while (i <= j) {
+            while (value[i] < pivot)
+                i++;
+            while (value[j] > pivot)
+                j--;
+            if (i > j)
+                break;
+            double kept = value[i];
+            value[i++] = value[j];
+            value[j--] = kept;
+        }
+        if (j < at)
+            low = i;
+        if (at < i)
+            high = j;
+    }
+    return value[rank];
+}
+
 double median_of(size_t count, double *x)
 {
     sort_doubles(count, x);

@@ -44,8 +44,7 @@ static void borrow_variance(const struct frf_set *set, struct ema_band *band, in
             if (frf->variance)
                 work[count++] = band->variance[i + (ptrdiff_t)j * band->nline] * (frf->averages > 0 ? frf->averages : 1);
         }
-        sort_doubles((size_t)count, work);
-        band->variance[i + (ptrdiff_t)k * band->nline] = work[count / 2] / (own->averages > 0 ? own->averages : 1);
+        band->variance[i + (ptrdiff_t)k * band->nline] = double_of_rank((size_t)count, (size_t)count / 2, work) / (own->averages > 0 ? own->averages : 1);
     }
 }
 
@@ -74,24 +73,26 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, int first, int la
     band->h = POOL_ARRAY(pool, double complex, size);
     band->variance = known ? POOL_ARRAY(pool, double, size) : NULL;
     double *raw = POOL_ARRAY(pool, double, n), *raw_of_line = POOL_ARRAY(pool, double, band->nchannel);
-    if (!raw_of_line || !band->omega || !band->channel || !band->h || (known && !band->variance) || !raw)
+    double complex *factor = POOL_ARRAY(pool, double complex, n);
+    if (!raw_of_line || !factor || !band->omega || !band->channel || !band->h || (known && !band->variance) || !raw)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         band->omega[i] = TWO_PI * set->frequency_hz[first + i];
+    for (int i = 0; i < n; i++)
+        factor[i] = ema_band_factor(set, band->omega[i]);
     band->low = n ? band->omega[0] : 0;
     band->high = n ? band->omega[n - 1] : 0;
     for (int c = 0, k = 0; c < set->nfrf; c++) {
         if (!usable[c])
             continue;
         double complex *h = band->h + (size_t)n * (size_t)k;
-        for (int i = 0; i < n; i++) {
-            h[i] = set->frf[c].h[first + i] * ema_band_factor(set, band->omega[i]);
-        }
+        for (int i = 0; i < n; i++)
+            h[i] = set->frf[c].h[first + i] * factor[i];
         if (known && set->frf[c].variance) {
             /* that of records is smooth already, and INFINITY where a line says nothing */
             half = set->frf[c].single ? 0 : smoothing_width(set->frf[c].averages);
             for (int i = 0; i < n; i++)
-                raw[i] = set->frf[c].variance[first + i] * pow(cabs(ema_band_factor(set, band->omega[i])), 2);
+                raw[i] = set->frf[c].variance[first + i] * pow(cabs(factor[i]), 2);
             smooth_variance(n, half, raw, band->variance + (size_t)n * (size_t)k);
         }
         band->channel[k++] = c;

@@ -23,6 +23,11 @@ static int is_finite(const struct frf *frf, int first, int last)
     return 1;
 }
 
+static double square(double complex z)
+{
+    return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
 /* Largest |H|, sum |H|^2; whether all values are the same */
 static double largest(const struct frf *frf, int first, int last, double *power, int *constant)
 {
@@ -30,31 +35,40 @@ static double largest(const struct frf *frf, int first, int last, double *power,
     *power = 0;
     *constant = 1;
     for (int i = first; i < last; i++) {
-        double size = cabs(frf->h[i]);
-        most = fmax(most, size);
-        *power += size * size;
+        double size = square(frf->h[i]);
+        most = size > most ? size : most;
+        *power += size;
         *constant = *constant && frf->h[i] == frf->h[first];
     }
-    return most;
+    return sqrt(most);
 }
 
-static int is_twin(const struct frf *a, const struct frf *b, int first, int last, double noise_a, double noise_b, double most)
+/* power: sum |H|^2 of each */
+static int is_twin(const struct frf *a, const struct frf *b, int first, int last, const double power[2], double noise_a,
+                   double noise_b, double most)
 {
-    double apart = 0, aa = 0, bb = 0;
-    double complex ab = 0;
+    double apart = 0, aa = 0, bb = 0, re = 0, im = 0, share = TWIN_SHARE * most * (TWIN_SHARE * most);
+    int separate = !(noise_a > TWIN_NOISE && noise_b > TWIN_NOISE && noise_a < 2 * noise_b && noise_b < 2 * noise_a);
     for (int i = first; i < last; i++) {
-        /* two channels in a thousand are alike: what differs shows at once */
-        if (i == first + EARLY && apart > TWIN_SHARE * most && cabs(ab) * cabs(ab) < 0.99 * TWIN_FRAC * aa * bb)
-            return 0;
-        apart = fmax(apart, cabs(a->h[i] - b->h[i]));
-        aa += creal(a->h[i] * conj(a->h[i]));
-        bb += creal(b->h[i] * conj(b->h[i]));
-        ab += conj(a->h[i]) * b->h[i];
+        if (i > first && (i - first) % EARLY == 0 && apart > share) {
+            double seen = re * re + im * im;
+            /* two channels in a thousand are alike: what differs shows at once */
+            if (separate || (i == first + EARLY && seen < 0.99 * TWIN_FRAC * aa * bb))
+                return 0;
+            /* or no rest could make up for it */
+            double rest = sqrt(fmax(power[0] - aa, 0) * fmax(power[1] - bb, 0)), best = sqrt(seen) + rest;
+            if (best * best < 0.9999999 * TWIN_FRAC * power[0] * power[1])
+                return 0;
+        }
+        double ar = creal(a->h[i]), ai = cimag(a->h[i]), br = creal(b->h[i]), bi = cimag(b->h[i]);
+        double dr = ar - br, di = ai - bi, away = dr * dr + di * di;
+        apart = away > apart ? away : apart;
+        aa += ar * ar + ai * ai;
+        bb += br * br + bi * bi;
+        re += ar * br + ai * bi;
+        im += ar * bi - ai * br;
     }
-    if (apart <= TWIN_SHARE * most)
-        return 1;
-    return noise_a > TWIN_NOISE && noise_b > TWIN_NOISE && noise_a < 2 * noise_b && noise_b < 2 * noise_a &&
-           cabs(ab) * cabs(ab) > TWIN_FRAC * aa * bb;
+    return apart <= share || (!separate && re * re + im * im > TWIN_FRAC * aa * bb);
 }
 
 /* rms of noise over rms of signal; sum of coherence by |H|^2, NaN where there is none */
@@ -63,7 +77,7 @@ static void noise_of(const struct frf *frf, int first, int last, double power, d
     double sum = 0, coherent = 0;
     for (int i = first; i < last; i++) {
         sum += frf->variance && isfinite(frf->variance[i]) ? frf->variance[i] : 0;
-        coherent += frf->coherence ? frf->coherence[i] * creal(frf->h[i] * conj(frf->h[i])) : 0;
+        coherent += frf->coherence ? frf->coherence[i] * square(frf->h[i]) : 0;
     }
     *noise = frf->variance && power > 0 ? sqrt(sum / power) : NAN;
     *coherence = frf->coherence && power > 0 ? coherent / power : NAN;
@@ -76,27 +90,28 @@ static int is_noisy(const struct frf *frf, int first, int last, double noise, do
         return 0;
     int bad = 0;
     for (int i = first; i < last; i++)
-        bad += sqrt(frf->variance[i]) > NOISY_RATIO * usual * cabs(frf->h[i]);
+        bad += frf->variance[i] > NOISY_RATIO * usual * (NOISY_RATIO * usual) * square(frf->h[i]);
     return bad * NOISY_LINES >= last - first;
 }
 
 int channels_check(struct pool *pool, const struct frf_set *set, int first, int last, struct ema_channel *channel, int *usable)
 {
     double *most = POOL_ARRAY(pool, double, set->nfrf), *sorted = POOL_ARRAY(pool, double, set->nfrf);
+    double *power = POOL_ARRAY(pool, double, set->nfrf);
     int *constant = POOL_ARRAY(pool, int, set->nfrf);
-    if (!most || !sorted || !constant)
+    if (!most || !sorted || !power || !constant)
         return ROTID_ERROR_MEMORY;
     size_t known = 0;
     for (int c = 0; c < set->nfrf; c++) {
-        double power, coherence;
+        double coherence;
         channel[c] = (struct ema_channel){.twin = -1, .fit = NAN, .noise = NAN};
         usable[c] = is_finite(&set->frf[c], first, last);
         if (!usable[c]) {
             channel[c].quality_flags = EMA_NOT_FINITE;
             continue;
         }
-        most[c] = largest(&set->frf[c], first, last, &power, &constant[c]);
-        noise_of(&set->frf[c], first, last, power, &channel[c].noise, &coherence);
+        most[c] = largest(&set->frf[c], first, last, &power[c], &constant[c]);
+        noise_of(&set->frf[c], first, last, power[c], &channel[c].noise, &coherence);
         if (coherence < LEAST_COHERENT)
             channel[c].quality_flags |= EMA_LOW_COHERENCE;
         sorted[known++] = most[c];
@@ -119,7 +134,8 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
             channel[c].quality_flags |= EMA_NOISY;
         for (int d = 0; d < c && channel[c].twin < 0; d++)
             if (usable[d] &&
-                is_twin(&set->frf[d], &set->frf[c], first, last, channel[d].noise, channel[c].noise, fmax(most[c], most[d]))) {
+                is_twin(&set->frf[d], &set->frf[c], first, last, (double[]){power[d], power[c]}, channel[d].noise,
+                        channel[c].noise, fmax(most[c], most[d]))) {
                 channel[c].twin = d;
                 channel[c].quality_flags |= EMA_DUPLICATE;
             }
@@ -145,10 +161,11 @@ int channels_compare(struct pool *pool, const struct frf_set *set, int first, in
         for (int i = 0; i < n; i++) {
             if (set->frequency_hz[first + i] <= 0)
                 continue;
-            hh += creal(h[i] * conj(h[i]));
-            mm += creal(model[i] * conj(model[i]));
-            hm += conj(h[i]) * model[i];
-            apart += creal((h[i] - model[i]) * conj(h[i] - model[i]));
+            double re = creal(h[i]), im = cimag(h[i]), to_re = creal(model[i]), to_im = cimag(model[i]);
+            hh += square(h[i]);
+            mm += square(model[i]);
+            hm += CMPLX(re * to_re + im * to_im, re * to_im - im * to_re);
+            apart += square(h[i] - model[i]);
         }
         out->channel[c].fit = hh > 0 && mm > 0 ? cabs(hm) * cabs(hm) / (hh * mm) : 0;
         left[c] = hh > 0 ? sqrt(apart / hh) : 0;

@@ -225,8 +225,9 @@ static int fit_modes(struct extraction *job)
         /* the scores of the channels tell cheaply whether they agree on the frequency */
         suspect[reported] = refinement.widened[(ptrdiff_t)2 * r + 1] > SUSPECT;
         for (int k = 0; k < band->nchannel; k++)
+            /* reported <= r: what has been read is written over */
             common[k + (ptrdiff_t)reported * band->nchannel] =
-                modal_fit_local_noise(&fit, k, r, NEAR_WIDTHS) * (fit.weight ? 1 : fit.sigma[k] * fit.sigma[k]);
+                common[k + (ptrdiff_t)r * band->nchannel] * (fit.weight ? 1 : fit.sigma[k] * fit.sigma[k]);
         out->mode[reported++] = mode;
     }
     if (others)

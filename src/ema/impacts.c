@@ -154,7 +154,7 @@ int impacts_spread(const struct pool *pool, const struct frf_set *set, int first
             for (int k = 0; k < fit->nchannel; k++)
                 if (i < averages(&j, k) && averages(&j, k) > 1)
                     leave_out(&j, k, i);
-            (void)modal_fit_evaluate(&j.fit, 0);
+            (void)modal_fit_evaluate(&j.fit, MODAL_FIT_LINEAR);
             for (int k = 0; k < fit->nchannel; k++)
                 memcpy(j.residue + size * (size_t)i + (size_t)2 * (size_t)fit->nmode * (size_t)k,
                        j.fit.linear + (ptrdiff_t)k * fit->nlinear, 2 * (size_t)fit->nmode * sizeof(double));

@@ -53,7 +53,7 @@ static void search(struct modal_fit *fit, double reach)
     int steps = (int)fmin(ceil(reach / fit->scale / half), 400);
     for (int j = -steps; j <= steps; j++) {
         fit->pole[0] = start + CMPLX(0, j * half);
-        double chi2 = modal_fit_evaluate(fit, 0);
+        double chi2 = modal_fit_evaluate(fit, MODAL_FIT_LINEAR);
         if (chi2 < least) {
             least = chi2;
             best = fit->pole[0];

@@ -1,4 +1,5 @@
 #include "ema/lscf.h"
+#include "ema/next_roots.h"
 #include "ema/poles.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@
 
 /* lines whose powers stand in memory at a time: 512 lines of 100 powers stay in the cache */
 #define BLOCK        512
-#define MOST_AT_ONCE 8 /* channels that share the powers of a block */
+#define MOST_AT_ONCE 24 /* channels that share the powers of a block */
 
 struct sums { /* a group of channels */
     const struct ema_band *band;
@@ -126,8 +127,7 @@ static void weights(const struct ema_band *band, double *spacing, double *median
         if (band->variance) {
             for (int i = 0; i < n; i++)
                 scratch[i] = 1 / band->variance[i + (ptrdiff_t)c * n];
-            sort_doubles((size_t)n, scratch);
-            median[c] = scratch[n / 2];
+            median[c] = double_of_rank((size_t)n, (size_t)n / 2, scratch);
             continue;
         }
         double sum = 0;
@@ -183,8 +183,9 @@ int lscf_poles(struct pool *pool, const struct ema_band *band, int order, int st
     int n = order + 1;
     double *block = POOL_ARRAY(pool, double, (size_t)order *(size_t)order), *right = POOL_ARRAY(pool, double, order);
     double *a = POOL_ARRAY(pool, double, order), *work = POOL_ARRAY(pool, double, polynomial_roots_workspace(order));
-    double complex *root = POOL_ARRAY(pool, double complex, order);
-    if (!block || !right || !a || !work || !root)
+    double complex *root = POOL_ARRAY(pool, double complex, order), *before = POOL_ARRAY(pool, double complex, order);
+    int *done = POOL_ARRAY(pool, int, order);
+    if (!block || !right || !a || !work || !root || !before || !done)
         return ROTID_ERROR_MEMORY;
     /* Without noise M is singular past the true order: a ridge at the rounding of the sums stands in for the noise. */
     for (double ridge = 1e-14;; ridge *= 10) {
@@ -202,8 +203,9 @@ int lscf_poles(struct pool *pool, const struct ema_band *band, int order, int st
     for (int i = 0, m = step; m <= order; i++, m += step) {
         memcpy(a, right, (size_t)m * sizeof(double));
         cholesky_backward_leading(m, order, block, a);
-        if (polynomial_roots(m, a, root, work))
+        if ((m == step || step != 2 || next_roots(m, a, before, root, done)) && polynomial_roots(m, a, root, work))
             return ROTID_ERROR_EIGEN;
+        memcpy(before, root, (size_t)m * sizeof *root);
         count[i] = keep_poles(band, m, root, pole + (ptrdiff_t)i * order);
     }
     return ROTID_OK;

@@ -7,11 +7,23 @@
 #include "linalg/cholesky.h"
 #include "linalg/product.h"
 
+/* Channels that share a product: their sums are the same however many threads there are. */
+#define TOGETHER 16
+/* From so many modes on sums of partial fractions are less work than products of columns */
+#define FEWEST 3
+
+static int is_summed(const struct modal_fit *fit)
+{
+    return fit->weight && fit->nmode >= FEWEST && fit->nchannel > 1;
+}
+
 static size_t workspace(const struct modal_fit *fit)
 {
-    size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode;
-    size_t rows = fit->weight ? 2 * (size_t)fit->nline * columns : 0;
-    return rows + columns * columns + q * q + q * (p + 1) + q * q + p * q + q + 2 * columns;
+    size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode, lines = (size_t)fit->nline;
+    size_t rows = fit->weight ? 2 * lines * columns : 0, least = lines * (2 * TOGETHER + 1);
+    if (is_summed(fit))
+        rows += ((size_t)modal_gram_functions(fit->nmode) + q + 3 * lines) * TOGETHER;
+    return (rows > least ? rows : least) + columns * columns + q * q + q * (p + 1) + q + p * p;
 }
 
 int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
@@ -45,6 +57,14 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->spread = POOL_ARRAY(pool, double, (size_t)q *(size_t)q *channels);
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
+    if (is_summed(fit)) {
+        fit->summed = (struct modal_gram){.nline = nline, .nmode = nmode};
+        fit->summed.table = POOL_ARRAY(pool, double, (size_t)nline *(size_t)modal_gram_functions(nmode));
+        fit->summed.a = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
+        fit->summed.b = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
+        if (!fit->summed.table || !fit->summed.a || !fit->summed.b)
+            return ROTID_ERROR_MEMORY;
+    }
     if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held ||
         !fit->loose || !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score ||
         !fit->mix || !fit->spread || !fit->singular || !fit->work)
@@ -76,34 +96,31 @@ static void put(double *column, int nline, int i, double re, double im)
     column[i + nline] = im;
 }
 
-/* In real arithmetic: complex division and product of C guard against infinities at ten times the cost. */
-static void fill_mode(const struct modal_fit *fit, double complex pole, double *phi, double *psi)
+/* In real arithmetic: complex division and product of C guard against infinities at ten times the cost. psi may be NULL. */
+static void fill_mode(int n, const double *at, double complex pole, double *phi, double *psi)
 {
-    int n = fit->nline;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
     double a = creal(pole), b = cimag(pole);
     for (int i = 0; i < n; i++) {
-        double nu = fit->nu[i], square = -nu * nu, below = nu - b, above = nu + b;
+        double nu = at[i], square = -nu * nu, below = nu - b, above = nu + b;
         /* g = 1/(-a + i (nu - b)), mirror = 1/(-a + i (nu + b)) */
         double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above);
         double gr = -a * d, gi = -below * d, mr = -a * e, mi = -above * e;
-        double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
         put(phi, n, i, square * (gr + mr), square * (gi + mi));
         put(phi + rows, n, i, -square * (gi - mi), square * (gr - mr));
+        if (!psi)
+            continue;
+        double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
         put(psi, n, i, square * (g2r + m2r), square * (g2i + m2i));
         put(psi + rows, n, i, -square * (g2i - m2i), square * (g2r - m2r));
     }
 }
 
-static void fill_basis(struct modal_fit *fit)
+static void fill_rest(int n, const double *nu, double *rest)
 {
-    int n = fit->nline, m = fit->nmode;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
-    for (int r = 0; r < m; r++)
-        fill_mode(fit, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
-    double *rest = fit->basis + rows * 2 * m;
     for (int i = 0; i < n; i++) {
-        double square = -fit->nu[i] * fit->nu[i];
+        double square = -nu[i] * nu[i];
         put(rest, n, i, 1, 0);
         put(rest + rows, n, i, 0, 1);
         put(rest + 2 * rows, n, i, square, 0);
@@ -111,59 +128,126 @@ static void fill_basis(struct modal_fit *fit)
     }
 }
 
-double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths)
+void modal_fit_columns(int nline, const double *nu, int nmode, const double complex *pole, double *phi)
 {
-    int n = fit->nline, q = fit->nlinear, count = 0;
-    double reach = widths * 2 * fabs(creal(fit->pole[r])), sum = 0;
-    const double *x = fit->linear + (ptrdiff_t)c * q, *y = fit->y + (ptrdiff_t)2 * n * c;
-    for (int i = 0; i < n; i++) {
-        if (fabs(fit->nu[i] - cimag(fit->pole[r])) > reach)
-            continue;
-        double weight = fit->weight ? fit->weight[i + (ptrdiff_t)c * n] : 1 / fit->sigma[c];
-        for (int part = i; part < 2 * n; part += n) {
-            double left = y[part];
-            for (int j = 0; j < q; j++)
-                left -= fit->basis[part + (ptrdiff_t)2 * n * j] * x[j];
-            sum += weight * weight * left * left;
-            count++;
-        }
-    }
-    return count >= 8 ? sum / count : 1;
+    ptrdiff_t rows = (ptrdiff_t)2 * nline;
+    for (int r = 0; r < nmode; r++)
+        fill_mode(nline, nu, pole[r], phi + rows * 2 * r, NULL);
+    fill_rest(nline, nu, phi + rows * 2 * nmode);
 }
 
-/* Gram matrix [(ncolumn + 1)^2] of basis and y, weighted. */
-static void channel_gram(const struct modal_fit *fit, int c, double *rows, double *gram)
+static void fill_basis(struct modal_fit *fit)
 {
-    int n = fit->nline, all = fit->ncolumn + 1;
-    if (!fit->weight) {
-        double w = 1 / (fit->sigma[c] * fit->sigma[c]);
-        for (int k = 0; k < fit->ncolumn; k++) {
-            for (int j = 0; j < fit->ncolumn; j++)
-                gram[j + (ptrdiff_t)k * all] = w * fit->gram[j + (ptrdiff_t)k * fit->ncolumn];
-            gram[fit->ncolumn + (ptrdiff_t)k * all] = gram[k + (ptrdiff_t)fit->ncolumn * all] =
-                w * fit->right[k + (ptrdiff_t)c * fit->ncolumn];
-        }
-        gram[(ptrdiff_t)all * all - 1] = w * fit->yy[c];
-        return;
+    int n = fit->nline, m = fit->nmode;
+    ptrdiff_t rows = (ptrdiff_t)2 * n;
+    for (int r = 0; r < m; r++)
+        fill_mode(n, fit->nu, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
+    fill_rest(n, fit->nu, fit->basis + rows * 2 * m);
+}
+
+/* squares [nline]: of what channel c leaves, over its variance; rows: y less what the columns explain */
+static void square_residual(const struct modal_fit *fit, int c, const double *rows, double *squares)
+{
+    int n = fit->nline;
+    double flat = fit->weight ? 1 : 1 / fit->sigma[c];
+    const double *weight = fit->weight ? fit->weight + (ptrdiff_t)c * n : NULL;
+    for (int i = 0; i < n; i++) {
+        double re = rows[i], im = rows[i + n], w = weight ? weight[i] : flat;
+        squares[i] = w * w * (re * re + im * im);
     }
+}
+
+/* Lines nu of [from, to] are first ... last - 1. */
+static void lines_within(const struct modal_fit *fit, double from, double to, int *first, int *last)
+{
+    for (*first = 0; *first < fit->nline && fit->nu[*first] < from;)
+        ++*first;
+    for (*last = *first; *last < fit->nline && fit->nu[*last] <= to;)
+        ++*last;
+}
+
+void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths, double *noise)
+{
+    int n = fit->nline, at_once = fit->nchannel < TOGETHER ? fit->nchannel : TOGETHER;
+    double *rows = fit->work[0], *squares = rows + (ptrdiff_t)2 * n * TOGETHER;
+    for (int from = 0; from < fit->nchannel; from += at_once) {
+        int channels = fit->nchannel - from < at_once ? fit->nchannel - from : at_once;
+        memcpy(rows, fit->y + (ptrdiff_t)2 * n * from, 2 * (size_t)n * (size_t)channels * sizeof(double));
+        product_subtract(2 * n, channels, fit->nlinear, fit->basis, fit->linear + (ptrdiff_t)fit->nlinear * from, rows);
+        for (int k = 0; k < channels; k++) {
+            square_residual(fit, from + k, rows + (ptrdiff_t)2 * n * k, squares);
+            for (int r = 0; r < count; r++) {
+                int first, last;
+                double centre = cimag(fit->pole[r]), reach = widths * 2 * fabs(creal(fit->pole[r])), sum = 0;
+                lines_within(fit, centre - reach, centre + reach, &first, &last);
+                for (int i = first; i < last; i++)
+                    sum += squares[i];
+                noise[from + k + (ptrdiff_t)r * fit->nchannel] = last - first >= 4 ? sum / (2 * (last - first)) : 1;
+            }
+        }
+    }
+}
+
+/* Gram matrix [(ncolumn + 1)^2] of basis and y with flat weights, from that of all channels. */
+static void flat_gram(const struct modal_fit *fit, int c, double *gram)
+{
+    int all = fit->ncolumn + 1;
+    double w = 1 / (fit->sigma[c] * fit->sigma[c]);
+    for (int k = 0; k < fit->ncolumn; k++) {
+        for (int j = 0; j < fit->ncolumn; j++)
+            gram[j + (ptrdiff_t)k * all] = w * fit->gram[j + (ptrdiff_t)k * fit->ncolumn];
+        gram[fit->ncolumn + (ptrdiff_t)k * all] = gram[k + (ptrdiff_t)fit->ncolumn * all] =
+            w * fit->right[k + (ptrdiff_t)c * fit->ncolumn];
+    }
+    gram[(ptrdiff_t)all * all - 1] = w * fit->yy[c];
+}
+
+/* The same by the weighted columns themselves, as many of them as `part` asks for. */
+static void channel_gram(const struct modal_fit *fit, int c, enum modal_fit_part part, double *rows, double *gram)
+{
+    int n = fit->nline, count = (part == MODAL_FIT_LINEAR ? fit->nlinear : fit->ncolumn) + 1;
+    ptrdiff_t all = (ptrdiff_t)fit->ncolumn + 1;
     const double *weight = fit->weight + (ptrdiff_t)c * n;
-    for (int k = 0; k < all; k++) {
-        const double *from = k < fit->ncolumn ? fit->basis + (ptrdiff_t)2 * n * k : fit->y + (ptrdiff_t)2 * n * c;
+    for (int k = 0; k < count; k++) {
+        const double *from = k < count - 1 ? fit->basis + (ptrdiff_t)2 * n * k : fit->y + (ptrdiff_t)2 * n * c;
         double *to = rows + (ptrdiff_t)2 * n * k;
         for (int i = 0; i < n; i++) {
             to[i] = weight[i] * from[i];
             to[i + n] = weight[i] * from[i + n];
         }
     }
-    product_gram(all, 2 * n, rows, gram);
+    product_gram(count, 2 * n, rows, gram);
+    /* last first: a column moves up */
+    for (ptrdiff_t k = count - 1; k >= 0 && count < all; k--) {
+        ptrdiff_t to = (k == count - 1 ? all - 1 : k) * all;
+        memmove(gram + to, gram + k * count, (size_t)count * sizeof(double));
+        gram[to + all - 1] = gram[to + count - 1];
+    }
 }
 
-/* From the Gram matrix G: x = G_phi^-1 phi'y, derivatives D = psi B(x), schur = D'D - D'phi G_phi^-1 phi'D, score = D'(y - phi
- * x). */
-static void channel_solve(struct modal_fit *fit, int c, const double *gram, double *work)
+/* D' D of the derivatives D = psi B(x): by Re lambda a psi1 + b psi2, by Im lambda -b psi1 + a psi2, for a residue a + i b */
+static void derivative_products(int nmode, int q, const double *x, const double *gram, double *schur)
+{
+    ptrdiff_t all = 4 * (ptrdiff_t)nmode + 5, p = 2 * (ptrdiff_t)nmode;
+    for (int s = 0; s < nmode; s++)
+        for (int r = 0; r <= s; r++) {
+            const double *one = gram + q + 2 * r + (q + 2 * s) * all, *two = one + all, *u = x + 2 * (ptrdiff_t)r,
+                         *v = x + 2 * (ptrdiff_t)s;
+            double left[2][2] = {{u[0] * one[0] + u[1] * one[1], u[0] * two[0] + u[1] * two[1]},
+                                 {u[0] * one[1] - u[1] * one[0], u[0] * two[1] - u[1] * two[0]}};
+            for (int i = 0; i < 2; i++) {
+                ptrdiff_t j = 2 * r + i, k = 2 * s;
+                schur[j + k * p] = schur[k + j * p] = left[i][0] * v[0] + left[i][1] * v[1];
+                schur[j + (k + 1) * p] = schur[k + 1 + j * p] = left[i][1] * v[0] - left[i][0] * v[1];
+            }
+        }
+}
+
+/* From the Gram matrix G: x = G_phi^-1 phi'y, derivatives D, schur = D'D - D'phi G_phi^-1 phi'D, score = D'(y - phi x). */
+static void channel_solve(struct modal_fit *fit, int c, enum modal_fit_part part, const double *gram, double *work)
 {
     int q = fit->nlinear, p = 2 * fit->nmode, all = fit->ncolumn + 1;
-    double *factor = work, *b = factor + (ptrdiff_t)q * q, *saved = b + (ptrdiff_t)q * (p + 1), *scale = saved + (ptrdiff_t)q * p;
+    double *factor = work, *b = factor + (ptrdiff_t)q * q, *scale = b + (ptrdiff_t)q * (p + 1), *square = scale + q;
     double *x = fit->linear + (ptrdiff_t)c * q, *mix = fit->mix + (ptrdiff_t)c * q * p;
     double *schur = fit->schur + (ptrdiff_t)c * p * p, *score = fit->score + (ptrdiff_t)c * p;
     const double *y = gram + (ptrdiff_t)fit->ncolumn * all;
@@ -190,36 +274,32 @@ static void channel_solve(struct modal_fit *fit, int c, const double *gram, doub
         gained += x[j] * y[j];
     }
     fit->chi2[c] = fmax(y[fit->ncolumn] - gained, 0);
-    /* D = Psi B: by Re lambda a psi1 + b psi2, by Im lambda -b psi1 + a psi2, for a residue a + i b */
-    for (int r = 0; r < fit->nmode; r++) {
-        double re = x[(ptrdiff_t)2 * r], im = x[(ptrdiff_t)2 * r + 1];
-        for (int part = 0; part < 2; part++) {
-            int k = 2 * r + part;
-            double f1 = part ? -im : re, f2 = part ? re : im;
-            const double *g1 = gram + (ptrdiff_t)(q + 2 * r) * all, *g2 = g1 + all;
-            double value = f1 * y[q + 2 * r] + f2 * y[q + 2 * r + 1];
-            for (int j = 0; j < q; j++) {
-                double entry = f1 * g1[j] + f2 * g2[j];
-                value -= entry * x[j];
-                b[j + (ptrdiff_t)k * q] = saved[j + (ptrdiff_t)k * q] = entry * scale[j];
-            }
-            score[k] = value;
-            for (int l = 0; l < p; l++) {
-                int other = l / 2;
-                double h1 = l % 2 ? -x[(ptrdiff_t)2 * other + 1] : x[(ptrdiff_t)2 * other],
-                       h2 = l % 2 ? x[(ptrdiff_t)2 * other] : x[(ptrdiff_t)2 * other + 1];
-                schur[l + (ptrdiff_t)k * p] = h1 * (f1 * g1[q + 2 * other] + f2 * g2[q + 2 * other]) +
-                                              h2 * (f1 * g1[q + 2 * other + 1] + f2 * g2[q + 2 * other + 1]);
-            }
+    if (part == MODAL_FIT_LINEAR)
+        return;
+    for (int k = 0; k < p; k++) {
+        ptrdiff_t first = k - k % 2;
+        double f1 = k % 2 ? -x[first + 1] : x[first], f2 = k % 2 ? x[first] : x[first + 1];
+        const double *g1 = gram + (q + first) * all, *g2 = g1 + all;
+        double value = f1 * y[q + first] + f2 * y[q + first + 1], *column = b + (ptrdiff_t)k * q;
+        for (int j = 0; j < q; j++) {
+            double entry = f1 * g1[j] + f2 * g2[j];
+            value -= entry * x[j];
+            column[j] = entry * scale[j];
         }
+        score[k] = value;
     }
-    cholesky_solve(q, factor, p, b);
-    for (int k = 0; k < p; k++)
-        for (int l = 0; l < p; l++)
-            schur[l + (ptrdiff_t)k * p] -= product_dot(q, saved + (ptrdiff_t)l * q, b + (ptrdiff_t)k * q);
-    for (int k = 0; k < p; k++)
-        for (int j = 0; j < q; j++)
-            mix[j + (ptrdiff_t)k * q] = b[j + (ptrdiff_t)k * q] * scale[j];
+    if (part == MODAL_FIT_SPREAD) {
+        memcpy(mix, b, (size_t)q * (size_t)p * sizeof(double));
+        cholesky_solve(q, factor, p, mix);
+        for (int k = 0; k < p; k++)
+            for (int j = 0; j < q; j++)
+                mix[j + (ptrdiff_t)k * q] *= scale[j];
+    }
+    derivative_products(fit->nmode, q, x, gram, schur);
+    cholesky_forward(q, factor, p, b);
+    product_gram(p, q, b, square);
+    for (int k = 0; k < p * p; k++)
+        schur[k] -= square[k];
 }
 
 static void channel_spread(struct modal_fit *fit, int c, double *factor, const double *scale)
@@ -239,31 +319,104 @@ static void channel_spread(struct modal_fit *fit, int c, double *factor, const d
 
 struct evaluation {
     struct modal_fit *fit;
-    int with_spread;
+    enum modal_fit_part part;
+    int summed;
 };
 
-static int evaluate_channel(void *context, int c, int worker)
+/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear] */
+static void sum_channels(const struct modal_fit *fit, int from, int count, double *work, double *sum, double *right)
+{
+    int n = fit->nline;
+    double *square = work, *wy = square + (ptrdiff_t)TOGETHER * n;
+    for (int c = 0; c < count; c++) {
+        const double *weight = fit->weight + (ptrdiff_t)(from + c) * n, *y = fit->y + (ptrdiff_t)2 * n * (from + c);
+        for (int i = 0; i < n; i++) {
+            double w = weight[i] * weight[i];
+            square[i + (ptrdiff_t)c * n] = w;
+            wy[i + (ptrdiff_t)2 * n * c] = w * y[i];
+            wy[i + n + (ptrdiff_t)2 * n * c] = w * y[i + n];
+        }
+    }
+    product_transposed(modal_gram_functions(fit->nmode), count, n, fit->summed.table, square, sum);
+    product_transposed(fit->nlinear, count, 2 * n, fit->basis, wy, right);
+}
+
+/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times the
+ * signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace. */
+static void settle_channels(struct modal_fit *fit, int from, int count, enum modal_fit_part part, double *rest, double *right)
+{
+    int n = fit->nline, p = 2 * fit->nmode, q = fit->nlinear;
+    memcpy(rest, fit->y + (ptrdiff_t)2 * n * from, 2 * (size_t)n * (size_t)count * sizeof(double));
+    product_subtract(2 * n, count, q, fit->basis, fit->linear + (ptrdiff_t)q * from, rest);
+    for (int c = 0; c < count; c++) {
+        const double *weight = fit->weight + (ptrdiff_t)(from + c) * n;
+        double *left = rest + (ptrdiff_t)2 * n * c, sum = 0;
+        for (int i = 0; i < n; i++) {
+            double w = weight[i] * weight[i], re = left[i], im = left[i + n];
+            sum += w * (re * re + im * im);
+            left[i] = w * re;
+            left[i + n] = w * im;
+        }
+        fit->chi2[from + c] = sum;
+    }
+    if (part == MODAL_FIT_LINEAR)
+        return;
+    product_transposed(p, count, 2 * n, fit->basis + (ptrdiff_t)2 * n * q, rest, right);
+    for (int c = 0; c < count; c++) {
+        const double *x = fit->linear + (ptrdiff_t)q * (from + c), *t = right + (ptrdiff_t)p * c;
+        double *score = fit->score + (ptrdiff_t)p * (from + c);
+        for (int k = 0; k < p && !fit->singular[from + c]; k += 2) {
+            score[k] = x[k] * t[k] + x[k + 1] * t[k + 1];
+            score[k + 1] = x[k] * t[k + 1] - x[k + 1] * t[k];
+        }
+    }
+}
+
+static int evaluate_channels(void *context, int index, int worker)
 {
     const struct evaluation *evaluation = context;
     struct modal_fit *fit = evaluation->fit;
+    int from = index * TOGETHER, count = fit->nchannel - from < TOGETHER ? fit->nchannel - from : TOGETHER;
+    int functions = modal_gram_functions(fit->nmode);
     ptrdiff_t all = fit->ncolumn + 1, q = fit->nlinear, p = 2 * (ptrdiff_t)fit->nmode;
-    double *gram = fit->work[worker], *rest = gram + all * all, *rows = rest + q * q + q * (p + 1) + q * p + q;
-    channel_gram(fit, c, rows, gram);
-    channel_solve(fit, c, gram, rest);
-    if (evaluation->with_spread)
-        channel_spread(fit, c, rest, rest + q * q + q * (p + 1) + q * p);
+    double *gram = fit->work[worker], *rest = gram + all * all, *rows = rest + q * q + q * (p + 1) + q + p * p;
+    double *sum = rows + (ptrdiff_t)3 * fit->nline * TOGETHER, *right = sum + (ptrdiff_t)functions * TOGETHER;
+    if (evaluation->summed)
+        sum_channels(fit, from, count, rows, sum, right);
+    for (int k = 0, c = from; k < count; k++, c++) {
+        if (!fit->weight) {
+            flat_gram(fit, c, gram);
+        } else if (evaluation->summed) {
+            modal_gram_assemble(&fit->summed, sum + (ptrdiff_t)k * functions, gram);
+            /* score and chi2, which ask for the rest of the column, come afterwards */
+            memset(gram + (all - 1) * all, 0, (size_t)all * sizeof(double));
+            memcpy(gram + (all - 1) * all, right + k * q, (size_t)q * sizeof(double));
+        } else {
+            channel_gram(fit, c, evaluation->part, rows, gram);
+        }
+        channel_solve(fit, c, evaluation->part, gram, rest);
+        if (evaluation->part == MODAL_FIT_SPREAD)
+            channel_spread(fit, c, rest, rest + q * q + q * (p + 1));
+    }
+    if (evaluation->summed)
+        settle_channels(fit, from, count, evaluation->part, rows, right);
     return 0;
 }
 
-double modal_fit_evaluate(struct modal_fit *fit, int with_spread)
+double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part)
 {
+    int n = fit->nline;
     fill_basis(fit);
     if (!fit->weight) {
-        product_gram(fit->ncolumn, 2 * fit->nline, fit->basis, fit->gram);
-        product_transposed(fit->ncolumn, fit->nchannel, 2 * fit->nline, fit->basis, fit->y, fit->right);
+        product_gram(fit->ncolumn, 2 * n, fit->basis, fit->gram);
+        product_transposed(fit->ncolumn, fit->nchannel, 2 * n, fit->basis, fit->y, fit->right);
     }
-    struct evaluation evaluation = {fit, with_spread};
-    (void)parallel_for(fit->threads, fit->nchannel, evaluate_channel, &evaluation);
+    struct evaluation evaluation = {fit, part, 0};
+    if (is_summed(fit) && modal_gram_is_good(fit->nmode, fit->pole, (fit->nu[n - 1] - fit->nu[0]) / n)) {
+        modal_gram_fill(&fit->summed, fit->nu, fit->pole);
+        evaluation.summed = 1;
+    }
+    (void)parallel_for(fit->threads, (fit->nchannel + TOGETHER - 1) / TOGETHER, evaluate_channels, &evaluation);
     double sum = 0;
     for (int c = 0; c < fit->nchannel; c++)
         sum += fit->chi2[c];

@@ -12,6 +12,10 @@
 #include "base/complex.h"
 #include "base/pool.h"
 #include "ema/band.h"
+#include "ema/modal_gram.h"
+
+/* what modal_fit_evaluate leaves: chi2, linear, singular; score and schur as well; mix and spread as well */
+enum modal_fit_part { MODAL_FIT_LINEAR, MODAL_FIT_POLES, MODAL_FIT_SPREAD };
 
 struct modal_fit {
     int nline, nchannel, nmode, nlinear, ncolumn; /* nlinear = 2 nmode + 4 of phi, L, U; ncolumn = nlinear + 2 nmode */
@@ -27,6 +31,7 @@ struct modal_fit {
     int *held;                                    /* [nmode] nonzero: refine_poles leaves the pole where it is */
     double *basis;                                /* [2 nline * ncolumn] */
     double *gram, *right;                         /* flat weights: [ncolumn^2] and [ncolumn * nchannel] */
+    struct modal_gram summed;                     /* weights of each channel */
     int threads;
     double **work;
     /* of each channel, after modal_fit_evaluate: */
@@ -44,16 +49,20 @@ struct modal_fit {
 int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
                   int threads, struct modal_fit *fit);
 
-/* Everything of each channel at fit->pole; with spread too where asked for. Normal equations with scaled columns: their rounding
- * does not move where the score vanishes by more than eps of a bandwidth. Returns sum chi2. Allocates nothing. */
-double modal_fit_evaluate(struct modal_fit *fit, int with_spread);
+/* That part for each channel at fit->pole. Normal equations with scaled columns: their rounding does not move where the score
+ * vanishes by more than eps of a bandwidth. Returns sum chi2. Allocates nothing. */
+double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part);
+
+/* Columns of residues and rests, phi [2 nline * (2 nmode + 4)], on the lines nu of omega/scale for poles in that unit. */
+void modal_fit_columns(int nline, const double *nu, int nmode, const double complex *pole, double *phi);
 
 /* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
 void modal_fit_noise(struct modal_fit *fit);
 
-/* Mean square of the residual over its standard deviation in channel c within `widths` half-power bandwidths of mode r: 1 where
- * the noise is what it was taken for; 1 too where fewer than four lines tell. */
-double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths);
+/* Mean square of the residual over its standard deviation in each channel within `widths` half-power bandwidths of each of the
+ * modes 0 ... count - 1, to noise [nchannel * count]: 1 where the noise is what it was taken for; 1 too where fewer than four lines
+ * tell. At fit->pole as it was evaluated last. */
+void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths, double *noise);
 
 /* The lines of the band within `widths` half-power bandwidths 2 |Re lambda| of a pole, at least ten on each side; every second,
  * third ... of those further than three bandwidths from all poles where there would be more than `most`. Returns their number,

@@ -1,32 +1,37 @@
 #include "ema/noise.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "ema/modal_fit.h"
 #include "ema/refine.h"
 #include "ema/selection.h"
+#include "linalg/product.h"
 
 #define HALF_WIDTH 30 /* lines: the variance is then known to a tenth */
+#define BLOCK      256 /* lines at a time */
 #define EULER      0.5772156649015329
 #define ITERATIONS 4
 
-/* log |H - model|^2 of channel c on all lines. */
-static void residual(const struct ema_band *band, const struct modal_fit *fit, int c, double *square)
+/* log |H - model|^2 of the channels on a block of lines, from their columns at these lines, 2 lines times nlinear. rows [2 lines *
+ * nchannel] is workspace. */
+static void residual(const struct ema_band *band, const struct modal_fit *fit, int first, int lines, const double *columns,
+                     double *rows, double *square)
 {
-    const double *x = fit->linear + (ptrdiff_t)c * fit->nlinear, *rest = x + (ptrdiff_t)2 * fit->nmode;
-    for (int i = 0; i < band->nline; i++) {
-        double nu = band->omega[i] / fit->scale, re = 0, im = 0;
-        for (int r = 0; r < fit->nmode; r++) {
-            double a = creal(fit->pole[r]), b = cimag(fit->pole[r]), below = nu - b, above = nu + b;
-            double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above), p = x[(ptrdiff_t)2 * r],
-                   q = x[(ptrdiff_t)2 * r + 1];
-            /* (p + i q) (-a - i below) d + (p - i q) (-a - i above) e */
-            re += (-p * a + q * below) * d + (-p * a - q * above) * e;
-            im += (-q * a - p * below) * d + (q * a - p * above) * e;
+    for (int c = 0; c < band->nchannel; c++) {
+        const double complex *h = band->h + (ptrdiff_t)c * band->nline + first;
+        double *to = rows + (ptrdiff_t)2 * lines * c;
+        for (int i = 0; i < lines; i++) {
+            to[i] = creal(h[i]);
+            to[i + lines] = cimag(h[i]);
         }
-        double complex h = band->h[i + (ptrdiff_t)c * band->nline];
-        double left = creal(h) + nu * nu * (re + rest[2]) - rest[0], quadrature = cimag(h) + nu * nu * (im + rest[3]) - rest[1];
-        square[i] = log(fmax(left * left + quadrature * quadrature, 1e-300));
+    }
+    product_subtract(2 * lines, band->nchannel, fit->nlinear, columns, fit->linear, rows);
+    for (int c = 0; c < band->nchannel; c++) {
+        const double *from = rows + (ptrdiff_t)2 * lines * c;
+        double *to = square + (ptrdiff_t)c * band->nline + first;
+        for (int i = 0; i < lines; i++)
+            to[i] = log(fmax(from[i] * from[i] + from[i + lines] * from[i + lines], 1e-300));
     }
 }
 
@@ -70,11 +75,21 @@ int noise_from_residual(struct pool *pool, struct ema_band *band, int threads, c
     if (n == 0)
         return ROTID_OK;
     pool_open(&scratch, pool->allocator);
-    double *square = POOL_ARRAY(&scratch, double, lines);
+    double *square = POOL_ARRAY(&scratch, double, lines), *nu = POOL_ARRAY(&scratch, double, BLOCK);
     double *variance = band->variance ? band->variance : POOL_ARRAY(pool, double, lines *(size_t)band->nchannel);
-    int status = square && variance ? fit_all(&scratch, band, threads, environment, n, pole, &fit) : ROTID_ERROR_MEMORY;
+    double *columns = POOL_ARRAY(&scratch, double, 2 * (size_t)BLOCK * (2 * (size_t)n + 4));
+    double *rows = POOL_ARRAY(&scratch, double, 2 * (size_t)BLOCK * (size_t)band->nchannel);
+    int status = square && variance && nu && columns && rows ? fit_all(&scratch, band, threads, environment, n, pole, &fit)
+                                                            : ROTID_ERROR_MEMORY;
+    for (int first = 0; status == ROTID_OK && first < band->nline; first += BLOCK) {
+        int count = band->nline - first < BLOCK ? band->nline - first : BLOCK;
+        for (int i = 0; i < count; i++)
+            nu[i] = band->omega[first + i] / fit.scale;
+        modal_fit_columns(count, nu, n, fit.pole, columns);
+        residual(band, &fit, first, count, columns, rows, variance);
+    }
     for (int c = 0; status == ROTID_OK && c < band->nchannel; c++) {
-        residual(band, &fit, c, square);
+        memcpy(square, variance + (size_t)c * lines, lines * sizeof *square);
         smooth_logarithm(band->nline, square, variance + (size_t)c * lines);
     }
     if (status == ROTID_OK)

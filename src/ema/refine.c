@@ -132,7 +132,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
     int p = 2 * fit->nmode;
     double *information = refinement->work, *factor = information + (ptrdiff_t)p * p, *score = factor + (ptrdiff_t)p * p;
     double *scale = score + p, *delta = scale + p, mu = 1e-4;
-    double chi2 = modal_fit_evaluate(fit, 0);
+    double chi2 = modal_fit_evaluate(fit, MODAL_FIT_POLES);
     int fresh = 1, refused = 0, guarded = 0;
     for (int r = 0; r < fit->nmode; r++)
         guarded |= fit->loose[r];
@@ -157,7 +157,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
         for (int j = 0; j < p; j++)
             promised += score[j] * delta[j];
         memcpy(old, fit->pole, (size_t)fit->nmode * sizeof *old);
-        double size = move_poles(fit->nmode, old, delta, fit->pole), trial = modal_fit_evaluate(fit, 0);
+        double size = move_poles(fit->nmode, old, delta, fit->pole), trial = modal_fit_evaluate(fit, MODAL_FIT_POLES);
         refinement->iterations++;
         /* near the minimum chi2 no longer tells a small step from rounding: such a step is taken as it is */
         int small = size < 1e-5;
@@ -178,7 +178,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
         if (++refused > 12)
             break;
     }
-    (void)modal_fit_evaluate(fit, 1);
+    (void)modal_fit_evaluate(fit, MODAL_FIT_SPREAD);
     return ROTID_OK;
 }
 
@@ -244,7 +244,7 @@ int refine_poles(struct modal_fit *fit, int most, const rotid_environment *envir
     memcpy(start, fit->pole, (size_t)m * sizeof *start);
     refinement->iterations = 0;
     if (!fit->weight) {
-        (void)modal_fit_evaluate(fit, 0);
+        (void)modal_fit_evaluate(fit, MODAL_FIT_LINEAR);
         modal_fit_noise(fit);
     }
     for (int round = 0; round < rounds; round++) {

@@ -38,9 +38,9 @@ static double limit(int n)
     return 2 * n + 12 * sqrt(n) + 30;
 }
 
-/* sum |A|^2/var over the channels; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */
-static double significance(const struct ema_band *band, const struct modal_fit *fit, int r, double *share, int *seen_in,
-                           double complex *residue)
+/* sum |A|^2/var over the channels; noise [nchannel]: left around the mode; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */
+static double significance(const struct ema_band *band, const struct modal_fit *fit, int r, const double *noise, double *share,
+                           int *seen_in, double complex *residue)
 {
     int q = fit->nlinear, at = ema_band_line(band, cimag(fit->pole[r]) * fit->scale);
     at = at < band->nline ? at : band->nline - 1;
@@ -59,7 +59,7 @@ static double significance(const struct ema_band *band, const struct modal_fit *
             continue;
         double one = (a * a * vbb - 2 * a * b * vab + b * b * vaa) / determinant;
         /* what is left around the mode may exceed the noise of the channel: the noise of a line spectrum, or of a weak hammer */
-        one /= fmax(modal_fit_local_noise(fit, c, r, NOISE_WIDTHS), 1);
+        one /= fmax(noise[c], 1);
         sum += one;
         double size = cabs(CMPLX(a, b) / (I * nu - fit->pole[r])) * nu * nu,
                seen = cabs(band->h[at + (ptrdiff_t)c * band->nline]);
@@ -85,7 +85,7 @@ static double collinearity(const struct modal_fit *fit, int r, double complex *r
 
 /* How badly mode r fails, 0 where it does not. */
 static double failure(const struct ema_band *band, const struct modal_fit *fit, const struct refinement *refinement, int r,
-                      double *strength, double complex *residue)
+                      const double *noise, double *strength, double complex *residue)
 {
     int p = 2 * fit->nmode, n = fit->nchannel;
     double complex pole = fit->pole[r] * fit->scale;
@@ -99,7 +99,7 @@ static double failure(const struct ema_band *band, const struct modal_fit *fit, 
         if (isnan(refinement->covariance[j + (ptrdiff_t)j * p]))
             return 2.5;
     }
-    *strength = significance(band, fit, r, &share, &seen_in, residue);
+    *strength = significance(band, fit, r, noise, &share, &seen_in, residue);
     int at = ema_band_line(band, cimag(pole));
     at = at < 1 ? 1 : at > band->nline - 1 ? band->nline - 1 : at;
     double spacing = band->omega[at] - band->omega[at - 1];
@@ -181,7 +181,8 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     double *bad = POOL_ARRAY(scratch, double, count), *strength = POOL_ARRAY(scratch, double, count);
     double complex *residue = POOL_ARRAY(scratch, double complex, band->nchannel);
     double *peak = POOL_ARRAY(scratch, double, count), *sorted = POOL_ARRAY(scratch, double, count);
-    if (!line || !bad || !strength || !residue || !peak || !sorted)
+    double *noise = POOL_ARRAY(scratch, double, (size_t)count *(size_t)band->nchannel);
+    if (!line || !bad || !strength || !residue || !peak || !sorted || !noise)
         return ROTID_ERROR_MEMORY;
     int nline = modal_fit_lines(band, count, pole, FIT_WIDTHS, selection_lines(band, count, EARN_PRODUCTS), line);
     int status = refinement_open(scratch, band, nline, line, 0, band->nchannel, count, pole, threads, &fit, &refinement);
@@ -190,8 +191,9 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     status = refine_poles(&fit, round == REFINED ? ITERATIONS : 0, environment, &refinement);
     if (status != ROTID_OK)
         return status;
+    modal_fit_local_noise(&fit, count, NOISE_WIDTHS, noise);
     for (int r = 0; r < count; r++)
-        bad[r] = failure(band, &fit, &refinement, r, &strength[r], residue);
+        bad[r] = failure(band, &fit, &refinement, r, noise + (ptrdiff_t)r * band->nchannel, &strength[r], residue);
     for (int r = 0; r < count && round == SCREENING; r++)
         bad[r] = strength[r] < SCREEN * limit(band->nchannel);
     if (round != SCREENING)

@@ -5,44 +5,50 @@
 
 #include "uff/uff_reader.h"
 
-/* An IEEE number whose bytes stand in that order, on any machine. */
-static double decode(const unsigned char *byte, int size, int order)
+static uint32_t four_bytes(const unsigned char *byte, int order)
 {
-    uint64_t bits = 0;
-    for (int i = 0; i < size; ++i)
-        bits = bits << 8 | byte[order == 1 ? size - 1 - i : i];
-    double value;
-    if (size == 8) {
-        memcpy(&value, &bits, sizeof value);
-        return value;
+    /* written out, so that compilers see a load in it */
+    return order == 1 ? (uint32_t)byte[0] | (uint32_t)byte[1] << 8 | (uint32_t)byte[2] << 16 | (uint32_t)byte[3] << 24
+                      : (uint32_t)byte[3] | (uint32_t)byte[2] << 8 | (uint32_t)byte[1] << 16 | (uint32_t)byte[0] << 24;
+}
+
+/* IEEE numbers whose bytes stand in that order, on any machine: count of them, `from_step` bytes apart, to every to_step-th place. */
+static void decode(int count, const unsigned char *byte, int from_step, int size, int order, double *to, int to_step)
+{
+    for (int i = 0; i < count; ++i, byte += from_step, to += to_step) {
+        float single;
+        if (size == 8) {
+            uint64_t first = four_bytes(byte, order), second = four_bytes(byte + 4, order);
+            uint64_t bits = order == 1 ? second << 32 | first : first << 32 | second;
+            memcpy(to, &bits, sizeof *to);
+        } else {
+            uint32_t bits = four_bytes(byte, order);
+            memcpy(&single, &bits, sizeof single);
+            *to = single;
+        }
     }
-    float single;
-    uint32_t half = (uint32_t)bits;
-    memcpy(&single, &half, sizeof single);
-    return single;
 }
 
 /* Up to `limit` values from binary data, their numbers in turn to number. */
 static int take_binary(struct uff_reader *reader, int limit, double *number)
 {
-    unsigned char bytes[UFF_VALUE_LIMIT * 24] = {0};
+    unsigned char bytes[UFF_VALUE_LIMIT * 24];
     struct uff_values *values = &reader->values;
     int parts = values->per_value - !values->function.is_even, order = reader->binary.order;
     int size = values->x_size + values->y_size;
     int status = uff_take_bytes(&reader->lines, (size_t)limit * (size_t)size, bytes);
-    for (int i = 0; i < limit && status == ROTID_OK; ++i) {
-        const unsigned char *at = bytes + (ptrdiff_t)i * size;
-        double *to = number + (ptrdiff_t)i * values->per_value;
-        if (values->x_size)
-            *to++ = decode(at, values->x_size, order);
-        for (int k = 0; k < parts; ++k)
-            to[k] = decode(at + values->x_size + (ptrdiff_t)k * (values->y_size / parts), values->y_size / parts, order);
-        for (int k = 0; k < values->per_value; ++k)
-            if (!isfinite(number[i * values->per_value + k]))
-                return uff_fail(&reader->lines, 0, "value %lld of %lld is %g; expected a finite number", values->done + i + 1,
-                                values->function.count, number[i * values->per_value + k]);
-    }
-    return status;
+    if (status != ROTID_OK)
+        return status;
+    int first = values->per_value - parts, y_size = values->y_size / parts;
+    if (values->x_size)
+        decode(limit, bytes, size, values->x_size, order, number, values->per_value);
+    for (int k = 0; k < parts; ++k)
+        decode(limit, bytes + values->x_size + (ptrdiff_t)k * y_size, size, y_size, order, number + first + k, values->per_value);
+    for (int i = 0; i < limit * values->per_value; ++i)
+        if (!isfinite(number[i]))
+            return uff_fail(&reader->lines, 0, "value %lld of %lld is %g; expected a finite number",
+                            values->done + i / values->per_value + 1, values->function.count, number[i]);
+    return ROTID_OK;
 }
 
 /* One value from the lines of text. A '-1' alone in columns 5 and 6 is no value in any of the formats, but the end. */
@@ -79,17 +85,17 @@ static int check_binary(struct uff_reader *reader)
     return ROTID_OK;
 }
 
-/* One set of numbers to the places the caller wants them at. */
-static void hand_out(const struct uff_values *values, const double *number, double *x, double *real, double *imag)
+/* Sets of numbers to the places the caller wants them at. */
+static void hand_out(const struct uff_values *values, int count, const double *number, double *x, double *real, double *imag)
 {
     const struct uff_function *function = &values->function;
-    int y = !function->is_even;
-    if (x)
-        *x = function->is_even ? function->start + (double)values->done * function->step : number[0];
-    if (real)
-        *real = number[y];
-    if (imag)
-        *imag = values->per_value - y == 2 ? number[y + 1] : 0;
+    int y = !function->is_even, per = values->per_value;
+    for (int i = 0; x && i < count; ++i)
+        x[i] = function->is_even ? function->start + (double)(values->done + i) * function->step : number[i * per];
+    for (int i = 0; real && i < count; ++i)
+        real[i] = number[i * per + y];
+    for (int i = 0; imag && i < count; ++i)
+        imag[i] = per - y == 2 ? number[i * per + y + 1] : 0;
 }
 
 int uff_read_values(struct uff_reader *reader, long long most, double *x, double *real, double *imag, long long *got)
@@ -119,9 +125,11 @@ int uff_read_values(struct uff_reader *reader, long long most, double *x, double
         } else {
             status = take_text(reader, number);
         }
-        for (int i = 0; i < count && status == ROTID_OK; ++i, ++*got, ++values->done)
-            hand_out(values, number + (ptrdiff_t)i * values->per_value, x ? x + *got : NULL, real ? real + *got : NULL,
-                     imag ? imag + *got : NULL);
+        if (status != ROTID_OK)
+            break;
+        hand_out(values, count, number, x ? x + *got : NULL, real ? real + *got : NULL, imag ? imag + *got : NULL);
+        *got += count;
+        values->done += count;
     }
     if (status != ROTID_OK)
         *got = 0;
