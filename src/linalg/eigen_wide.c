@@ -160,8 +160,7 @@ static int choose_first_shift(struct eigen_wide *e)
     double *image = e->lanczos.image;
     pencil_multiply_mass(&e->pencil, e->count, e->ritz, image);
     for (int j = 0; j < e->block; j++)
-        e->value[j] =
-            j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
+        e->value[j] = j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
     pencil_multiply_stiffness(&e->pencil, e->count, e->ritz, image);
     for (int j = 0; j < e->count; j++)
         e->value[j] *= cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
