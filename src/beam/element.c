@@ -14,8 +14,7 @@ struct entries {
 /* matrix [16] := that of these entries */
 static void fill(const struct entries *p, double *matrix)
 {
-    const double rows[16] = {p->a, p->b, p->c,  p->d,  p->b, p->e, -p->d, p->f,
-                             p->c, -p->d, p->a, -p->b, p->d, p->f, -p->b, p->e};
+    const double rows[16] = {p->a, p->b, p->c, p->d, p->b, p->e, -p->d, p->f, p->c, -p->d, p->a, -p->b, p->d, p->f, -p->b, p->e};
     memcpy(matrix, rows, sizeof rows);
 }
 

@@ -125,3 +125,13 @@ double bootstrap_p(const struct bootstrap *b, double drop)
 {
     return tail(b->replicates, b->largest, drop);
 }
+
+#define SEEN 0.9 /* quantile that few replicates show */
+
+double bootstrap_extrapolated(const struct bootstrap *b)
+{
+    double seen = b->largest[(int)ceil(SEEN * b->replicates) - 1];
+    double looks = log(SEEN) / log1p(-chi_square_tail(seen, 1));
+    double passed = (1 - FAMILY_WISE) / ((1 - BLOCK_LEVEL) * (1 - BLOCK_LEVEL)); /* of one look: to this power */
+    return seen > 0 ? chi_square_limit(-expm1(log(passed) / looks), 1) : 0;
+}

@@ -24,4 +24,8 @@ int bootstrap_run(struct pool *pool, const struct scan *scan, int replicates, un
 /* Probability that the largest drop of a sound data set exceeds this one. */
 double bootstrap_p(const struct bootstrap *b, double drop);
 
+/* The threshold where the replicates are too few to show its tail: looks are taken for as many independent ones as make their 90
+ * % quantile, whose share of replicates beyond it is that of FAMILY_WISE which the two other tests leave to the scan. */
+double bootstrap_extrapolated(const struct bootstrap *b);
+
 #endif

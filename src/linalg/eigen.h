@@ -41,6 +41,7 @@ struct eigen_band {
     struct factor factor, inertia, indefinite;
     int by_arrow; /* K - lambda M is factored as an arrow, which is quicker where few are far */
     int *row;     /* [n] of it */
+    double *rows; /* [n * ARROW_SHIFTS] */
     struct arrow arrow;
     int *all; /* [n] 0 ... n - 1: no row is left out */
     rotid_matrix shifted;
@@ -64,8 +65,8 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
-/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their length,
- * and by the square of that in lambda. None is missed all the same. */
+/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
+ * length, and by the square of that in lambda. None is missed all the same. */
 void eigen_band_want(struct eigen_band *e, int from, int to);
 
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */

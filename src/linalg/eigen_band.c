@@ -38,7 +38,8 @@ static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct ei
     if (!e->by_arrow)
         return ROTID_OK;
     e->row = POOL_ARRAY(pool, int, n);
-    if (!e->row)
+    e->rows = POOL_ARRAY(pool, double, ARROW_SHIFTS *(size_t)n);
+    if (!e->row || !e->rows)
         return ROTID_ERROR_MEMORY;
     for (int i = 0, f = 0, inner = 0; i < n; i++)
         e->row[i] = f < nfar && structure->far[f] == i ? n - nfar + f++ : inner++;
@@ -244,7 +245,7 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
     int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;
-    int negative = e->by_arrow ? arrow_factor(&e->arrow, shift) : -1;
+    int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
     if (negative >= 0)
         return negative == expected;
     matrix_combine(1, k, -shift, m, &e->shifted);

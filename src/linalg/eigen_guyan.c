@@ -135,7 +135,8 @@ int eigen_guyan_new(struct pool *pool, const rotid_matrix *structure, int nc, co
     e->value = POOL_ARRAY(pool, double, columns);
     e->next = POOL_ARRAY(pool, double, columns);
     e->expected = POOL_ARRAY(pool, double, columns);
-    e->right = POOL_ARRAY(pool, double, (size_t)e->rows *columns);
+    size_t most_rows = columns > ARROW_SHIFTS ? columns : ARROW_SHIFTS;
+    e->right = POOL_ARRAY(pool, double, (size_t)e->rows *most_rows);
     e->y = POOL_ARRAY(pool, double, kept *columns);
     e->product = POOL_ARRAY(pool, double, kept *columns);
     e->squares = POOL_ARRAY(pool, double, 2 * columns * columns);
@@ -274,31 +275,46 @@ static void form_bordered(struct eigen_guyan *e)
             put(e, k->far[p], k->far[q], k->block[p + q * k->nfar], m->block[p + q * k->nfar]);
 }
 
-/* right := [M u; 0] of all pairs */
-static void form_right(struct eigen_guyan *e)
+/* One solution for each of `count` <= ARROW_SHIFTS pairs with its shift: y = u, right-hand sides [M u; 0]. Returns how many lost
+ * a pivot; those come first in pair and shift then, with a shift beside, as at a pair to the last digit. */
+static int solve_together(struct eigen_guyan *e, int count, int *pair, double *shift)
 {
-    matrix_multiply(&e->m, e->count, e->u, e->product);
-    memset(e->right, 0, (size_t)e->rows * (size_t)e->count * sizeof(double));
-    for (int j = 0; j < e->count; j++)
-        for (int k = 0; k < e->nkept; k++)
-            e->right[e->row[k] + (ptrdiff_t)j * e->rows] = e->product[k + (ptrdiff_t)j * e->nkept];
+    double sigma[ARROW_SHIFTS];
+    int negative[ARROW_SHIFTS], lost = 0, n = e->nkept;
+    for (int s = 0; s < ARROW_SHIFTS; s++)
+        sigma[s] = shift[s < count ? s : 0];
+    arrow_factor(&e->bordered, sigma, negative);
+    memset(e->right, 0, (size_t)e->rows * ARROW_SHIFTS * sizeof(double));
+    for (int s = 0; s < count; s++)
+        for (int k = 0; k < n && negative[s] >= 0; k++)
+            e->right[(ptrdiff_t)e->row[k] * ARROW_SHIFTS + s] = e->product[k + (ptrdiff_t)pair[s] * n];
+    arrow_solve(&e->bordered, e->right);
+    for (int s = 0; s < count; s++) {
+        for (int k = 0; k < n && negative[s] >= 0; k++)
+            e->y[k + (ptrdiff_t)pair[s] * n] = e->right[(ptrdiff_t)e->row[k] * ARROW_SHIFTS + s];
+        if (negative[s] < 0) {
+            pair[lost] = pair[s];
+            shift[lost++] = shift[s] * (1 + BESIDE);
+        }
+    }
+    return lost;
 }
 
-/* y of pairs begin ... end - 1; beside the shift where that loses a pivot, as it may at a pair to the last digit. Returns 1 where
- * there is none. */
-static int solve_pairs(struct eigen_guyan *e, double sigma, int begin, int end)
+/* y of the pairs that are not good yet. Returns 1 where one has no factor. */
+static int solve_open(struct eigen_guyan *e, const double *sigma)
 {
-    double *right = e->right + (ptrdiff_t)begin * e->rows;
-    int attempt = 0;
-    while (arrow_factor(&e->bordered, sigma) < 0)
-        if (attempt++ == ATTEMPTS)
+    int pair[ARROW_SHIFTS], waiting = 0, failures = 0;
+    double shift[ARROW_SHIFTS];
+    for (int j = 0; j < e->count || waiting;) {
+        for (; j < e->count && waiting < ARROW_SHIFTS; j++)
+            if (e->expected[j] > TOLERANCE) {
+                pair[waiting] = j;
+                shift[waiting++] = j < e->from ? -LOW * sigma[e->from] : sigma[j];
+            }
+        waiting = waiting ? solve_together(e, waiting, pair, shift) : 0;
+        failures += waiting;
+        if (failures > ATTEMPTS * e->count)
             return 1;
-        else
-            sigma *= 1 + BESIDE;
-    for (int j = begin; j < end; j++, right += e->rows) {
-        arrow_solve(&e->bordered, right);
-        for (int k = 0; k < e->nkept; k++)
-            e->y[k + (ptrdiff_t)j * e->nkept] = right[e->row[k]];
     }
     return 0;
 }
@@ -308,13 +324,10 @@ static int solve_pairs(struct eigen_guyan *e, double sigma, int begin, int end)
 static int iterate(struct eigen_guyan *e, const double *sigma)
 {
     int n = e->nkept, count = e->count;
-    form_right(e);
+    matrix_multiply(&e->m, count, e->u, e->product);
     memcpy(e->y, e->u, (size_t)n * (size_t)count * sizeof(double));
-    if (e->from && isinf(e->expected[0]) && solve_pairs(e, -LOW * sigma[e->from], 0, e->from))
+    if (solve_open(e, sigma))
         return 1;
-    for (int j = e->from; j < count; j++)
-        if (e->expected[j] > TOLERANCE && solve_pairs(e, sigma[j], j, j + 1))
-            return 1;
     memcpy(e->right, e->product, (size_t)n * (size_t)count * sizeof(double)); /* M times the vectors before */
     if (ritz_pairs(n, count, &e->k, &e->m, e->y, e->next, e->u, e->product, e->squares, e->work))
         return 1;
@@ -359,9 +372,9 @@ static void quotients(struct eigen_guyan *e)
 static int none_missed(struct eigen_guyan *e)
 {
     double above = e->value[e->count - 1] * (1 + COUNTED);
-    int negative = arrow_factor(&e->bordered, above);
+    int negative = arrow_count(&e->bordered, above);
     if (negative < 0)
-        negative = arrow_factor(&e->bordered, above * (1 + BESIDE));
+        negative = arrow_count(&e->bordered, above * (1 + BESIDE));
     return negative == e->count + e->nkept - e->nc;
 }
 

@@ -37,7 +37,7 @@ struct eigen_guyan {
     double *image;                   /* [longest piece * 4] */
     double *u;                       /* [nkept * count] */
     double *value, *next, *expected; /* [count] */
-    double *right;                   /* [rows * count] */
+    double *right;                   /* [rows * max(count, ARROW_SHIFTS)] */
     double *y, *product, *squares, *work;
 };
 

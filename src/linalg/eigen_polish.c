@@ -52,21 +52,46 @@ static int cluster_end(const struct eigen_band *e, int j)
     return j + 1;
 }
 
-/* By the arrow. Returns 1 where that has lost a pivot. */
-static int solve_by_arrow(struct eigen_band *e, double sigma, int begin, int end)
+/* image := (K - sigma M)^-1 image for `count` <= ARROW_SHIFTS pairs by the arrow. Those that lost a pivot are left and get the
+ * shift NAN. */
+static void solve_together(struct eigen_band *e, int count, const int *pair, double *sigma)
 {
-    double *row = e->work;
-    if (arrow_factor(&e->arrow, sigma) < 0)
-        return 1;
-    for (int j = begin; j < end; j++) {
-        double *x = e->image + (ptrdiff_t)j * e->n;
-        for (int i = 0; i < e->n; i++)
-            row[e->row[i]] = x[i];
-        arrow_solve(&e->arrow, row);
-        for (int i = 0; i < e->n; i++)
-            x[i] = row[e->row[i]];
+    double shift[ARROW_SHIFTS];
+    int negative[ARROW_SHIFTS], n = e->n;
+    for (int s = 0; s < ARROW_SHIFTS; s++)
+        shift[s] = sigma[pair[s < count ? s : 0]];
+    arrow_factor(&e->arrow, shift, negative);
+    for (int s = 0; s < ARROW_SHIFTS; s++)
+        for (int i = 0; i < n; i++)
+            e->rows[(ptrdiff_t)e->row[i] * ARROW_SHIFTS + s] =
+                s < count && negative[s] >= 0 ? e->image[i + (ptrdiff_t)pair[s] * n] : 0;
+    arrow_solve(&e->arrow, e->rows);
+    for (int s = 0; s < count; s++) {
+        for (int i = 0; i < n && negative[s] >= 0; i++)
+            e->image[i + (ptrdiff_t)pair[s] * n] = e->rows[(ptrdiff_t)e->row[i] * ARROW_SHIFTS + s];
+        if (negative[s] < 0)
+            sigma[pair[s]] = NAN;
     }
-    return 0;
+}
+
+/* sigma [count] := the shift of each pair that was solved, else NAN: pairs without a cluster of which more than the tolerance is
+ * expected. */
+static void solve_by_arrow(struct eigen_band *e, const double *expected, double *sigma)
+{
+    int pair[ARROW_SHIFTS], waiting = 0;
+    for (int begin = 0, end; begin < e->count; begin = end) {
+        end = cluster_end(e, begin);
+        if (end - begin > 1 || !(expected[begin] > TOLERANCE))
+            continue;
+        sigma[begin] = e->value[begin];
+        pair[waiting++] = begin;
+        if (waiting == ARROW_SHIFTS) {
+            solve_together(e, waiting, pair, sigma);
+            waiting = 0;
+        }
+    }
+    if (waiting)
+        solve_together(e, waiting, pair, sigma);
 }
 
 /* image [n * (end - begin)] := (K - sigma M)^-1 image with the shift of pairs begin ... end - 1, which is returned; NAN: singular
@@ -76,8 +101,6 @@ static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const r
     double scale = fabs(e->value[begin]) - e->shift, spread = e->value[end - 1] - e->value[begin],
            sigma = end - begin > 1 ? e->value[begin] - fmax(spread, OFFSET * scale) : e->value[begin];
     for (int attempt = 0; attempt < 2; attempt++, sigma -= OFFSET * scale) {
-        if (e->by_arrow && !solve_by_arrow(e, sigma, begin, end))
-            return sigma;
         matrix_combine(1, k, -sigma, m, &e->shifted);
         if (factor_compute(&e->indefinite, &e->shifted))
             continue;
@@ -112,6 +135,10 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
     double *sigma = e->shifts, *gap = sigma + count;
     matrix_multiply(m, count, e->ritz, e->mass_basis);
     memcpy(e->image, e->mass_basis, (size_t)n * (size_t)count * sizeof(double));
+    for (int j = 0; j < count; j++)
+        sigma[j] = NAN;
+    if (e->by_arrow)
+        solve_by_arrow(e, expected, sigma);
     for (int begin = 0, end; begin < count; begin = end) {
         int good = 1;
         end = cluster_end(e, begin);
@@ -121,7 +148,7 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
         if (good)
             memcpy(e->image + (ptrdiff_t)begin * n, e->ritz + (ptrdiff_t)begin * n,
                    (size_t)n * (size_t)(end - begin) * sizeof(double));
-        else if (isnan(at = solve_shifted(e, k, m, begin, end)))
+        else if (isnan(at = isnan(sigma[begin]) ? solve_shifted(e, k, m, begin, end) : sigma[begin]))
             return 1;
         if (begin > 0)
             distance = at - e->value[begin - 1];
