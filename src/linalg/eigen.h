@@ -60,8 +60,8 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
-/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their length,
- * and by the square of that in lambda. None is missed all the same. */
+/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
+ * length, and by the square of that in lambda. None is missed all the same. */
 void eigen_band_want(struct eigen_band *e, int from, int to);
 
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
@@ -86,6 +86,10 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
 
 /* As eigen_band_want, where that makes a difference. */
 void eigen_full_want(struct eigen_full *e, int from, int to);
+
+/* As eigen_wide_within and eigen_wide_vouch, where that makes a difference. */
+void eigen_full_within(struct eigen_full *e, double residual);
+void eigen_full_vouch(struct eigen_full *e);
 
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale; the dense solver needs none. */
 void eigen_full_begin(struct eigen_full *e, const double *phi);

@@ -39,8 +39,8 @@ void discrete_mass_properties(const struct discrete *discrete, struct mass_prope
 
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
  * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
- * Statuses of eigen_full_solve. */
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+ * Nothing is left on the pool. Statuses of eigen_full_solve. */
+int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
                          int *nrigid);
 
 /* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and
@@ -67,6 +67,9 @@ struct mesh_limit {
     double share;
     int counts;
 };
-struct mesh_limit discrete_mesh_limit(const struct discrete *discrete);
+struct mesh_limit discrete_mesh_limit(enum discretisation as);
+
+/* v := the motion u of the same rotor on another mesh, a beginning for its modes. Returns 0 where there is no such way: of beams. */
+int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v);
 
 #endif

@@ -103,11 +103,6 @@ int model_lateral_dof(const struct rotor_model *model, double z)
     return discrete_place_dof(&model->discrete, nearest);
 }
 
-struct mesh_limit model_mesh_limit(const struct rotor_model *model)
-{
-    return discrete_mesh_limit(&model->discrete);
-}
-
 void model_set(struct rotor_model *model, const double *x)
 {
     discrete_set(&model->discrete, x);

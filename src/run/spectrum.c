@@ -6,21 +6,69 @@
 #include "modal/prediction.h"
 #include "model/model.h"
 
+#define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes */
+/* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
+ * parameter. Of a solid, a third of whose solution a factor of M would be. */
+static int mass_is_positive(const struct models *models, const struct rotor *rotor, int nparameter,
+                            const struct parameter *parameter)
+{
+    int only_moduli = models_discretisation(models) == AS_SOLID && !rotor->neffect;
+    for (int p = 0; p < nparameter; p++)
+        only_moduli &= parameter[p].kind == PARAMETER_E || parameter[p].kind == PARAMETER_G;
+    return only_moduli;
+}
+
+/* What is kept of a solution: pairs from the rigid ones on. */
+struct solution {
+    struct rotor_model *model;
+    int size, pairs;
+    double *hz, *phi, *shape; /* [pairs] and [size * pairs], rigid ones first, [nmaster * count] without those */
+};
+
+/* The pairs of another mesh, where that has been solved and the model begins with none as many. */
+static int begin_with(struct pool *scratch, const struct solution *known, int pairs, struct rotor_model *model)
+{
+    rotid_model *equations = &model->equations;
+    if (!known || known->pairs < pairs || equations->nmodes >= pairs)
+        return ROTID_OK;
+    double *modes = POOL_ARRAY(scratch, double, (size_t)equations->n *(size_t)pairs);
+    if (!modes)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < pairs; j++)
+        if (!discrete_transfer(&known->model->discrete, known->phi + (ptrdiff_t)j * known->size, &model->discrete,
+                               modes + (ptrdiff_t)j * equations->n))
+            return ROTID_OK;
+    equations->modes = modes;
+    equations->nmodes = pairs;
+    return ROTID_OK;
+}
+
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. known: NULL, or the solution on another
+ * mesh. scratch: for what its solution takes */
 static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                      const struct parameter *parameter, const double *x, int refine, int *count, struct rotor_model *model,
-                      struct prediction *prediction)
+                      const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
+                      struct rotor_model *model, struct prediction *prediction)
 {
     int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
+    const double *shared = status ? NULL : model->equations.modes;
+    int nshared = status ? 0 : model->equations.nmodes;
     *count = *count < most ? *count : most;
+    if (!status)
+        status = begin_with(scratch, known, model->equations.nrigid + *count, model);
     if (!status)
         status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count,
                                 0, prediction);
-    if (!status)
+    model->equations.modes = shared; /* those of begin_with go with the scratch */
+    model->equations.nmodes = nshared;
+    if (!status) {
+        eigen_full_within(&prediction->full, WITHIN);
+        if (mass_is_positive(models, rotor, nparameter, parameter))
+            eigen_full_vouch(&prediction->full);
         status = prediction_compute(prediction, x);
+    }
     if (!status && !rotor->neffect) /* before candidates are tried, one after the other */
         status = models_keep_modes(models, model->equations.n, prediction->count, prediction->phi);
     return status;
@@ -50,29 +98,68 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
     return to;
 }
 
+/* The matrices and factors of a solution, ten times what is kept of it, go before the next one. */
+static int solve(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                 const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
+                 struct solution *out)
+{
+    struct pool scratch;
+    struct prediction p;
+    out->model = POOL_NEW(pool, struct rotor_model);
+    if (!out->model)
+        return ROTID_ERROR_MEMORY;
+    pool_open(&scratch, pool->allocator);
+    int status = full_model(pool, &scratch, models, rotor, nparameter, parameter, x, refine, known, count, out->model, &p);
+    if (!status) {
+        const rotid_model *equations = &out->model->equations;
+        out->size = p.size;
+        out->pairs = equations->nrigid + *count;
+        out->hz = POOL_ARRAY(pool, double, out->pairs);
+        out->phi = copy(pool, p.phi, p.size, out->pairs);
+        out->shape = POOL_ARRAY(pool, double, (size_t)equations->nmaster *(size_t)*count);
+        status = out->hz && out->phi && out->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
+        for (int j = 0; j < out->pairs && !status; j++)
+            out->hz[j] = prediction_hz(&p, j);
+        if (!status)
+            keep_shapes(out->model, &p, *count, out->shape);
+    }
+    pool_close(&scratch);
+    return status;
+}
+
 /* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO; full_hz: of the same mesh in full. */
-static int condensed_model(struct pool *pool, struct pool *scratch, struct rotor_model *model, const double *x, int reduction,
-                           const double *full_hz, struct spectrum *s)
+static int condense(struct pool *pool, struct pool *scratch, struct rotor_model *model, const double *x, int kind, int reduction,
+                    const double *full_hz, struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     struct prediction p;
-    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS; kind++) {
+    int status = prediction_new(scratch, &model->equations, kind, ROTID_NELSON, count, 0, &p);
+    if (!status)
+        status = prediction_compute(&p, x);
+    if (status)
+        return status;
+    if (kind == ROTID_GUYAN && !(s->mass = copy(pool, p.condensed.mc, s->nmaster, s->nmaster)))
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < s->count && kind == reduction; j++)
+        s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
+    return ROTID_OK;
+}
+
+static int condensed_model(struct pool *pool, struct rotor_model *model, const double *x, int reduction, const double *full_hz,
+                           struct spectrum *s)
+{
+    int status = ROTID_OK;
+    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS && !status; kind++) {
         if (kind == ROTID_IRS && reduction != ROTID_IRS)
             break;
-        int status = prediction_new(scratch, &model->equations, kind, ROTID_NELSON, count, 0, &p);
-        if (status)
-            return status;
-        status = prediction_compute(&p, x);
-        if (status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS)
-            return ROTID_OK; /* one sensor, say: nothing to condense onto, and nothing to report */
-        if (status)
-            return status;
-        if (kind == ROTID_GUYAN && !(s->mass = copy(pool, p.condensed.mc, s->nmaster, s->nmaster)))
-            return ROTID_ERROR_MEMORY;
-        for (int j = 0; j < s->count && kind == reduction; j++)
-            s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
+        struct pool scratch;
+        pool_open(&scratch, pool->allocator);
+        status = condense(pool, &scratch, model, x, kind, reduction, full_hz, s);
+        pool_close(&scratch);
     }
-    return ROTID_OK;
+    if (status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS)
+        return ROTID_OK; /* one sensor, say: nothing to condense onto, and nothing to report */
+    return status;
 }
 
 int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
@@ -82,76 +169,60 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
                                   SPECTRUM_MESH | SPECTRUM_REDUCED, spectrum);
 }
 
-/* The matrices and factors of a solution, ten times what is kept of it, are in the scratch. */
-static int compute(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                   const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct spectrum *s)
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *s)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *other = POOL_NEW(pool, struct rotor_model);
-    struct prediction p, q;
-    if (!model || !other)
-        return ROTID_ERROR_MEMORY;
+    struct solution own = {0}, other = {0};
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
+    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models));
+    int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
+    int status =
+        coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, NULL, &count, &other) : ROTID_OK;
+    if (!status)
+        status = solve(pool, models, rotor, nparameter, parameter, x, refine, coarse_first ? &other : NULL, &count, &own);
+    if (!status && meshed && !coarse_first)
+        status = solve(pool, models, rotor, nparameter, parameter, x, limit.refine, NULL, &count, &other);
     if (status)
         return status;
-    const struct mesh_limit limit = model_mesh_limit(model);
-    if (parts & SPECTRUM_MESH)
-        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, limit.refine, &count, other, &q);
-    double *meshed_hz = POOL_ARRAY(scratch, double, count);
-    if (status || !meshed_hz)
-        return status ? status : ROTID_ERROR_MEMORY;
-    *s = (struct spectrum){.nrigid = model->equations.nrigid,
+    const rotid_model *equations = &own.model->equations;
+    *s = (struct spectrum){.nrigid = equations->nrigid,
                            .count = count,
-                           .nmaster = model->equations.nmaster,
-                           .nnode = model->naxis,
-                           .model = model,
-                           .phi = copy(pool, p.phi + (ptrdiff_t)model->equations.nrigid * p.size, p.size, count)};
+                           .nmaster = equations->nmaster,
+                           .nnode = own.model->naxis,
+                           .model = own.model,
+                           .phi = own.phi + (ptrdiff_t)equations->nrigid * own.size,
+                           .shape = own.shape,
+                           .rigid_hz = own.hz};
     double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
-    s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
-    int alike = parts & SPECTRUM_MESH && other->equations.nmaster == s->nmaster;
-    s->other_shape = alike ? POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count) : NULL;
+    int alike = other.model && other.model->equations.nmaster == s->nmaster;
+    s->other_shape = alike ? other.shape : NULL;
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
-    s->rigid_hz = POOL_ARRAY(pool, double, s->nrigid);
-    if (!s->phi || !s->shape || (alike && !s->other_shape) || !s->master_z || !s->rigid_hz)
+    if (!s->master_z)
         return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < s->nrigid; j++)
-        s->rigid_hz[j] = prediction_hz(&p, j);
     for (int i = 0; i < s->nmaster; i++)
-        s->master_z[i] = model_master_z(model, i);
-    keep_shapes(model, &p, count, s->shape);
-    if (alike)
-        keep_shapes(other, &q, count, s->other_shape);
+        s->master_z[i] = model_master_z(own.model, i);
     for (int j = 0; j < count; j++) {
-        double hz = prediction_hz(&p, s->nrigid + j);
+        double hz = own.hz[s->nrigid + j];
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
-        s->full_hz[j] = meshed_hz[j] = hz;
-        if (!(parts & SPECTRUM_MESH))
+        s->full_hz[j] = hz;
+        if (!other.model)
             continue;
-        s->other_hz[j] = prediction_hz(&q, other->equations.nrigid + j);
+        s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
         double led_to = hz - limit.share * (s->other_hz[j] - hz);
         s->full_hz[j] = limit.counts ? led_to : hz;
         s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
     }
     /* what a condensation costs is seen on a coarse mesh as well */
-    int on_other = alike && other->equations.n < model->equations.n;
+    int on_other = alike && other.model->equations.n < equations->n;
     if (parts & SPECTRUM_REDUCED)
-        status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : meshed_hz, s);
+        status = condensed_model(pool, on_other ? other.model : own.model, x, reduction,
+                                 on_other ? s->other_hz : own.hz + s->nrigid, s);
     for (int j = 0; j < count && !status; j++)
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
-    return status;
-}
-
-int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
-                           struct spectrum *s)
-{
-    struct pool scratch;
-    pool_open(&scratch, pool->allocator);
-    int status = compute(pool, &scratch, models, rotor, nparameter, parameter, x, reduction, count, parts, s);
-    pool_close(&scratch);
     return status;
 }
 
