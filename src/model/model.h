@@ -31,7 +31,6 @@ double model_master_z(const struct rotor_model *model, int i);
 /* The lateral degree of freedom nearest to z. */
 int model_lateral_dof(const struct rotor_model *model, double z);
 
-
 /* Sets the parameters to x without solving anything: for mass and deflections. */
 void model_set(struct rotor_model *model, const double *x);
 
