@@ -24,9 +24,10 @@ int baseline_count(int nparam)
 }
 
 int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out)
+                 double *work, rotid_baseline *out, int *count)
 {
     (void)keep, (void)joint, (void)parameter, (void)environment, (void)work, (void)out;
+    *count = 0;
     return ROTID_OK;
 }
 
@@ -37,10 +38,10 @@ int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *
 static const struct {
     nlopt_algorithm algorithm;
     const char *name, *stage;
-    int least; /* parameters */
-} table[] = {{NLOPT_LN_BOBYQA, "LN_BOBYQA", "NLopt LN_BOBYQA, evaluation", 2},
-             {NLOPT_LN_SBPLX, "LN_SBPLX", "NLopt LN_SBPLX, evaluation", 1},
-             {NLOPT_LD_SLSQP, "LD_SLSQP", "NLopt LD_SLSQP, evaluation", 1}};
+    int least, costly; /* parameters; takes hundreds of evaluations */
+} table[] = {{NLOPT_LN_BOBYQA, "LN_BOBYQA", "NLopt LN_BOBYQA, evaluation", 2, 0},
+             {NLOPT_LN_SBPLX, "LN_SBPLX", "NLopt LN_SBPLX, evaluation", 1, 1},
+             {NLOPT_LD_SLSQP, "LD_SLSQP", "NLopt LD_SLSQP, evaluation", 1, 0}};
 
 #define ALGORITHMS ((int)(sizeof table / sizeof *table))
 
@@ -50,6 +51,18 @@ int baseline_count(int nparam)
     for (int a = 0; a < ALGORITHMS; a++)
         count += nparam >= table[a].least;
     return count;
+}
+
+#define COSTLY 1e7 /* n kd^2 of a factor: an evaluation takes some 30 ms, and Sbplx four times as many as BOBYQA */
+
+static int is_costly(const struct joint *joint)
+{
+    int costly = 0;
+    for (int s = 0; s < joint->nstate; s++) {
+        const rotid_matrix *k = &joint->part[s].functional.prediction.k;
+        costly |= (double)k->n * k->kd * k->kd > COSTLY;
+    }
+    return costly;
 }
 
 struct problem {
@@ -165,9 +178,10 @@ static void judge(int n, struct problem *problem, rotid_baseline *out)
 }
 
 int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out)
+                 double *work, rotid_baseline *out, int *count)
 {
-    int n = joint->nparam, status = ROTID_OK, count = 0;
+    int n = joint->nparam, status = ROTID_OK;
+    *count = 0;
     double *space = POOL_ARRAY(keep, double, 3 * n);
     if (!space)
         return ROTID_ERROR_MEMORY;
@@ -178,14 +192,14 @@ int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *
                               .r = work,
                               .jacobian = work + joint->nresidual};
     for (int a = 0; a < ALGORITHMS && !status; a++) {
-        if (n < table[a].least)
+        if (n < table[a].least || (table[a].costly && is_costly(joint)))
             continue;
-        out[count].x = POOL_ARRAY(keep, double, n);
-        status = out[count].x ? run_one(a, n, &problem, space + n, &out[count]) : ROTID_ERROR_MEMORY;
+        out[*count].x = POOL_ARRAY(keep, double, n);
+        status = out[*count].x ? run_one(a, n, &problem, space + n, &out[*count]) : ROTID_ERROR_MEMORY;
         if (problem.cancelled)
             return ROTID_STOP_CANCELLED;
         if (!status)
-            judge(n, &problem, &out[count++]);
+            judge(n, &problem, &out[(*count)++]);
     }
     return status;
 }

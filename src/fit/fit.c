@@ -352,11 +352,12 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);
     if (!status && n && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
-        status = baseline_run(keep, &fit->joint, fit->parameter, fit->environment, fit->work, fit->result->baseline);
+        int count;
+        status = baseline_run(keep, &fit->joint, fit->parameter, fit->environment, fit->work, fit->result->baseline, &count);
         if (status == ROTID_STOP_CANCELLED)
             status = ROTID_OK;
         else if (!status)
-            fit->result->nbaseline = baseline_count(n);
+            fit->result->nbaseline = count;
     }
     return status;
 }

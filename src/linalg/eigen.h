@@ -92,6 +92,10 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
 /* As eigen_band_want, where that makes a difference. */
 void eigen_full_want(struct eigen_full *e, int from, int to);
 
+/* As eigen_wide_within and eigen_wide_vouch, where that makes a difference. */
+void eigen_full_within(struct eigen_full *e, double residual);
+void eigen_full_vouch(struct eigen_full *e);
+
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale; the dense solver needs none. */
 void eigen_full_begin(struct eigen_full *e, const double *phi);
 

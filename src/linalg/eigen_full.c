@@ -41,8 +41,22 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
 
 void eigen_full_want(struct eigen_full *e, int from, int to)
 {
-    if (!e->dense && !e->wide)
+    if (e->wide)
+        eigen_wide_want(&e->panels, from, to);
+    else if (!e->dense)
         eigen_band_want(&e->band, from, to);
+}
+
+void eigen_full_within(struct eigen_full *e, double residual)
+{
+    if (e->wide)
+        eigen_wide_within(&e->panels, residual);
+}
+
+void eigen_full_vouch(struct eigen_full *e)
+{
+    if (e->wide)
+        eigen_wide_vouch(&e->panels);
 }
 
 void eigen_full_begin(struct eigen_full *e, const double *phi)

@@ -8,6 +8,7 @@
 
 #define TOLERANCE   2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
 #define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
+#define NEAR        1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define GUARDS      5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
@@ -16,11 +17,12 @@
 int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_wide *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
-    *e = (struct eigen_wide){.n = n, .count = count, .block = block};
+    *e = (struct eigen_wide){.n = n, .count = count, .block = block, .to = count, .within = TOLERANCE};
     e->all = POOL_ARRAY(pool, int, n);
     e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
     e->value = POOL_ARRAY(pool, double, block);
-    if (!e->all || !e->ritz || !e->value)
+    e->tolerance = POOL_ARRAY(pool, double, block);
+    if (!e->all || !e->ritz || !e->value || !e->tolerance)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;
@@ -39,6 +41,13 @@ static void take_pairs(struct eigen_wide *e)
         double theta = j < pairs ? lanczos_theta(&e->lanczos, j) : 0;
         e->value[j] = theta > 0 ? 1 / theta + e->shift : INFINITY;
     }
+}
+
+static int iterate(struct eigen_wide *e, int watched, double wanted, double others)
+{
+    for (int j = 0; j < e->block; j++)
+        e->tolerance[j] = j >= e->from && j < e->to ? wanted : others;
+    return lanczos_iterate(&e->lanczos, watched, e->tolerance);
 }
 
 /* The iteration begins with the vectors in ritz. */
@@ -70,7 +79,7 @@ static int start(struct eigen_wide *e)
     e->shift = -FIRST_SHIFT * e->largest;
     int status = begin(e);
     if (!status)
-        status = lanczos_iterate(&e->lanczos, e->block < 3 ? e->block : 3, ROUGH);
+        status = iterate(e, e->block < 3 ? e->block : 3, ROUGH, ROUGH);
     if (status)
         return status;
     take_pairs(e);
@@ -81,9 +90,9 @@ static int start(struct eigen_wide *e)
 static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     struct pencil *p = &e->pencil;
-    if (!pencil_take(p, k, m) || !e->definite)
+    if ((!pencil_take(p, k, m) || !e->definite) && !e->vouched)
         e->definite = !factor_compute(&e->factor, m);
-    if (!e->definite)
+    if (!e->definite && !e->vouched)
         return ROTID_ERROR_MASS;
     e->largest = 0;
     for (int i = 0; i < e->n; i++)
@@ -109,7 +118,7 @@ static int attempt(struct eigen_wide *e)
 {
     int status = begin(e), watched = e->count;
     for (int repair = 0; !status; repair++) {
-        status = lanczos_iterate(&e->lanczos, watched, TOLERANCE);
+        status = iterate(e, watched, e->within, fmax(e->within, NEAR));
         if (status)
             break;
         take_pairs(e);
@@ -147,6 +156,22 @@ static void give(struct eigen_wide *e, double *lambda, double *phi)
     }
 }
 
+void eigen_wide_want(struct eigen_wide *e, int from, int to)
+{
+    e->from = from;
+    e->to = to;
+}
+
+void eigen_wide_within(struct eigen_wide *e, double residual)
+{
+    e->within = residual;
+}
+
+void eigen_wide_vouch(struct eigen_wide *e)
+{
+    e->vouched = 1;
+}
+
 void eigen_wide_begin(struct eigen_wide *e, const double *phi)
 {
     memcpy(e->ritz, phi, (size_t)e->n * (size_t)e->count * sizeof *phi);
@@ -160,7 +185,8 @@ static int choose_first_shift(struct eigen_wide *e)
     double *image = e->lanczos.image;
     pencil_multiply_mass(&e->pencil, e->count, e->ritz, image);
     for (int j = 0; j < e->block; j++)
-        e->value[j] = j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
+        e->value[j] =
+            j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
     pencil_multiply_stiffness(&e->pencil, e->count, e->ritz, image);
     for (int j = 0; j < e->count; j++)
         e->value[j] *= cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);

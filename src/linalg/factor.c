@@ -45,7 +45,7 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, WIDE_COLUMNS *(size_t)n);
+    f->work = POOL_ARRAY(pool, double, (f->is_wide ? WIDE_COLUMNS : BAND_LANES) * (size_t)n);
     f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer); /* >= 2 BAND_LANES */
     f->same = POOL_ARRAY(pool, int, n);
     f->first = POOL_ARRAY(pool, int, outer);

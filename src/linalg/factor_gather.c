@@ -94,35 +94,56 @@ static int column_of_matrix(const struct factor *f, const rotid_matrix *a, int j
     return count;
 }
 
-static int column_of_pencil(const struct factor *f, const struct pencil *p, double shift, int j)
+/* The last inner row of column j of the source, -1 where there is none; rows of the entries increase, and so do positions. */
+static int last_row(const struct factor *f, const struct factor_source *source, int j)
 {
-    int begin = p->start[j], count = p->start[j + 1] - begin;
-    memcpy(f->row, p->row + begin, (size_t)count * sizeof *f->row);
-    for (int i = 0; i < count; i++)
-        f->value[i] = p->k[begin + i] - shift * p->m[begin + i];
-    return count;
+    const rotid_matrix *a = source->a;
+    const struct pencil *p = source->pencil;
+    if (p) {
+        for (int e = p->start[j + 1] - 1; e >= p->start[j]; e--)
+            if (f->position[p->row[e]] >= 0)
+                return f->position[p->row[e]];
+        return -1;
+    }
+    const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
+    int d = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
+    for (; d >= 0; d--) {
+        while (d + 1 >= MATRIX_STRETCH && matrix_stretch_is_zero(column + d + 1 - MATRIX_STRETCH))
+            d -= MATRIX_STRETCH;
+        if (d >= 0 && column[d] != 0 && f->position[j + d] >= 0)
+            return f->position[j + d];
+    }
+    return -1;
 }
 
-static int column_of(const struct factor *f, const struct factor_source *source, int j)
+/* The rows and entries of column j, of a matrix to f->row and f->value. Returns how many. */
+static int column_of(const struct factor *f, const struct factor_source *source, int j, const int **row)
 {
-    return source->pencil ? column_of_pencil(f, source->pencil, source->shift, j) : column_of_matrix(f, source->a, j);
+    const struct pencil *p = source->pencil;
+    if (!p) {
+        *row = f->row;
+        return column_of_matrix(f, source->a, j);
+    }
+    int begin = p->start[j], count = p->start[j + 1] - begin;
+    *row = p->row + begin;
+    for (int e = 0; e < count; e++)
+        f->value[e] = p->k[begin + e] - source->shift * p->m[begin + e];
+    return count;
 }
 
 static void gather_wide(struct factor *f, const struct factor_source *source)
 {
     for (int k = 0; k < f->nr; k++) {
-        int count = column_of(f, source, f->kept[f->inner[k]]);
-        f->reach[k] = k;
-        for (int e = 0; e < count; e++)
-            if (f->position[f->row[e]] > f->reach[k])
-                f->reach[k] = f->position[f->row[e]];
+        int last = last_row(f, source, f->kept[f->inner[k]]);
+        f->reach[k] = last > k ? last : k;
     }
     wide_clear(&f->wide, f->nr, f->reach);
     for (int k = 0; k < f->n; k++) {
-        int count = column_of(f, source, f->kept[k]), pj = f->position[f->kept[k]];
+        const int *row;
+        int count = column_of(f, source, f->kept[k], &row), pj = f->position[f->kept[k]];
         double *column = pj >= 0 ? wide_column(&f->wide, pj) : NULL;
         for (int e = 0; e < count; e++) {
-            int pi = f->position[f->row[e]];
+            int pi = f->position[row[e]];
             if (column && pi >= 0)
                 column[pi] = f->value[e];
             else

@@ -202,7 +202,7 @@ void lanczos_extend(struct lanczos *l)
     l->next += before;
 }
 
-int lanczos_iterate(struct lanczos *l, int watched, double tolerance)
+int lanczos_iterate(struct lanczos *l, int watched, const double *tolerance)
 {
     for (int step = 0; step < MOST_STEPS; step++) {
         if (l->size + l->next > l->most)
@@ -212,7 +212,7 @@ int lanczos_iterate(struct lanczos *l, int watched, double tolerance)
         if (status)
             return status;
         for (int j = 0; j < watched && !open; j++)
-            open = !(lanczos_theta(l, j) > 0) || !(residual(l, j) <= tolerance);
+            open = !(lanczos_theta(l, j) > 0) || !(residual(l, j) <= tolerance[j]);
         if (!open)
             return ROTID_OK;
         if (!l->next) /* the basis holds all of its own images, and not yet the pairs */

@@ -29,9 +29,9 @@ int lanczos_new(struct pool *pool, struct pencil *pencil, struct factor *factor,
 /* The basis begins with x [n * columns], of any length and not necessarily independent. The pencil is that of now. */
 void lanczos_begin(struct lanczos *l, const double *x);
 
-/* Until the residuals |(K - s M)^-1 M phi - theta phi|_M / theta of the lowest `watched` <= block pairs are below the tolerance.
- * ROTID_OK or ROTID_ERROR_EIGEN. */
-int lanczos_iterate(struct lanczos *l, int watched, double tolerance);
+/* Until the residuals |(K - s M)^-1 M phi - theta phi|_M / theta of the lowest `watched` <= block pairs are below tolerance
+ * [watched]. ROTID_OK or ROTID_ERROR_EIGEN. */
+int lanczos_iterate(struct lanczos *l, int watched, const double *tolerance);
 
 /* Random vectors join the search, beside the pairs that are known. */
 void lanczos_extend(struct lanczos *l);

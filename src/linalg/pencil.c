@@ -22,15 +22,25 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
     return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+/* Whether M is that of the call before shows in a digest of its entries: where K has entries that are rounding, they come and go
+ * with its parameters, and so do places of the pattern. */
+static uint64_t digest(uint64_t before, uint64_t place, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    before = (before ^ bits ^ place * 0xff51afd7ed558ccdULL) * 0x9e3779b97f4a7c15ULL;
+    return before ^ before >> 29;
+}
+
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
 {
     int same = p->mass != NULL, at = 0;
+    uint64_t entries = 0;
     p->stiffness = k;
     p->mass = m;
     for (int j = 0; j < p->n; j++) {
         int reach = k->kd < p->n - 1 - j ? k->kd : p->n - 1 - j;
         const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
-        same &= p->start[j] == at;
         p->start[j] = at;
         for (int d = 0; d <= reach; d++) {
             if (d && d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(kj + d) && matrix_stretch_is_zero(mj + d)) {
@@ -39,14 +49,16 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
             }
             if (d && kj[d] == 0 && mj[d] == 0)
                 continue;
-            same &= p->row[at] == j + d && p->m[at] == mj[d];
+            if (mj[d] != 0)
+                entries = digest(entries, (uint64_t)j * (uint64_t)(k->kd + 1) + (uint64_t)d, mj[d]);
             p->row[at] = j + d;
             p->k[at] = kj[d];
             p->m[at++] = mj[d];
         }
     }
-    same &= p->start[p->n] == at;
     p->start[p->n] = at;
+    same &= p->digest == entries;
+    p->digest = entries;
     for (int i = 0; i < m->nfar * m->nfar; i++) {
         same &= p->block[i] == m->block[i];
         p->block[i] = m->block[i];

@@ -3,6 +3,8 @@
 #ifndef ROTID_LINALG_PENCIL_H
 #define ROTID_LINALG_PENCIL_H
 
+#include <stdint.h>
+
 #include "base/pool.h"
 #include "rotid.h"
 
@@ -13,14 +15,15 @@ struct pencil {
     int *row;                             /* [(kd + 1) n], increasing within a column, the diagonal element first */
     double *k, *m;                        /* the entries of K and M there */
     double *block;                        /* [nfar^2] that of M */
+    uint64_t digest;                      /* of the entries of M and their places */
     double *x, *y;                        /* [8 n] columns interleaved */
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY. What is never written costs address space alone where the memory comes from calloc. */
 int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p);
 
-/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is, entry by entry, that of the call before.
- */
+/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is that of the call before,
+ * by a digest of 64 bits of its entries. */
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m);
 
 /* Y [n * columns] := K X or M X */

@@ -205,6 +205,14 @@ void nelson_band_begin(struct nelson_band *b, const rotid_matrix *k, const rotid
         (void)pencil_take(&b->pencil, k, m);
 }
 
+void nelson_band_multiply_mass(struct nelson_band *b, int columns, const double *x, double *y)
+{
+    if (b->factor.is_wide)
+        pencil_multiply_mass(&b->pencil, columns, x, y);
+    else
+        matrix_multiply(b->m, columns, x, y);
+}
+
 int nelson_band_below(struct nelson_band *b, double lambda)
 {
     if (b->factor.is_wide) {

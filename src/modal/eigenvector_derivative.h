@@ -82,6 +82,8 @@ struct nelson_band {
 int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b);
 /* In what follows K and M are these, which must stay as they are. */
 void nelson_band_begin(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m);
+/* Y [n * columns] := M X */
+void nelson_band_multiply_mass(struct nelson_band *b, int columns, const double *x, double *y);
 /* A factor that was prepared is lost. */
 int nelson_band_below(struct nelson_band *b, double lambda);
 int nelson_band_prepare(struct nelson_band *b, double lambda, int members, const double *phi);

@@ -126,9 +126,14 @@ static void extrapolate(struct prediction *p, const double *x)
         eigen_full_begin(&p->full, p->phi);
 }
 
+int prediction_matrices(struct prediction *p, const double *x)
+{
+    return evaluate(p, x, &p->k, &p->m);
+}
+
 int prediction_compute(struct prediction *p, const double *x)
 {
-    int status = evaluate(p, x, &p->k, &p->m);
+    int status = prediction_matrices(p, x);
     if (status)
         return status;
     if (p->reduction == ROTID_REDUCTION_NONE) {
@@ -335,8 +340,10 @@ static int solve_vectors(struct prediction *p, int k)
 static int differentiate_vectors(struct prediction *p, const double *x, const int *wanted)
 {
     int n = p->size, full = p->reduction == ROTID_REDUCTION_NONE, status = ROTID_OK;
-    if (full) /* whatever is wanted: one pass over the band */
-        matrix_multiply(&p->m, p->count, p->phi, p->m_phi);
+    if (full) {
+        nelson_band_begin(&p->nelson_band, &p->k, &p->m);
+        nelson_band_multiply_mass(&p->nelson_band, p->count, p->phi, p->m_phi);
+    }
     for (int k = 0; k < p->count && !full; k++) {
         int first, members = wanted[k] ? eigenvalue_cluster(p->count, p->lambda, k, &first) : 0;
         for (int j = 0; j < members; j++) {
@@ -352,8 +359,6 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
             if (wanted[k])
                 form_right_side(p, k, q);
     }
-    if (full)
-        nelson_band_begin(&p->nelson_band, &p->k, &p->m);
     for (int k = 0; k < p->count && !status; k++)
         if (wanted[k]) {
             status = solve_vectors(p, k);

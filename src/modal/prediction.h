@@ -48,6 +48,9 @@ struct prediction {
 int prediction_new(struct pool *pool, const rotid_model *model, int reduction, int derivative, int count, int with_vectors,
                    struct prediction *p);
 
+/* k, m := K and M at x [nparam]. Statuses: CALLBACK, FINITE. */
+int prediction_matrices(struct prediction *p, const double *x);
+
 /* K, M and the pairs at x [nparam]. Allocates nothing. Statuses: CALLBACK, FINITE, SLAVE, STIFFNESS, MASS, EIGEN. */
 int prediction_compute(struct prediction *p, const double *x);
 

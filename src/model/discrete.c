@@ -5,6 +5,7 @@
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
 #include "solid/members.h"
+#include "solid/transfer.h"
 
 int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed)
@@ -83,8 +84,8 @@ static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_ma
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
 }
 
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
-                         int *nrigid)
+static int count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+                       int *nrigid)
 {
     rotid_matrix structure, k, m;
     discrete_structure(discrete, &structure);
@@ -119,6 +120,16 @@ int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const dou
         (*nrigid)++;
     }
     return ROTID_OK;
+}
+
+int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+                         int *nrigid)
+{
+    struct pool scratch; /* a solution takes ten times what the model does */
+    pool_open(&scratch, pool->allocator);
+    int status = count_rigid(&scratch, discrete, x, nmodes, modes, nrigid);
+    pool_close(&scratch);
+    return status;
 }
 
 int discrete_places(const struct discrete *discrete)
@@ -180,15 +191,18 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
  * which no mesh of a reasonable size resolves. */
-struct mesh_limit discrete_mesh_limit(const struct discrete *discrete)
+struct mesh_limit discrete_mesh_limit(enum discretisation as)
 {
-    return discrete->as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, OF_COARSE, 1} : (struct mesh_limit){2, -4.0 / 3, 0};
+    return as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, OF_COARSE, 1} : (struct mesh_limit){2, -4.0 / 3, 0};
 }
 
-int discrete_prolong(const struct discrete *discrete, const double *u, const struct discrete *fine, double *fine_u)
+int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)
 {
-    if (discrete->as == AS_SOLID)
+    if (from->as == AS_SOLID)
+        solid_transfer(&from->solid, u, &to->solid, v);
+    else if (to->beam.mesh.nelement > from->beam.mesh.nelement)
+        beam_prolong(&from->beam, u, &to->beam.mesh, v);
+    else
         return 0;
-    beam_prolong(&discrete->beam, u, &fine->beam.mesh, fine_u);
     return 1;
 }

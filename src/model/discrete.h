@@ -39,8 +39,8 @@ void discrete_mass_properties(const struct discrete *discrete, struct mass_prope
 
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
  * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
- * Statuses of eigen_full_solve. */
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+ * Nothing is left on the pool. Statuses of eigen_full_solve. */
+int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
                          int *nrigid);
 
 /* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and
@@ -67,10 +67,11 @@ struct mesh_limit {
     double share;
     int counts;
 };
-struct mesh_limit discrete_mesh_limit(const struct discrete *discrete);
+struct mesh_limit discrete_mesh_limit(enum discretisation as);
 
-/* fine_u := the motion u on a mesh whose elements are those of the first one cut into equal parts; values of parameters as at the
- * last assembly. Returns 0 where there is no such routine: solids. */
-int discrete_prolong(const struct discrete *discrete, const double *u, const struct discrete *fine, double *fine_u);
+/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements are
+ * those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there is no
+ * such way: to a beam's coarser mesh. */
+int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v);
 
 #endif

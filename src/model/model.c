@@ -89,17 +89,17 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     return status;
 }
 
-int model_begin_with(struct pool *pool, struct rotor_model *fine, const struct rotor_model *coarse, int count, const double *phi)
+int model_begin_with(struct pool *pool, struct rotor_model *model, const struct rotor_model *known, int count, const double *phi)
 {
-    int n = coarse->equations.n, nfine = fine->equations.n;
-    double *modes = POOL_ARRAY(pool, double, (size_t)nfine *(size_t)count);
+    int n = known->equations.n, to = model->equations.n;
+    double *modes = POOL_ARRAY(pool, double, (size_t)to *(size_t)count);
     if (!modes)
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < count; k++)
-        if (!discrete_prolong(&coarse->discrete, phi + (ptrdiff_t)k * n, &fine->discrete, modes + (ptrdiff_t)k * nfine))
+        if (!discrete_transfer(&known->discrete, phi + (ptrdiff_t)k * n, &model->discrete, modes + (ptrdiff_t)k * to))
             return ROTID_OK;
-    fine->equations.modes = modes;
-    fine->equations.nmodes = count;
+    model->equations.modes = modes;
+    model->equations.nmodes = count;
     return ROTID_OK;
 }
 
@@ -115,11 +115,6 @@ int model_lateral_dof(const struct rotor_model *model, double z)
         if (fabs(model->z[i] - z) < fabs(model->z[nearest] - z))
             nearest = i;
     return discrete_place_dof(&model->discrete, nearest);
-}
-
-struct mesh_limit model_mesh_limit(const struct rotor_model *model)
-{
-    return discrete_mesh_limit(&model->discrete);
 }
 
 void model_set(struct rotor_model *model, const double *x)

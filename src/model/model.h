@@ -31,8 +31,6 @@ double model_master_z(const struct rotor_model *model, int i);
 /* The lateral degree of freedom nearest to z. */
 int model_lateral_dof(const struct rotor_model *model, double z);
 
-struct mesh_limit model_mesh_limit(const struct rotor_model *model);
-
 /* Sets the parameters to x without solving anything: for mass and deflections. */
 void model_set(struct rotor_model *model, const double *x);
 
@@ -50,8 +48,8 @@ int model_exchange_effect(struct pool *pool, struct rotor_model *model, const st
  * is asked no less. ROTID_OK or ROTID_ERROR_MEMORY. */
 int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int *alone);
 
-/* The solutions of a model on a finer mesh, of equal parts of each element, begin with phi [n * count], modes of the coarse one
- * where it was evaluated last. Solids are left alone. ROTID_OK or ROTID_ERROR_MEMORY. */
-int model_begin_with(struct pool *pool, struct rotor_model *fine, const struct rotor_model *coarse, int count, const double *phi);
+/* The solutions of a model begin with phi [n * count], modes of the same rotor on another mesh, as far as discrete_transfer has a
+ * way there. ROTID_OK or ROTID_ERROR_MEMORY. */
+int model_begin_with(struct pool *pool, struct rotor_model *model, const struct rotor_model *known, int count, const double *phi);
 
 #endif

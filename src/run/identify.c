@@ -53,7 +53,7 @@ static int open_state(struct pool *pool, const struct state *state, const struct
     return model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
 }
 
-static int fit_states(struct pool *pool, const struct states *states, const struct paired *paired,
+static int fit_states(struct pool *pool, const struct states *states, const rotid_parameter *bounds, const struct paired *paired,
                       const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
 {
     int count = states->nstate;
@@ -64,7 +64,7 @@ static int fit_states(struct pool *pool, const struct states *states, const stru
     for (int s = 0; s < count && !status; s++)
         status = open_state(pool, &states->state[s], &paired[s], &model[s], &measured[s], &state[s]);
     if (!status)
-        status = rotid_fit_states(count, state, states->nparameter, states->bounds, options, environment, NULL, fit);
+        status = rotid_fit_states(count, state, states->nparameter, bounds, options, environment, NULL, fit);
     for (int s = 0, mode = 0; s < count && !status; mode += measured[s].nmode, s++)
         for (int k = 0; k < measured[s].nmode; k++) /* as the mesh that counts has it */
             (*fit)->predicted_hz[mode + k] *= states->state[s].job.measurement.frequency_hz[k] / measured[s].frequency_hz[k];
@@ -90,7 +90,7 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     struct state state;
     const struct states states = states_of(job, &state);
     const struct paired paired = {number, holdout, mass};
-    return fit_states(pool, &states, &paired, options, environment, fit);
+    return fit_states(pool, &states, states.bounds, &paired, options, environment, fit);
 }
 
 int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
@@ -101,7 +101,7 @@ int identify_fit_states(struct pool *pool, const struct states *states, const in
         return ROTID_ERROR_MEMORY;
     for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++)
         paired[s] = (struct paired){number + mode, holdout + mode, NULL};
-    return fit_states(pool, states, paired, options, environment, fit);
+    return fit_states(pool, states, states->bounds, paired, options, environment, fit);
 }
 
 /* Also while NLopt ran: the fit itself is complete then. */
@@ -258,22 +258,69 @@ static int look_again(struct pool *pool, struct running *run, const double *x, i
     return status;
 }
 
+/* A fit to data that the mesh which counts has moved by little begins where the one before ended, at `bounds`. Not with NLopt
+ * beside it, which begins at the start as well, and not from a bound. */
+static int begin_anew(const struct states *states, const struct running *run, int baseline, const rotid_fit_result *fit,
+                      rotid_parameter *bounds)
+{
+    int near = fit && run[0].held && !baseline && fit->converged && !fit->any_at_bound;
+    for (int p = 0; p < states->nparameter; p++) {
+        bounds[p] = states->bounds[p];
+        if (near)
+            bounds[p].start = fit->x[p];
+    }
+    return near;
+}
+
+/* The rows of the fit before, then those of this one, which began where that ended; counts are of both. */
+static int join(struct pool *pool, const rotid_fit_result *before, rotid_fit_result *fit)
+{
+    int rows = before->nhistory + fit->nhistory, n = fit->n;
+    rotid_fit_iteration *history = POOL_ARRAY(pool, rotid_fit_iteration, rows);
+    double *x = POOL_ARRAY(pool, double, (size_t)rows *(size_t)n);
+    if (!history || !x)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < rows; i++) {
+        int own = i - before->nhistory;
+        history[i] = own < 0 ? before->history[i] : fit->history[own];
+        memcpy(x + (ptrdiff_t)i * n, own < 0 ? before->history_x + (ptrdiff_t)i * n : fit->history_x + (ptrdiff_t)own * n,
+               (size_t)n * sizeof *x);
+        if (own < 0)
+            continue;
+        history[i].iteration += before->iterations + 1;
+        history[i].seconds += before->seconds;
+    }
+    fit->history = history;
+    fit->history_x = x;
+    fit->nhistory = rows;
+    fit->iterations += before->iterations + 1;
+    fit->evaluations += before->evaluations;
+    fit->jacobians += before->jacobians;
+    fit->seconds += before->seconds;
+    return ROTID_OK;
+}
+
 static int with_models(struct pool *pool, const struct states *states, int baseline, int bare,
                        const rotid_environment *environment, struct message_list *notes, struct running *run,
                        rotid_fit_result **fit)
 {
     int count = states->nstate, status = pair_at_start(pool, states, run, notes), moved = 0;
     struct paired *paired = POOL_ARRAY(pool, struct paired, count);
-    if (status || !paired)
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, states->nparameter);
+    if (status || !paired || !bounds)
         return status ? status : ROTID_ERROR_MEMORY;
     rotid_fit_options options = states->state[0].job.options.fit;
     for (int round = 1;; round++) {
         options.baseline = baseline && (!run[0].held || round > 1); /* not before the coarse mesh is held */
-        rotid_fit_free(*fit);
+        rotid_fit_result *last = *fit;
+        int goes_on = begin_anew(states, run, options.baseline, last, bounds);
         *fit = NULL;
         for (int s = 0; s < count; s++)
             paired[s] = (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
-        status = fit_states(pool, states, paired, &options, environment, fit);
+        status = fit_states(pool, states, bounds, paired, &options, environment, fit);
+        if (!status && goes_on)
+            status = join(pool, last, *fit);
+        rotid_fit_free(last);
         moved = options.baseline != baseline;
         for (int s = 0; s < count && !status; s++)
             status = look_again(pool, &run[s], (*fit)->x, bare, &moved);

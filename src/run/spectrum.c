@@ -6,31 +6,51 @@
 #include "modal/prediction.h"
 #include "model/model.h"
 
+#define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-struct solved { /* a model, and its modes */
+/* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
+ * parameter. Of a solid, a third of whose solution a factor of M would be. */
+static int mass_is_positive(const struct models *models, const struct rotor *rotor, int nparameter,
+                            const struct parameter *parameter)
+{
+    int only_moduli = models_discretisation(models) == AS_SOLID && !rotor->neffect;
+    for (int p = 0; p < nparameter; p++)
+        only_moduli &= parameter[p].kind == PARAMETER_E || parameter[p].kind == PARAMETER_G;
+    return only_moduli;
+}
+
+/* What is kept of a solution: pairs from the rigid ones on. */
+struct solution {
     struct rotor_model *model;
-    struct prediction prediction;
+    int size, pairs;
+    double *hz, *phi, *shape; /* [pairs] and [size * pairs], rigid ones first, [nmaster * count] without those */
 };
 
-/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes;
- * coarse: what has been solved on a coarser mesh, or NULL */
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. known: NULL, or the solution on another
+ * mesh. scratch: for what its solution takes */
 static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                      const struct parameter *parameter, const double *x, int refine, const struct solved *coarse, int *count,
-                      struct solved *solved)
+                      const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
+                      struct rotor_model *model, struct prediction *prediction)
 {
-    struct rotor_model *model = solved->model;
-    struct prediction *prediction = &solved->prediction;
     int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
+    const double *shared = status ? NULL : model->equations.modes;
+    int nshared = status ? 0 : model->equations.nmodes;
     *count = *count < most ? *count : most;
-    if (!status && coarse)
-        status = model_begin_with(scratch, model, coarse->model, coarse->prediction.count, coarse->prediction.phi);
+    int pairs = status ? 0 : model->equations.nrigid + *count;
+    if (!status && known && known->pairs >= pairs && nshared < pairs)
+        status = model_begin_with(scratch, model, known->model, pairs, known->phi);
     if (!status)
-        status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count,
-                                0, prediction);
-    if (!status)
+        status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, pairs, 0, prediction);
+    model->equations.modes = shared; /* those of another mesh go with the scratch */
+    model->equations.nmodes = nshared;
+    if (!status) {
+        eigen_full_within(&prediction->full, WITHIN);
+        if (mass_is_positive(models, rotor, nparameter, parameter))
+            eigen_full_vouch(&prediction->full);
         status = prediction_compute(prediction, x);
+    }
     if (!status && !rotor->neffect) /* before candidates are tried, one after the other */
         status = models_keep_modes(models, model->equations.n, prediction->count, prediction->phi);
     return status;
@@ -60,6 +80,35 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
     return to;
 }
 
+/* The matrices and factors of a solution, ten times what is kept of it, go before the next one. */
+static int solve(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                 const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
+                 struct solution *out)
+{
+    struct pool scratch;
+    struct prediction p;
+    out->model = POOL_NEW(pool, struct rotor_model);
+    if (!out->model)
+        return ROTID_ERROR_MEMORY;
+    pool_open(&scratch, pool->allocator);
+    int status = full_model(pool, &scratch, models, rotor, nparameter, parameter, x, refine, known, count, out->model, &p);
+    if (!status) {
+        const rotid_model *equations = &out->model->equations;
+        out->size = p.size;
+        out->pairs = equations->nrigid + *count;
+        out->hz = POOL_ARRAY(pool, double, out->pairs);
+        out->phi = copy(pool, p.phi, p.size, out->pairs);
+        out->shape = POOL_ARRAY(pool, double, (size_t)equations->nmaster *(size_t)*count);
+        status = out->hz && out->phi && out->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
+        for (int j = 0; j < out->pairs && !status; j++)
+            out->hz[j] = prediction_hz(&p, j);
+        if (!status)
+            keep_shapes(out->model, &p, *count, out->shape);
+    }
+    pool_close(&scratch);
+    return status;
+}
+
 /* Nothing to condense onto, with one sensor, say, and nothing to report */
 static int is_impossible(int status)
 {
@@ -67,33 +116,39 @@ static int is_impossible(int status)
 }
 
 /* Guyan's mass for the NCO */
-static int condensed_mass(struct pool *pool, struct pool *scratch, const struct solved *full, struct spectrum *s)
+static int condensed_mass(struct pool *pool, struct pool *scratch, struct prediction *p, const double *x, struct spectrum *s)
 {
     struct reduction r;
-    const struct prediction *p = &full->prediction;
-    int status = reduction_new(scratch, ROTID_GUYAN, &p->k, s->nmaster, full->model->equations.master, &r);
+    int status = prediction_matrices(p, x);
+    if (!status)
+        status = reduction_new(scratch, ROTID_GUYAN, &p->k, s->nmaster, p->model->master, &r);
     if (!status)
         status = reduction_compute(&r, &p->k, &p->m);
     if (!status && !(s->mass = copy(pool, r.mc, s->nmaster, s->nmaster)))
         status = ROTID_ERROR_MEMORY;
-    return is_impossible(status) ? ROTID_OK : status;
+    return status;
 }
 
-/* Frequencies of the condensed model as far as it has any, beginning with the modes of the full one; full_hz: of the same mesh in
- * full */
-static int condensed_model(struct pool *scratch, const struct solved *full, const double *x, int reduction, const double *full_hz,
-                           struct spectrum *s)
+/* Frequencies of the condensed model as far as it has any, beginning with the modes of the full one, and the mass, each where it
+ * is asked for; full_hz: of the same mesh in full. */
+static int condense(struct pool *pool, const struct solution *full, const double *x, int reduction, int parts,
+                    const double *full_hz, struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     rotid_model model = full->model->equations;
     struct prediction p;
-    model.modes = full->prediction.phi;
-    model.nmodes = full->prediction.count;
-    int status = prediction_new(scratch, &model, reduction, ROTID_NELSON, count, 0, &p);
-    if (!status)
+    struct pool scratch;
+    model.modes = full->phi;
+    model.nmodes = full->pairs;
+    pool_open(&scratch, pool->allocator);
+    int status = prediction_new(&scratch, &model, reduction, ROTID_NELSON, count, 0, &p);
+    if (!status && parts & SPECTRUM_MASS)
+        status = condensed_mass(pool, &scratch, &p, x, s);
+    if (!status && parts & SPECTRUM_REDUCED)
         status = prediction_compute(&p, x);
-    for (int j = 0; j < s->count && !status; j++)
+    for (int j = 0; j < s->count && !status && parts & SPECTRUM_REDUCED; j++)
         s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
+    pool_close(&scratch);
     return is_impossible(status) ? ROTID_OK : status;
 }
 
@@ -104,81 +159,59 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
                                   SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS, spectrum);
 }
 
-/* The matrices and factors of a solution, ten times what is kept of it, are in the scratch. */
-static int compute(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                   const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct spectrum *s)
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *s)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *other = POOL_NEW(pool, struct rotor_model);
-    struct solved here = {.model = model}, there = {.model = other};
-    const struct prediction *p = &here.prediction, *q = &there.prediction;
-    if (!model || !other)
-        return ROTID_ERROR_MEMORY;
+    struct solution own = {0}, other = {0};
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, NULL, &count, &here);
+    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models));
+    int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
+    int status =
+        coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, NULL, &count, &other) : ROTID_OK;
+    if (!status)
+        status = solve(pool, models, rotor, nparameter, parameter, x, refine, coarse_first ? &other : NULL, &count, &own);
+    if (!status && meshed && !coarse_first)
+        status = solve(pool, models, rotor, nparameter, parameter, x, limit.refine, &own, &count, &other);
     if (status)
         return status;
-    const struct mesh_limit limit = model_mesh_limit(model);
-    if (parts & SPECTRUM_MESH)
-        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, limit.refine,
-                            limit.refine > refine ? &here : NULL, &count, &there);
-    double *meshed_hz = POOL_ARRAY(scratch, double, count);
-    if (status || !meshed_hz)
-        return status ? status : ROTID_ERROR_MEMORY;
-    *s = (struct spectrum){.nrigid = model->equations.nrigid,
+    const rotid_model *equations = &own.model->equations;
+    *s = (struct spectrum){.nrigid = equations->nrigid,
                            .count = count,
-                           .nmaster = model->equations.nmaster,
-                           .nnode = model->naxis,
-                           .model = model,
-                           .phi = copy(pool, p->phi + (ptrdiff_t)model->equations.nrigid * p->size, p->size, count)};
+                           .nmaster = equations->nmaster,
+                           .nnode = own.model->naxis,
+                           .model = own.model,
+                           .phi = own.phi + (ptrdiff_t)equations->nrigid * own.size,
+                           .shape = own.shape,
+                           .rigid_hz = own.hz};
     double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
-    s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
-    int alike = parts & SPECTRUM_MESH && other->equations.nmaster == s->nmaster;
-    s->other_shape = alike ? POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count) : NULL;
+    int alike = other.model && other.model->equations.nmaster == s->nmaster;
+    s->other_shape = alike ? other.shape : NULL;
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
-    s->rigid_hz = POOL_ARRAY(pool, double, s->nrigid);
-    if (!s->phi || !s->shape || (alike && !s->other_shape) || !s->master_z || !s->rigid_hz)
+    if (!s->master_z)
         return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < s->nrigid; j++)
-        s->rigid_hz[j] = prediction_hz(p, j);
     for (int i = 0; i < s->nmaster; i++)
-        s->master_z[i] = model_master_z(model, i);
-    keep_shapes(model, p, count, s->shape);
-    if (alike)
-        keep_shapes(other, q, count, s->other_shape);
+        s->master_z[i] = model_master_z(own.model, i);
     for (int j = 0; j < count; j++) {
-        double hz = prediction_hz(p, s->nrigid + j);
+        double hz = own.hz[s->nrigid + j];
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
-        s->full_hz[j] = meshed_hz[j] = hz;
-        if (!(parts & SPECTRUM_MESH))
+        s->full_hz[j] = hz;
+        if (!other.model)
             continue;
-        s->other_hz[j] = prediction_hz(q, other->equations.nrigid + j);
+        s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
         double led_to = hz - limit.share * (s->other_hz[j] - hz);
         s->full_hz[j] = limit.counts ? led_to : hz;
         s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
     }
     /* what a condensation costs is seen on a coarse mesh as well */
-    int on_other = alike && other->equations.n < model->equations.n;
-    const struct solved *cheap = on_other ? &there : &here;
-    if (parts & SPECTRUM_MASS && s->nmaster <= MOST_MASTERS)
-        status = condensed_mass(pool, scratch, cheap, s);
-    if (parts & SPECTRUM_REDUCED && s->nmaster <= MOST_MASTERS && !status)
-        status = condensed_model(scratch, cheap, x, reduction, on_other ? s->other_hz : meshed_hz, s);
+    int on_other = alike && other.model->equations.n < equations->n;
+    if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)
+        status = condense(pool, on_other ? &other : &own, x, reduction, parts, on_other ? s->other_hz : own.hz + s->nrigid, s);
     for (int j = 0; j < count && !status; j++)
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
-    return status;
-}
-
-int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
-                           struct spectrum *s)
-{
-    struct pool scratch;
-    pool_open(&scratch, pool->allocator);
-    int status = compute(pool, &scratch, models, rotor, nparameter, parameter, x, reduction, count, parts, s);
-    pool_close(&scratch);
     return status;
 }
 

@@ -204,6 +204,20 @@ void members_moments(const struct solid *solid, double moment[3])
     }
 }
 
+double members_deflection_at(const struct solid *solid, int i, const double *u, double z)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    int from, to, l = solid_mesh_slice(mesh, z);
+    solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
+    l = l < from ? from : l < to ? l : to - 1;
+    struct end a, b;
+    end_of(solid, i, l, &a);
+    end_of(solid, i, l + 1, &b);
+    double h = mesh->z[l + 1] - mesh->z[l], s = (z - mesh->z[l]) / h;
+    return (1 + s * s * (2 * s - 3)) * motion_value(&a.motion[0], u) - h * s * (1 - s) * (1 - s) * motion_value(&a.motion[1], u) +
+           s * s * (3 - 2 * s) * motion_value(&b.motion[0], u) + h * s * s * (1 - s) * motion_value(&b.motion[1], u);
+}
+
 void members_deflection(const struct solid *solid, int i, const double *u, int npoint, double *z, double *v)
 {
     const struct solid_mesh *mesh = &solid->mesh;
@@ -211,14 +225,6 @@ void members_deflection(const struct solid *solid, int i, const double *u, int n
     solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
     for (int p = 0; p < npoint; p++) {
         z[p] = mesh->z[from] + (mesh->z[to] - mesh->z[from]) * p / (npoint - 1);
-        int l = solid_mesh_slice(mesh, z[p]);
-        l = l < from ? from : l < to ? l : to - 1;
-        struct end a, b;
-        end_of(solid, i, l, &a);
-        end_of(solid, i, l + 1, &b);
-        double h = mesh->z[l + 1] - mesh->z[l], s = (z[p] - mesh->z[l]) / h;
-        v[p] = (1 + s * s * (2 * s - 3)) * motion_value(&a.motion[0], u) -
-               h * s * (1 - s) * (1 - s) * motion_value(&a.motion[1], u) + s * s * (3 - 2 * s) * motion_value(&b.motion[0], u) +
-               h * s * s * (1 - s) * motion_value(&b.motion[1], u);
+        v[p] = members_deflection_at(solid, i, u, z[p]);
     }
 }

@@ -13,8 +13,10 @@ void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_m
 /* Adds moments of mass about the left end, as attached_moments. */
 void members_moments(const struct solid *solid, double moment[3]);
 
-/* Deflection v [npoint] of member i at npoint >= 2 even places z [npoint] from its left end to the right one, in the motion u:
- * cubic between lines, by v and theta there. */
+/* Deflection of member i at z, in the motion u: cubic between lines, by v and theta there. */
+double members_deflection_at(const struct solid *solid, int i, const double *u, double z);
+
+/* The same, v [npoint], at npoint >= 2 even places z [npoint] from its left end to the right one. */
 void members_deflection(const struct solid *solid, int i, const double *u, int npoint, double *z, double *v);
 
 #endif
