@@ -9,7 +9,7 @@
 #include "linalg/product.h"
 
 #define HALF_WIDTH 30 /* lines: the variance is then known to a tenth */
-#define BLOCK      256 /* lines at a time */
+#define BLOCK      128 /* lines at a time */
 #define EULER      0.5772156649015329
 #define ITERATIONS 4
 
