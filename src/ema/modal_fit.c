@@ -324,7 +324,8 @@ struct evaluation {
     int summed;
 };
 
-/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear] */
+/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear]
+ */
 static void sum_channels(const struct modal_fit *fit, int from, int count, double *work, double *sum, double *right)
 {
     int n = fit->nline;
@@ -342,8 +343,9 @@ static void sum_channels(const struct modal_fit *fit, int from, int count, doubl
     product_transposed(fit->nlinear, count, 2 * n, fit->basis, wy, right);
 }
 
-/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times the
- * signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace. */
+/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times
+ * the signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace.
+ */
 static void settle_channels(struct modal_fit *fit, int from, int count, enum modal_fit_part part, double *rest, double *right)
 {
     int n = fit->nline, p = 2 * fit->nmode, q = fit->nlinear;
