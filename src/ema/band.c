@@ -44,7 +44,8 @@ static void borrow_variance(const struct frf_set *set, struct ema_band *band, in
             if (frf->variance)
                 work[count++] = band->variance[i + (ptrdiff_t)j * band->nline] * (frf->averages > 0 ? frf->averages : 1);
         }
-        band->variance[i + (ptrdiff_t)k * band->nline] = double_of_rank((size_t)count, (size_t)count / 2, work) / (own->averages > 0 ? own->averages : 1);
+        band->variance[i + (ptrdiff_t)k * band->nline] =
+            double_of_rank((size_t)count, (size_t)count / 2, work) / (own->averages > 0 ? own->averages : 1);
     }
 }
 

@@ -133,9 +133,8 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
         if (is_noisy(&set->frf[c], first, last, channel[c].noise, usual))
             channel[c].quality_flags |= EMA_NOISY;
         for (int d = 0; d < c && channel[c].twin < 0; d++)
-            if (usable[d] &&
-                is_twin(&set->frf[d], &set->frf[c], first, last, (double[]){power[d], power[c]}, channel[d].noise,
-                        channel[c].noise, fmax(most[c], most[d]))) {
+            if (usable[d] && is_twin(&set->frf[d], &set->frf[c], first, last, (double[]){power[d], power[c]}, channel[d].noise,
+                                     channel[c].noise, fmax(most[c], most[d]))) {
                 channel[c].twin = d;
                 channel[c].quality_flags |= EMA_DUPLICATE;
             }

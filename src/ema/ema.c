@@ -213,6 +213,7 @@ static int fit_modes(struct extraction *job)
     double *common = POOL_ARRAY(job->pool, double, (size_t)n *(size_t)band->nchannel);
     if (!behind || !suspect || !common)
         return ROTID_ERROR_MEMORY;
+    modal_fit_local_noise(&fit, n, NEAR_WIDTHS, common);
     for (int r = 0; r < n; r++) {
         double complex at = fit.pole[r] * fit.scale;
         int inside = r < n - nguard && !refinement.moved[r] && cimag(at) >= band->low && cimag(at) <= band->high;

@@ -203,7 +203,7 @@ int lscf_poles(struct pool *pool, const struct ema_band *band, int order, int st
     for (int i = 0, m = step; m <= order; i++, m += step) {
         memcpy(a, right, (size_t)m * sizeof(double));
         cholesky_backward_leading(m, order, block, a);
-        if ((m == step || step != 2 || next_roots(m, a, before, root, done)) && polynomial_roots(m, a, root, work))
+        if ((m == step || step != 2 || next_roots(m, a, before, root, done, work)) && polynomial_roots(m, a, root, work))
             return ROTID_ERROR_EIGEN;
         memcpy(before, root, (size_t)m * sizeof *root);
         count[i] = keep_poles(band, m, root, pole + (ptrdiff_t)i * order);

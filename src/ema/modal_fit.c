@@ -8,7 +8,7 @@
 #include "linalg/product.h"
 
 /* Channels that share a product: their sums are the same however many threads there are. */
-#define TOGETHER 16
+#define TOGETHER 32
 /* From so many modes on sums of partial fractions are less work than products of columns */
 #define FEWEST 3
 
@@ -22,7 +22,7 @@ static size_t workspace(const struct modal_fit *fit)
     size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode, lines = (size_t)fit->nline;
     size_t rows = fit->weight ? 2 * lines * columns : 0, least = lines * (2 * TOGETHER + 1);
     if (is_summed(fit))
-        rows += ((size_t)modal_gram_functions(fit->nmode) + q + 3 * lines) * TOGETHER;
+        least = ((size_t)modal_gram_functions(fit->nmode) + q + 3 * lines) * TOGETHER;
     return (rows > least ? rows : least) + columns * columns + q * q + q * (p + 1) + q + p * p;
 }
 
@@ -136,12 +136,13 @@ void modal_fit_columns(int nline, const double *nu, int nmode, const double comp
     fill_rest(nline, nu, phi + rows * 2 * nmode);
 }
 
-static void fill_basis(struct modal_fit *fit)
+static void fill_basis(struct modal_fit *fit, enum modal_fit_part part)
 {
     int n = fit->nline, m = fit->nmode;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
     for (int r = 0; r < m; r++)
-        fill_mode(n, fit->nu, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
+        fill_mode(n, fit->nu, fit->pole[r], fit->basis + rows * 2 * r,
+                  part == MODAL_FIT_LINEAR && fit->weight ? NULL : fit->basis + rows * (fit->nlinear + 2 * r));
     fill_rest(n, fit->nu, fit->basis + rows * 2 * m);
 }
 
@@ -323,7 +324,8 @@ struct evaluation {
     int summed;
 };
 
-/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear] */
+/* Sums over the lines of the channels from ... from + count - 1: w^2 [nline], w^2 y [2 nline]; sum [functions], right [nlinear]
+ */
 static void sum_channels(const struct modal_fit *fit, int from, int count, double *work, double *sum, double *right)
 {
     int n = fit->nline;
@@ -341,8 +343,9 @@ static void sum_channels(const struct modal_fit *fit, int from, int count, doubl
     product_transposed(fit->nlinear, count, 2 * n, fit->basis, wy, right);
 }
 
-/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times the
- * signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace. */
+/* chi2 and score once more from what is left of y: as differences of products they have the rounding of sums of fractions times
+ * the signal over the noise, which a descent takes for progress. rest [2 nline * count], right [2 nmode * count] are workspace.
+ */
 static void settle_channels(struct modal_fit *fit, int from, int count, enum modal_fit_part part, double *rest, double *right)
 {
     int n = fit->nline, p = 2 * fit->nmode, q = fit->nlinear;
@@ -406,7 +409,7 @@ static int evaluate_channels(void *context, int index, int worker)
 double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part)
 {
     int n = fit->nline;
-    fill_basis(fit);
+    fill_basis(fit, part);
     if (!fit->weight) {
         product_gram(fit->ncolumn, 2 * n, fit->basis, fit->gram);
         product_transposed(fit->ncolumn, fit->nchannel, 2 * n, fit->basis, fit->y, fit->right);

@@ -60,8 +60,8 @@ void modal_fit_columns(int nline, const double *nu, int nmode, const double comp
 void modal_fit_noise(struct modal_fit *fit);
 
 /* Mean square of the residual over its standard deviation in each channel within `widths` half-power bandwidths of each of the
- * modes 0 ... count - 1, to noise [nchannel * count]: 1 where the noise is what it was taken for; 1 too where fewer than four lines
- * tell. At fit->pole as it was evaluated last. */
+ * modes 0 ... count - 1, to noise [nchannel * count]: 1 where the noise is what it was taken for; 1 too where fewer than four
+ * lines tell. At fit->pole as it was evaluated last. */
 void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths, double *noise);
 
 /* The lines of the band within `widths` half-power bandwidths 2 |Re lambda| of a pole, at least ten on each side; every second,

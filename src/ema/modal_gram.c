@@ -2,12 +2,13 @@
 
 #include <math.h>
 
-/* Functions of a mode, times nu^4 and then the first eight times nu^2: real and imaginary parts of g, g^2, g', g'^2; and times nu^4
- * only |g|^2 g, |g|^4, which as partial fractions would lose digits far from the pole. Behind those of all modes 1, nu^2, nu^4. */
-#define FOURTH   11
-#define SQUARE   8
-#define OF_MODE  (FOURTH + SQUARE)
-#define NEAREST  0.02 /* of what a line sees: the half bandwidth or the spacing of the lines */
+/* Functions of a mode, times nu^4 and then the first eight times nu^2: real and imaginary parts of g, g^2, g', g'^2; and times
+ * nu^4 only |g|^2 g, |g|^4, which as partial fractions would lose digits far from the pole. Behind those of all modes 1, nu^2,
+ * nu^4. */
+#define FOURTH  11
+#define SQUARE  8
+#define OF_MODE (FOURTH + SQUARE)
+#define NEAREST 0.02 /* of what a line sees: the half bandwidth or the spacing of the lines */
 
 int modal_gram_functions(int nmode)
 {
@@ -109,7 +110,8 @@ static struct powers powers_of(const double *sum)
     return (struct powers){{sum[0], sum[1]}, {sum[2], sum[3]}};
 }
 
-/* The block of two columns of each: rows s^2 (x + x'), i s^2 (x - x') by those of y; p: conj(g) g, conj(g) g', conj(g') g, conj(g') g'
+/* The block of two columns of each: rows s^2 (x + x'), i s^2 (x - x') by those of y; p: conj(g) g, conj(g) g', conj(g') g,
+ * conj(g') g'
  */
 static void put_block(ptrdiff_t all, const struct number p[4], int row, int column, double *matrix)
 {

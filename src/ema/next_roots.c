@@ -5,8 +5,9 @@
 
 #define STEPS     60
 #define PRECISE   4e-16 /* of a root: a step below it is rounding */
-#define REAL_PART 1e-11 /* an imaginary part below that of the size is rounding; a pole so near to the end of the band is none */
-#define PI        3.141592653589793
+#define REAL_PART 1e-11 /* an imaginary part below that of the size is rounding; a pole so near to the end of the band is none   \
+                         */
+#define PI 3.141592653589793
 
 struct number { /* complex: the product of C guards against infinities at ten times the cost */
     double re, im;
@@ -59,19 +60,20 @@ static struct number repulsion(int n, const double complex *root, int i)
     return sum;
 }
 
-static void start(int n, const double *c, const double complex *before, double complex *root)
+static void start(int n, const double *c, const double complex *before, double complex *root, double *angle)
 {
     double product = 1, best = 0, where = PI / 2;
     for (int i = 0; i < n - 2; i++) {
         product *= cabs(before[i]);
         /* off the axis, which a pair of real ones could not leave to become a complex one */
         root[i] = fabs(cimag(before[i])) > 0 ? before[i] : before[i] * CMPLX(1, i % 2 ? 1e-2 : -1e-2);
+        angle[i] = carg(root[i]);
     }
     for (int i = 0; i < n - 2; i++) {
-        double from = carg(root[i]), gap = PI - from;
+        double from = angle[i], gap = PI - from;
         for (int j = 0; j < n - 2; j++)
-            if (j != i && carg(root[j]) > from)
-                gap = fmin(gap, carg(root[j]) - from);
+            if (angle[j] > from && angle[j] - from < gap)
+                gap = angle[j] - from;
         if (from >= 0 && gap > best) {
             best = gap;
             where = from + gap / 2;
@@ -109,14 +111,14 @@ static int pair_up(int n, double complex *root, int *done)
     return 0;
 }
 
-int next_roots(int n, const double *c, const double complex *before, double complex *root, int *done)
+int next_roots(int n, const double *c, const double complex *before, double complex *root, int *done, double *angle)
 {
     for (int i = 0; i < n; i++) {
         done[i] = 0;
         if (!isfinite(c[i]))
             return 1;
     }
-    start(n, c, before, root);
+    start(n, c, before, root, angle);
     int left = n;
     for (int step = 0; step < STEPS && left; step++)
         for (int i = 0; i < n; i++) {

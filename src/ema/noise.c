@@ -8,13 +8,13 @@
 #include "ema/selection.h"
 #include "linalg/product.h"
 
-#define HALF_WIDTH 30 /* lines: the variance is then known to a tenth */
-#define BLOCK      256 /* lines at a time */
+#define HALF_WIDTH 30  /* lines: the variance is then known to a tenth */
+#define BLOCK      128 /* lines at a time */
 #define EULER      0.5772156649015329
 #define ITERATIONS 4
 
-/* log |H - model|^2 of the channels on a block of lines, from their columns at these lines, 2 lines times nlinear. rows [2 lines *
- * nchannel] is workspace. */
+/* log |H - model|^2 of the channels on a block of lines, from their columns at these lines, 2 lines times nlinear. rows [2 lines
+ * * nchannel] is workspace. */
 static void residual(const struct ema_band *band, const struct modal_fit *fit, int first, int lines, const double *columns,
                      double *rows, double *square)
 {
@@ -80,7 +80,7 @@ int noise_from_residual(struct pool *pool, struct ema_band *band, int threads, c
     double *columns = POOL_ARRAY(&scratch, double, 2 * (size_t)BLOCK * (2 * (size_t)n + 4));
     double *rows = POOL_ARRAY(&scratch, double, 2 * (size_t)BLOCK * (size_t)band->nchannel);
     int status = square && variance && nu && columns && rows ? fit_all(&scratch, band, threads, environment, n, pole, &fit)
-                                                            : ROTID_ERROR_MEMORY;
+                                                             : ROTID_ERROR_MEMORY;
     for (int first = 0; status == ROTID_OK && first < band->nline; first += BLOCK) {
         int count = band->nline - first < BLOCK ? band->nline - first : BLOCK;
         for (int i = 0; i < count; i++)

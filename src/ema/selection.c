@@ -38,7 +38,8 @@ static double limit(int n)
     return 2 * n + 12 * sqrt(n) + 30;
 }
 
-/* sum |A|^2/var over the channels; noise [nchannel]: left around the mode; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */
+/* sum |A|^2/var over the channels; noise [nchannel]: left around the mode; *share: largest |A g|/|H| at the mode; *seen_in:
+ * channels that show it */
 static double significance(const struct ema_band *band, const struct modal_fit *fit, int r, const double *noise, double *share,
                            int *seen_in, double complex *residue)
 {

@@ -121,10 +121,13 @@ int zoom_compute(struct pool *pool, const struct ema_band *band, double decay, c
         part[i].high = band->omega[last] + margin;
         first = first - length / 10 > 0 ? first - length / 10 : 0;
         last = last + length / 10 < band->nline ? last + length / 10 : band->nline - 1;
-        status = ema_band_part(pool, band, first, last - first + 1, &zoomed);
+        struct pool scratch; /* the copy of the part is the largest thing of all, and no longer wanted afterwards */
+        pool_open(&scratch, pool->allocator);
+        status = ema_band_part(&scratch, band, first, last - first + 1, &zoomed);
         if (status == ROTID_OK)
             status =
                 compute_part(pool, &zoomed, options->order < PART_ORDER ? options->order : PART_ORDER, decay, options, &part[i]);
+        pool_close(&scratch);
         all += part[i].count;
     }
     if (status != ROTID_OK)

@@ -12,7 +12,8 @@ static uint32_t four_bytes(const unsigned char *byte, int order)
                       : (uint32_t)byte[3] | (uint32_t)byte[2] << 8 | (uint32_t)byte[1] << 16 | (uint32_t)byte[0] << 24;
 }
 
-/* IEEE numbers whose bytes stand in that order, on any machine: count of them, `from_step` bytes apart, to every to_step-th place. */
+/* IEEE numbers whose bytes stand in that order, on any machine: count of them, `from_step` bytes apart, to every to_step-th
+ * place. */
 static void decode(int count, const unsigned char *byte, int from_step, int size, int order, double *to, int to_step)
 {
     for (int i = 0; i < count; ++i, byte += from_step, to += to_step) {
