@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "diagnose/base.h"
+#include "diagnose/cause_intervals.h"
 #include "diagnose/decide.h"
 #include "diagnose/detectable.h"
 #include "diagnose/evidence.h"
@@ -15,8 +16,8 @@
 #include "diagnose/spread.h"
 #include "fit/interval.h"
 
-#define LISTED   4    /* causes in a sentence: more stand in the table */
-#define SEPARATE 0.7  /* correlation beyond which two parameters are known by a combination only */
+#define LISTED   4   /* causes in a sentence: more stand in the table */
+#define SEPARATE 0.7 /* correlation beyond which two parameters are known by a combination only */
 
 static double *side(rotid_pair *pair, int is_after)
 {
@@ -46,44 +47,6 @@ static int quality(struct engine *engine, const struct states *states, const str
     return status ? status
                   : sensor_out(engine->pool, states, engine->holdout, fit, &standardised,
                                side(&gain->sensor_out_shape_rms, is_after));
-}
-
-/* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
- * much; and a place that the fit gives no interval for has that of the scan. */
-static void settle_parameter(const struct state *state, rotid_fit_result *fit, int q, struct candidate *cause)
-{
-    const struct job *job = &state->job;
-    int component = job->unknowns.parameter[q].component, from_round = isfinite(cause->ci_lower[component]),
-        p = state_unknown(state, q);
-    if (isfinite(fit->std[p]) && from_round) {
-        cause->std[component] = fit->std[p];
-        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[q].lower);
-        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[q].upper);
-    } else if (from_round) {
-        fit->ci_lower[p] = cause->ci_lower[component];
-        fit->ci_upper[p] = cause->ci_upper[component];
-        fit->identifiable[p] = 1;
-    }
-}
-
-/* Values and intervals of the named causes in the final fit. */
-static void settle_causes(struct diagnosis *out)
-{
-    rotid_fit_result *fit = out->extended.fit;
-    for (int c = 0; c < out->ncause; c++) {
-        struct candidate *cause = &out->cause[c];
-        const struct state *state = &out->extended_states.state[cause->home];
-        const struct job *job = &state->job;
-        int e = 0;
-        while (e < job->rotor.neffect && strcmp(job->rotor.effect[e].name, cause->effect.name) != 0)
-            e++;
-        if (e == job->rotor.neffect)
-            continue;
-        effect_at(state, e, fit->x, &cause->effect);
-        for (int q = 0; q < job->unknowns.nparameter; q++)
-            if (job->unknowns.parameter[q].kind == PARAMETER_EFFECT && job->unknowns.parameter[q].index == e)
-                settle_parameter(state, fit, q, cause);
-    }
 }
 
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
@@ -381,7 +344,9 @@ static int fit_extended(struct engine *engine)
         status = identify_whole(engine, states, &out->state_extended, &out->extended);
     if (status)
         return status;
-    settle_causes(out);
+    status = cause_intervals(engine);
+    if (status)
+        return status;
     status = states_started_at(engine->pool, states, out->extended.fit->x, states);
     if (!status)
         status = states_at(engine->pool, states, out->extended.fit->x, states);
