@@ -96,9 +96,9 @@ struct pivots {
 /* A last pivot may be anything but zero: that of a matrix that is nearly singular, as for inverse iteration. */
 INLINE void judge(const four *pivot, const four *magnitude, int last, struct pivots *all)
 {
-    four least = (last ? 0 : LOST) * *magnitude;
+    four least = (last ? 0.0 : LOST) * *magnitude;
     all->lost |= ~(four_signs)(MAGNITUDE(*pivot) > least);
-    all->negative += (four_signs)(*pivot < 0);
+    all->negative += (four_signs)(*pivot < 0.0);
 }
 
 /* Takes a column of the band, l [reach + 1], off those behind it, and its part of the full rows, border [full], off theirs. */
@@ -106,7 +106,7 @@ INLINE void eliminate(int kd, int reach, int full, four *restrict l, four *restr
                       four *restrict magnitude, four *restrict corner_magnitude)
 {
     const ptrdiff_t lda = kd + 1;
-    four inverse = 1 / l[0];
+    four inverse = 1.0 / l[0];
 #pragma GCC unroll 8
     for (int i = 1; i <= reach; i++) {
         four part = l[i] * inverse, *target = l + i * lda - i;
