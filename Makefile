@@ -244,6 +244,12 @@ test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
+# MINPACK driving the model of a deck, where its C version is installed; looks into the library, as tests do
+$(BUILD)/fit_host: $(BUILD)/tools/bench/fit_host.o $(ROOMS) $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+$(BUILD)/tools/bench/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
+bench: $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/fit_host)
+
 # instructions of fixed runs, by callgrind, beside those of tools/bench/instructions.txt; RECORD=--record writes them anew
 .PHONY: bench-check
 bench-check: all $(BUILD)/hide
