@@ -88,7 +88,7 @@ static double limit(int n, int modes)
 
 int main(int count, char **argument)
 {
-    char failure[ROTID_FAILURE_TEXT];
+    char failure[ROTID_FAILURE_LENGTH];
     rotid_deck *deck = NULL;
     rotid_identification *own = NULL;
     int repeat = count > 2 ? atoi(argument[2]) : 15;
@@ -124,7 +124,7 @@ int main(int count, char **argument)
     for (int i = 0; i < repeat; i++) {
         double begin = clock_seconds();
         for (int p = 0; p < n; p++) {
-            host.start[p] = job->unknowns.parameter[p].start;
+            host.start[p] = job->unknowns.bounds[p].start;
             x[p] = 1;
         }
         (void)lmder(residual, &host, m, n, x, r, jacobian, m, TOLERANCE, TOLERANCE, 0, 200, diag, 1, 100, 0, &evaluations, &jacobians,
