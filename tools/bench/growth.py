@@ -1,6 +1,6 @@
 """How the work of an identification grows: all instructions, libraries included, by callgrind, of fits that differ in one size by a
-factor of eight, and the exponent between the two. The evaluations of the two fits, which chance decides, are divided out: reading,
-meshing and the tables of the result are in the share of an evaluation. Replicates are those of a diagnosis. Arguments: program,
+factor of eight, over their evaluations, and the exponent p of a + b n^p through three sizes: what does not grow, such as the start of
+the process, has no part in it. Replicates are those of a diagnosis. Arguments: program,
 folder."""
 import json
 import math
@@ -71,7 +71,7 @@ def diagnosis(path, replicates):
 
 
 SIZES = {
-    "elements": (lambda n: deck("elements", elements=n), 250, 2000),
+    "elements": (lambda n: deck("elements", elements=n), 400, 3200),
     "sensors": (lambda n: deck("sensors", elements=400, sensors=n, shapes=True), 25, 200),
     "modes": (lambda n: deck("modes", elements=1000, modes=n), 3, 24),
     "parameters": (lambda n: deck("parameters", elements=960, modes=16, parameters=n), 2, 16),
@@ -85,14 +85,19 @@ def main():
     print(f"{'growth of an evaluation in':30}{'from':>8}{'to':>8}{'M instructions':>20}{'exponent':>18}")
     for name, (make, low, high) in SIZES.items():
         try:
-            work = [per_evaluation(make(n)) for n in (low, high)]
+            middle = round(math.sqrt(low * high))
+            work = [per_evaluation(make(n)) for n in (low, middle, high)]
         except (RuntimeError, KeyError) as error:
             print(f"{name}: not measured: {error}")
             failed += 1
             continue
-        exponent = math.log(work[1] / work[0]) / math.log(high / low)
+        # of n^p: the increments are as high^p - middle^p to middle^p - low^p, which is (high/middle)^p where the sizes are in proportion
+        if not work[0] < work[1] < work[2]:
+            print(f"{name}: not measured: the evaluations of the three fits differ by more than the size does: {work}")
+            continue
+        exponent = math.log((work[2] - work[1]) / (work[1] - work[0])) / math.log(math.sqrt(high / low))
         over = exponent > MOST.get(name, 1.1)
-        print(f"{name:30}{low:8d}{high:8d}{work[0] / 1e6:10.2f}{work[1] / 1e6:10.2f}{exponent:10.2f}{'  above what is asked' if over else ''}",
+        print(f"{name:30}{low:8d}{high:8d}{work[0] / 1e6:10.2f}{work[2] / 1e6:10.2f}{exponent:10.2f}{'  above what is asked' if over else ''}",
               flush=True)
     # what the replicates add to a diagnosis
     path, low, high = deck("replicates", elements=100), 500, 4000
