@@ -1,8 +1,9 @@
-/* The fit of a deck with MINPACK's lmder at the wheel of rotid's own model, and the least that any fit by its equations has to do: as
- * JSON, {"lmder": {...}, "rotid": {...}, "limit_seconds": ...}. Arguments: deck, repetitions.
+/* The fit of a deck with MINPACK's lmder at the wheel of rotid's own model, and the least that any fit by its equations has to
+ * do: as JSON, {"lmder": {...}, "rotid": {...}, "limit_seconds": ...}. Arguments: deck, repetitions.
  *
- * The limit: for each of the modes asked for one LU factor of a band of the model's size and half bandwidth (dgbtrf) and one solution
- * (dgbtrs), as often as rotid evaluated; and one factor of K (dpbtrf). Nothing is assembled, condensed or differentiated there. */
+ * The limit: for each of the modes asked for one LU factor of a band of the model's size and half bandwidth (dgbtrf) and one
+ * solution (dgbtrs), as often as rotid evaluated; and one factor of K (dpbtrf). Nothing is assembled, condensed or differentiated
+ * there. */
 #include <cminpack.h>
 #include <lapacke.h>
 #include <math.h>
@@ -105,10 +106,8 @@ int main(int count, char **argument)
     pool_open(&pool, NULL);
     for (int k = 0; k < modes && k < 256; k++)
         number[k] = k + 1;
-    rotid_measured measured = {.size = sizeof measured,
-                               .nmode = modes,
-                               .number = number,
-                               .frequency_hz = job ? job->measurement.frequency_hz : NULL};
+    rotid_measured measured = {
+        .size = sizeof measured, .nmode = modes, .number = number, .frequency_hz = job ? job->measurement.frequency_hz : NULL};
     if (!job || n > MOST || modes > 256 || modes < n || job->options.fit.functional == ROTID_LIKELIHOOD ||
         model_open(&pool, NULL, &job->rotor, n, job->unknowns.parameter, 1, &model, &failed) ||
         functional_new(&pool, job->options.fit.functional, job->options.fit.reduction, ROTID_NELSON, &model.equations, &measured,
@@ -117,8 +116,10 @@ int main(int count, char **argument)
         return 2;
     }
     int m = host.functional.nresidual, evaluations = 0, jacobians = 0, pivot[MOST];
-    double *r = calloc((size_t)m, sizeof *r), *jacobian = calloc((size_t)m * MOST, sizeof *jacobian), *w4 = calloc((size_t)m, sizeof *w4);
-    double *seconds = calloc((size_t)repeat, sizeof *seconds), x[MOST], diag[MOST], qtf[MOST], w1[MOST], w2[MOST], w3[MOST], sum = 0;
+    double *r = calloc((size_t)m, sizeof *r), *jacobian = calloc((size_t)m * MOST, sizeof *jacobian),
+           *w4 = calloc((size_t)m, sizeof *w4);
+    double *seconds = calloc((size_t)repeat, sizeof *seconds), x[MOST], diag[MOST], qtf[MOST], w1[MOST], w2[MOST], w3[MOST],
+           sum = 0;
     if (!r || !jacobian || !w4 || !seconds)
         return 3;
     for (int i = 0; i < repeat; i++) {
@@ -127,17 +128,18 @@ int main(int count, char **argument)
             host.start[p] = job->unknowns.bounds[p].start;
             x[p] = 1;
         }
-        (void)lmder(residual, &host, m, n, x, r, jacobian, m, TOLERANCE, TOLERANCE, 0, 200, diag, 1, 100, 0, &evaluations, &jacobians,
-                    pivot, qtf, w1, w2, w3, w4);
+        (void)lmder(residual, &host, m, n, x, r, jacobian, m, TOLERANCE, TOLERANCE, 0, 200, diag, 1, 100, 0, &evaluations,
+                    &jacobians, pivot, qtf, w1, w2, w3, w4);
         seconds[i] = clock_seconds() - begin;
     }
     for (int i = 0; i < m; i++)
         sum += r[i] * r[i] / 2;
     qsort(seconds, (size_t)repeat, sizeof *seconds, by_size);
-    (void)printf("{\"lmder\": {\"e\": %.12g, \"g\": %.12g, \"objective\": %.12g, \"evaluations\": %d, \"best\": %.6g, \"median\": %.6g},\n"
-                 " \"unknowns\": %d, \"modes\": %d, \"limit_seconds\": %.6g}\n",
-                 x[0] * host.start[0], n > 1 ? x[1] * host.start[1] : 0, sum, evaluations, seconds[0], seconds[repeat / 2],
-                 model.equations.n, modes, limit(model.equations.n, modes));
+    (void)printf(
+        "{\"lmder\": {\"e\": %.12g, \"g\": %.12g, \"objective\": %.12g, \"evaluations\": %d, \"best\": %.6g, \"median\": %.6g},\n"
+        " \"unknowns\": %d, \"modes\": %d, \"limit_seconds\": %.6g}\n",
+        x[0] * host.start[0], n > 1 ? x[1] * host.start[1] : 0, sum, evaluations, seconds[0], seconds[repeat / 2],
+        model.equations.n, modes, limit(model.equations.n, modes));
     free(r), free(jacobian), free(w4), free(seconds);
     pool_close(&pool);
     rotid_identification_free(own);
