@@ -6,8 +6,9 @@
 #   make test       builds and runs the tests; ends with one line "N passed, N failed"; make test-long: the rest, effects hidden by dozens
 #   make power      hides effects in a thousand random rotors and counts what the diagnosis makes of them
 #   make power-solid, coverage-solid   the same of solids of revolution by other elements
-#   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only;
-#                   make bench-check: instructions of fixed runs, by valgrind, beside those recorded
+#   make bench      speed beside SciPy, MINPACK, NLopt, sdypy-EMA, ROSS and CalculiX in one run; make bench-quick: its correctness
+#                   part only; make bench-check: instructions of fixed runs, by valgrind, beside those recorded; make bench-growth:
+#                   how they grow with elements, sensors, modes, parameters, states, replicates
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
@@ -244,8 +245,16 @@ test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
+# MINPACK driving the model of a deck, where its C version is installed; looks into the library, as tests do
+$(BUILD)/fit_host: $(BUILD)/tools/bench/fit_host.o $(ROOMS) $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+$(BUILD)/tools/bench/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
+bench: $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/fit_host)
+
 # instructions of fixed runs, by callgrind, beside those of tools/bench/instructions.txt; RECORD=--record writes them anew
-.PHONY: bench-check
+.PHONY: bench-check bench-growth
+bench-growth: all
+	@OPENBLAS_NUM_THREADS=1 $(PYTHON) tools/bench/growth.py $(BUILD)/rotid $(BUILD)
 bench-check: all $(BUILD)/hide
 	@$(PYTHON) tools/bench/instructions.py $(BUILD)/rotid $(BUILD)/hide $(BUILD) $(RECORD)
 

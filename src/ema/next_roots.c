@@ -3,10 +3,11 @@
 #include <math.h>
 #include <stddef.h>
 
-#define STEPS     60
-#define PRECISE   4e-16 /* of a root: a step below it is rounding */
-#define REAL_PART 1e-11 /* an imaginary part below that of the size is rounding; a pole so near to the end of the band is none   \
-                         */
+#define STEPS   60
+#define PRECISE 4e-16 /* of a root: a step below it is rounding */
+#define REAL_PART                                                                                                                \
+    1e-11 /* an imaginary part below that of the size is rounding; a pole so near to the end of the band is none                 \
+           */
 #define PI 3.141592653589793
 
 struct number { /* complex: the product of C guards against infinities at ten times the cost */
