@@ -14,4 +14,10 @@ int data_weigh_accelerometer(struct engine *engine, int *changed);
 void data_note_readings(struct engine *engine);
 int is_moving_accelerometer(const struct effect *effect);
 
+/* Such an effect beside fitted shapes that nothing has freed of it: there are no frequencies at single sensors. */
+int is_unweighed_accelerometer(const struct job *job, const struct effect *effect);
+
+/* The accelerometer of the effect while it is at one sensor. */
+struct effect moving_accelerometer_at(const struct effect *effect, int sensor);
+
 #endif

@@ -360,7 +360,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         round->result.set &&
         (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
          !(first->result.chi2_drop > CLEAR * round->result.threshold) ||    /* or its place is open, or little is left over */
-         first->other_chi2 - first->result.chi2 < round->result.required_margin ||
+         first->linear || first->other_chi2 - first->result.chi2 < round->result.required_margin ||
          before->dof - free_parameters(first) < (first->explains || first->with ? 1 : 2) * LEAST_RESIDUALS);
     round->result.kind = round->result.set == 0                                                               ? ROTID_UNEXPLAINED
                          : round->result.set > 1 || !engine->out->result.verdict.confident || refused || weak ? ROTID_AMBIGUOUS

@@ -32,11 +32,12 @@ struct candidate {
     double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
     int refused;                    /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
     int explains;                   /* its fit leaves no more than noise */
+    int linear;                     /* chi2 and size are those of the scan: the model of the fit lacks part of the cause */
     const double *residual;         /* of its fit, while that is there; NULL */
     int nresidual;
-    struct candidate *with;         /* the second cause, NULL where this one is alone; the numbers of the fit are here */
-    int set;                        /* of an alternative, from 1: two of one number are the causes of a pair */
-    int nidentified;                /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
+    struct candidate *with; /* the second cause, NULL where this one is alone; the numbers of the fit are here */
+    int set;                /* of an alternative, from 1: two of one number are the causes of a pair */
+    int nidentified;        /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
     rotid_cause_value *identified;
 };
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "diagnose/accelerometer.h"
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/discrepancy.h"
@@ -130,6 +131,36 @@ static int take_identified(struct engine *engine, const struct refit *refit, str
     return ROTID_OK;
 }
 
+/* What a moving accelerometer does to shapes is in its column of the scan and not in the model of its fit, which has its mass
+ * spread over the sensors. Where the column says more it counts: as a rival, not as a name, since no model could go on with it.
+ */
+static void take_linear(const struct engine *engine, const struct scan *scan, const struct scan_candidate *s, struct candidate *c)
+{
+    const struct scan_item *item = s->best < 0 ? NULL : &scan->item[s->best];
+    if (!item || s->fixed[c->cause->size] || !is_unweighed_accelerometer(&engine->states.state[s->home].job, &c->effect) ||
+        !(scan->chi2 - item->drop < c->result.chi2))
+        return;
+    const double *column = scan->column + (ptrdiff_t)s->best * scan->nrow;
+    double square = 0;
+    for (int i = 0; i < scan->nrow; i++) {
+        double left = scan->r[i] + item->amplitude * item->norm * column[i];
+        square += scan->is_frequency[i] ? left * left : 0;
+    }
+    int size = c->cause->size;
+    c->linear = 1;
+    c->residual = NULL;
+    c->effect.value[size] = item->effect.value[size] + item->amplitude * item->unit;
+    c->std[size] = fabs(item->unit) / item->norm;
+    c->ci_lower[size] = fmax(0, c->effect.value[size] - 1.96 * c->std[size]);
+    c->ci_upper[size] = c->effect.value[size] + 1.96 * c->std[size];
+    c->result.at_bound = !(item->amplitude < item->upper);
+    c->result.chi2 = scan->chi2 - item->drop;
+    c->result.chi2_drop = item->drop;
+    c->result.chi2_frequency = square;
+    c->explains = scan->dof > 1 && chi_square_tail(square, scan->nfrequency) > BLOCK_LEVEL &&
+                  chi_square_tail(c->result.chi2, scan->dof - 1) > BLOCK_LEVEL;
+}
+
 /* Fit `number` of the round. No chance is stated for a pair: the bootstrap asks for the best of single columns. */
 static int fill_candidate(struct engine *engine, const struct round_result *result, int number, struct candidate *c)
 {
@@ -169,7 +200,9 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
         c->result.at_bound |= c->with->result.at_bound;
     }
     fitted_errors(&refit->states, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
-    int status = take_identified(engine, refit, c);
+    if (!pair)
+        take_linear(engine, scan, &scan->candidate[set->candidate[0]], c);
+    int status = c->linear ? ROTID_OK : take_identified(engine, refit, c);
     return status ? status
                   : sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
