@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "linalg/matrix.h"
+#include "solid/transfer.h"
 #include "solid_rig.h"
 
 /* ---- motions in closed form */
@@ -293,6 +294,35 @@ static void derivatives_agree_with_differences(void **state)
     }
 }
 
+/* Motions of the coarse mesh on the finer one: a translation as it is, others but for the elements at corners, whose nodes are
+ * not half-way. */
+static void a_motion_is_carried_to_a_finer_mesh(void **state)
+{
+    (void)state;
+    struct field (*const fields[])(double, double) = {translation, rotation, bending};
+    const double off[] = {1e-12, 2e-3, 2e-3}; /* of the length of the motion in M */
+    struct rig b;
+    struct assembled fine;
+    struct solid coarse;
+    int failed;
+    everything(&b);
+    assemble(&b.rotor, &fine);
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, NULL, 0, &coarse, &failed), ROTID_OK);
+    int n = fine.solid.mesh.ndof;
+    assert_true(coarse.mesh.ndof < n);
+    double *u = POOL_ARRAY(&test_pool, double, coarse.mesh.ndof), *v = fine.work, *expected = v + n, *image = expected + n;
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        take(&coarse, fields[f], u);
+        take(&fine.solid, fields[f], expected);
+        solid_transfer(&coarse, u, &fine.solid, v);
+        double length = matrix_product(&fine.m, expected, expected, image);
+        for (int i = 0; i < n; i++)
+            v[i] -= expected[i];
+        double square = matrix_product(&fine.m, v, v, image);
+        assert_true(sqrt(fmax(square, 0) / length) < off[f]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +330,7 @@ int main(void)
                                         close_test_pool),
         cmocka_unit_test_setup_teardown(uniform_strains_have_their_energy_exactly, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(derivatives_agree_with_differences, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_motion_is_carried_to_a_finer_mesh, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

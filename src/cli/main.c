@@ -1,4 +1,7 @@
 #include <errno.h>
+#ifdef __linux__
+#include <malloc.h>
+#endif
 #include <string.h>
 #include <unistd.h>
 
@@ -37,9 +40,19 @@ static int run(struct command *command)
     return code ? code : c->run(command);
 }
 
+/* glibc raises the size from which a block is pages of its own to that of the largest block freed so far: matrices then stay in
+ * the heap after their use, are cleared by hand where new pages are zero, and the end of the heap comes and goes. */
+static void keep_large_blocks_apart(void)
+{
+#ifdef __GLIBC__
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 int main(int argc, char **argv)
 {
     struct command command = {0};
+    keep_large_blocks_apart();
     command_watch_signals();
     if (terminal_open())
         return EXIT_INTERNAL;

@@ -9,12 +9,11 @@
 #include "base/random.h"
 #include "linalg/eigen_polish.h"
 #include "linalg/matrix.h"
+#include "linalg/shift.h"
 
 #define TOLERANCE   1e-12 /* of the residual below: a vector is then as good as its arithmetic */
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
-#define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
 #define NEAR        0.03  /* residual from which polishing converges */
-#define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
 #define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
 #define PI          3.14159265358979323846
@@ -165,16 +164,11 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
     return worst < ACCEPTABLE ? ROTID_OK : ROTID_ERROR_EIGEN;
 }
 
-/* A first shift far below the first mode and yet well above rounding, then, knowing the third eigenvalue (the first two may be
- * rigid-body modes at zero) or the first above it that is not zero, one of its size: the iteration then converges about as fast
- * as with none. */
 static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    int j = e->block < 3 ? e->block - 1 : 2;
-    while (j + 1 < e->count && e->value[j] < ZERO * e->largest)
-        j++;
-    e->shift = -0.1 * fabs(e->value[j]);
-    return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+    double shift = shift_of(e->count < 3 ? e->block : e->count, e->value, e->largest);
+    e->shift = shift < 0 ? shift : e->shift;
+    return shift < 0 ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
 }
 
 /* Motions under smooth loads, cosines along the degrees of freedom: where neighbours have neighbouring numbers, as along a beam,

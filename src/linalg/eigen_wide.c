@@ -5,12 +5,11 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "linalg/shift.h"
 
 #define TOLERANCE   2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
 #define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
 #define NEAR        1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
-#define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
-#define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define GUARDS      5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
 #define REPAIRS     4     /* times that random vectors look for pairs that were missed */
 
@@ -57,18 +56,13 @@ static int begin(struct eigen_wide *e)
     return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
-/* The first shift is far below the first mode and yet well above rounding; the next one, knowing the third eigenvalue (the first
- * two may be rigid-body modes at zero) or the first above it that is not zero, is of its size: the iteration then converges about
- * as fast as with none. Returns 0 where no such eigenvalue is known. */
+/* Returns 0 where no eigenvalue is known that has the size for one. */
 static int choose_shift(struct eigen_wide *e)
 {
-    int j = e->block < 3 ? e->block - 1 : 2;
-    while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
-        j++;
-    if (!isfinite(e->value[j]) || e->value[j] < ZERO * e->largest)
-        return 0;
-    e->shift = -0.1 * fabs(e->value[j]);
-    return 1;
+    double shift = shift_of(e->block, e->value, e->largest);
+    if (shift < 0)
+        e->shift = shift;
+    return shift < 0;
 }
 
 static int start(struct eigen_wide *e)
