@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/decide.h"
+#include "diagnose/discrepancy.h"
 #include "diagnose/pairs.h"
 #include "support.h"
 
@@ -285,6 +286,29 @@ static void a_pair_pays_for_its_parameters(void **state)
     assert_int_equal(set[0].candidate[1], 1);
 }
 
+static void what_an_approximation_adds_to_the_noise_comes_out_again(void **state)
+{
+    (void)state;
+    double frequency[] = {1e-4, NAN}, shape[] = {0.01, NAN, 0.02, 0.03}, any[4] = {0};
+    const struct candidate cone = {.cause = catalogue_find("step_stiffness"), .in = in_all},
+                           exact = {.cause = catalogue_find("density"), .in = in_all};
+    struct state one = {
+        .job = {.rotor.nsensor = 2, .measurement = {.nmode = 2, .frequency_std = frequency, .shape_std = shape, .shape = any}}};
+    struct states with = {.nstate = 1, .state = &one};
+    const struct job_measurement *m = &one.job.measurement;
+    assert_true(discrepancy_of(cone.cause) && !discrepancy_of(exact.cause));
+    assert_status(discrepancy_add(&test_pool, &exact, 1, &with), ROTID_OK);
+    assert_ptr_equal(m->frequency_std, frequency);
+    assert_status(discrepancy_add(&test_pool, &cone, 1, &with), ROTID_OK);
+    assert_close(m->frequency_std[0], hypot(1e-4, cone.cause->discrepancy_frequency), 1e-14, 0);
+    assert_close(m->shape_std[3], hypot(0.03, cone.cause->discrepancy_shape), 1e-14, 0);
+    assert_status(discrepancy_add(&test_pool, &cone, -1, &with), ROTID_OK);
+    assert_close(m->frequency_std[0], 1e-4, 1e-9, 0);
+    assert_close(m->shape_std[0], 0.01, 1e-9, 0);
+    assert_true(isnan(m->frequency_std[1]) && isnan(m->shape_std[1])); /* what is not measured stays so */
+    assert_close(frequency[0], 1e-4, 0, 0);                            /* others may have the same arrays */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,6 +318,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(one_cause_twice_needs_two_places, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(columns_that_are_one_and_residuals_that_are_few_make_no_pair, open_test_pool,
                                         close_test_pool),
+        cmocka_unit_test_setup_teardown(what_an_approximation_adds_to_the_noise_comes_out_again, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_pair_pays_for_its_parameters, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(causes_in_one_state_make_pairs_of_their_own, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(zones_of_two_states_may_share_a_place, open_test_pool, close_test_pool),

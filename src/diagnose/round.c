@@ -141,6 +141,8 @@ static void merge_pairs(struct round_result *result, int first)
             result->set[same] = result->set[i];
             result->refit[same] = result->refit[i];
         }
+        if (i != same) /* the next fits may be cancelled before they take its place */
+            result->refit[i] = (struct refit){0};
         kept += same == kept;
     }
     result->nrefit = kept;
@@ -174,7 +176,8 @@ static int run_pairs(struct engine *engine, struct round_result *result)
         status = add_partners(engine, result, best, m, PARTNERS, &beside);
     if (!status)
         status = run_refits(engine, result, beside);
-    merge_pairs(result, first);
+    if (!status)
+        merge_pairs(result, first);
     return status;
 }
 

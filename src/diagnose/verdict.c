@@ -175,7 +175,7 @@ static int states_without(struct engine *engine, int left_out, struct states *st
 /* What a round says without a cause that was named. */
 struct doubt {
     int cause;           /* its number, or -1 */
-    int alone;           /* of causes named together it is the only doubtful one, and the others stay named without it */
+    int alone;           /* it is the only doubtful one of two, and the other one stays named without it */
     struct engine other; /* without it: its states and their fit */
     struct diagnosis_round round;
     struct round_result result;
@@ -223,12 +223,13 @@ static int is_named(const struct doubt *d, const struct candidate *c)
     return d->round.result.kind == ROTID_NAMED && (same_cause(named, c) || (named->with && same_cause(named->with, c)));
 }
 
-/* Whether the other one of a pair stays named: where it is in question only what comes beside it, the doubtful one being in the
- * set, or where beside it nothing is missing any more, since the noise has what it leaves as an approximation. */
-static int other_stays(const struct diagnosis *out, const struct doubt *d)
+/* Whether the other one of two stays named: where beside it nothing is missing any more, since the noise has what it leaves as an
+ * approximation; and, both having been chosen together, where it is in question only what comes beside it, the doubtful one being
+ * in the set. */
+static int other_stays(const struct diagnosis *out, const struct doubt *d, int together)
 {
     int stays = d->round.result.kind == ROTID_ADEQUATE;
-    for (int i = 0; i < d->round.result.set && d->round.result.kind == ROTID_AMBIGUOUS; i++)
+    for (int i = 0; i < d->round.result.set && d->round.result.kind == ROTID_AMBIGUOUS && together; i++)
         stays |= !d->round.candidate[i].with && same_cause(&d->round.candidate[i], &out->cause[d->cause]);
     return stays && out->ncause == 2;
 }
@@ -255,7 +256,7 @@ static int confirm(struct engine *engine, struct doubt *found)
             doubt_free(&d);
         } else {
             *found = d;
-            found->alone = together && other_stays(out, found);
+            found->alone = other_stays(out, found, together);
         }
     }
     return status;
