@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/random.h"
+#include "ema/next_roots.h"
 #include "linalg/cholesky.h"
 #include "linalg/product.h"
 #include "linalg/roots.h"
@@ -63,12 +65,74 @@ static void a_gram_matrix_is_the_product(void **state)
         assert_close(gram[i], full[i], 1e-15, 0);
 }
 
+#define ORDER 24
+
+/* Coefficients of the polynomial with these roots, which come in pairs. */
+static void from_roots(int n, const double complex *root, double *c)
+{
+    double complex all[ORDER + 1] = {1};
+    for (int j = 0; j < n; j++)
+        for (int k = j + 1; k > 0; k--)
+            all[k] -= root[j] * all[k - 1];
+    for (int k = 0; k < n; k++)
+        c[k] = creal(all[k + 1]);
+}
+
+/* The next order of a stabilisation table: most roots stay, each a little elsewhere, and a pair or two real ones come. The
+ * eigenvalues of the companion matrix are the other way. */
+static void roots_of_the_next_order_are_those_of_the_companion_matrix(void **state)
+{
+    (void)state;
+    struct random_stream random = {.state = 3};
+    int reached = 0;
+    for (int k = 0; k < 200; k++) {
+        double complex before[ORDER], truth[ORDER], root[ORDER], companion[ORDER];
+        double c[ORDER], angle[ORDER], work[ORDER * ORDER + 16 * ORDER];
+        int done[ORDER], n = 4 + 2 * (int)(11 * random_uniform(&random));
+        assert_true(polynomial_roots_workspace(n) <= sizeof work / sizeof *work);
+        for (int j = 0; j < n; j += 2) {
+            int are_real = j >= n - 2 && k % 5 == 0;
+            double size = 0.8 + 0.4 * random_uniform(&random), phi = 3.1 * random_uniform(&random) + 0.02;
+            truth[j] = are_real ? size : size * CMPLX(cos(phi), sin(phi));
+            truth[j + 1] = are_real ? -0.7 * size : conj(truth[j]);
+        }
+        for (int j = 0; j < n - 2; j++) {
+            double complex off = 1 + 1e-3 * CMPLX(random_normal(&random), random_normal(&random));
+            before[j] = j % 2 ? conj(before[j - 1]) : truth[j] * off;
+        }
+        from_roots(n, truth, c);
+        assert_int_equal(polynomial_roots(n, c, companion, work), 0);
+        if (next_roots(n, c, before, root, done, angle))
+            continue; /* the caller turns to the companion matrix */
+        reached++;
+        for (int j = 0; j < n; j++) {
+            double nearest = INFINITY, apart = INFINITY, partner = INFINITY;
+            for (int i = 0; i < n; i++) {
+                nearest = fmin(nearest, cabs(root[j] - companion[i]));
+                partner = fmin(partner, cabs(conj(root[j]) - root[i]));
+                if (i != j)
+                    apart = fmin(apart, cabs(root[j] - root[i]));
+            }
+            assert_close(nearest, 0, 0, 1e-8);
+            assert_true(apart > 1e-9 && partner == 0);
+        }
+    }
+    print_message("%d of 200\n", reached);
+    assert_true(reached >= 190);
+    double c[4] = {0, NAN, 0, 1};
+    double complex before[2] = {I, -I}, root[4];
+    int done[4];
+    double angle[4];
+    assert_int_equal(next_roots(4, c, before, root, done, angle), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roots_of_unity),
         cmocka_unit_test(one_factor_serves_all_sizes),
         cmocka_unit_test(a_gram_matrix_is_the_product),
+        cmocka_unit_test(roots_of_the_next_order_are_those_of_the_companion_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

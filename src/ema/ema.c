@@ -196,6 +196,7 @@ static int fit_modes(struct extraction *job)
         return status;
     for (int r = 0; r < n; r++) {
         fit.loose[r] = r >= n - nguard;
+        fit.held[r] = fit.loose[r] && guard_is_far(band, pole[r]);
     }
     status = refine_poles(&fit, job->options.no_refinement ? 0 : ITERATIONS, job->environment, &refinement);
     if (status != ROTID_OK)

@@ -9,7 +9,8 @@
 
 #define TRIAL_LINES 600
 #define ITERATIONS  12
-#define START       1.5  /* half-power bandwidths beyond the end of the band */
+#define START       1.5 /* half-power bandwidths beyond the end of the band */
+#define FAR         2
 #define WORTH       0.02 /* least share of what is left that a guard has to explain */
 
 /* -2 log likelihood but for a constant: flat weights have their sigma from what is left. */
@@ -45,6 +46,11 @@ static int is_outside(const struct ema_band *band, double complex pole)
 {
     double half = -creal(pole);
     return half > 0 && (cimag(pole) < band->low + half || cimag(pole) > band->high - half) && cimag(pole) > 0;
+}
+
+int guard_is_far(const struct ema_band *band, double complex pole)
+{
+    return cabs(pole) < band->low / FAR || cabs(pole) > band->high * FAR;
 }
 
 /* Where the next one is tried: beyond the outermost pole at that end, as damped as the mode next to it. */

@@ -16,4 +16,8 @@
 int guard_poles(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
                 int nmode, double complex *pole, int *nguard);
 
+/* Whether a guard is so far, an octave from the band, that the lines do not tell its place: they tell what it adds there. Refined
+ * on, it would wander until its columns are those of L and U. */
+int guard_is_far(const struct ema_band *band, double complex pole);
+
 #endif

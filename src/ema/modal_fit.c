@@ -22,7 +22,7 @@ static size_t workspace(const struct modal_fit *fit)
     size_t columns = (size_t)fit->ncolumn + 1, q = (size_t)fit->nlinear, p = 2 * (size_t)fit->nmode, lines = (size_t)fit->nline;
     size_t rows = fit->weight ? 2 * lines * columns : 0, least = lines * (2 * TOGETHER + 1);
     if (is_summed(fit))
-        least = ((size_t)modal_gram_functions(fit->nmode) + q + 3 * lines) * TOGETHER;
+        least = ((size_t)fit->summed.most + q + 3 * lines) * TOGETHER;
     return (rows > least ? rows : least) + columns * columns + q * q + q * (p + 1) + q + p * p;
 }
 
@@ -57,14 +57,8 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->spread = POOL_ARRAY(pool, double, (size_t)q *(size_t)q *channels);
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
-    if (is_summed(fit)) {
-        fit->summed = (struct modal_gram){.nline = nline, .nmode = nmode};
-        fit->summed.table = POOL_ARRAY(pool, double, (size_t)nline *(size_t)modal_gram_functions(nmode));
-        fit->summed.a = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
-        fit->summed.b = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
-        if (!fit->summed.table || !fit->summed.a || !fit->summed.b)
-            return ROTID_ERROR_MEMORY;
-    }
+    if (is_summed(fit) && modal_gram_new(pool, nline, nmode, &fit->summed) != ROTID_OK)
+        return ROTID_ERROR_MEMORY;
     if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held ||
         !fit->loose || !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score ||
         !fit->mix || !fit->spread || !fit->singular || !fit->work)
@@ -339,7 +333,7 @@ static void sum_channels(const struct modal_fit *fit, int from, int count, doubl
             wy[i + n + (ptrdiff_t)2 * n * c] = w * y[i + n];
         }
     }
-    product_transposed(modal_gram_functions(fit->nmode), count, n, fit->summed.table, square, sum);
+    product_transposed(modal_gram_functions(&fit->summed), count, n, fit->summed.table, square, sum);
     product_transposed(fit->nlinear, count, 2 * n, fit->basis, wy, right);
 }
 
@@ -380,7 +374,7 @@ static int evaluate_channels(void *context, int index, int worker)
     const struct evaluation *evaluation = context;
     struct modal_fit *fit = evaluation->fit;
     int from = index * TOGETHER, count = fit->nchannel - from < TOGETHER ? fit->nchannel - from : TOGETHER;
-    int functions = modal_gram_functions(fit->nmode);
+    int functions = modal_gram_functions(&fit->summed);
     ptrdiff_t all = fit->ncolumn + 1, q = fit->nlinear, p = 2 * (ptrdiff_t)fit->nmode;
     double *gram = fit->work[worker], *rest = gram + all * all, *rows = rest + q * q + q * (p + 1) + q + p * p;
     double *sum = rows + (ptrdiff_t)3 * fit->nline * TOGETHER, *right = sum + (ptrdiff_t)functions * TOGETHER;
@@ -414,11 +408,7 @@ double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part)
         product_gram(fit->ncolumn, 2 * n, fit->basis, fit->gram);
         product_transposed(fit->ncolumn, fit->nchannel, 2 * n, fit->basis, fit->y, fit->right);
     }
-    struct evaluation evaluation = {fit, part, 0};
-    if (is_summed(fit) && modal_gram_is_good(fit->nmode, fit->pole, (fit->nu[n - 1] - fit->nu[0]) / n)) {
-        modal_gram_fill(&fit->summed, fit->nu, fit->pole);
-        evaluation.summed = 1;
-    }
+    struct evaluation evaluation = {fit, part, is_summed(fit) && !modal_gram_fill(&fit->summed, fit->nu, fit->pole)};
     (void)parallel_for(fit->threads, (fit->nchannel + TOGETHER - 1) / TOGETHER, evaluate_channels, &evaluation);
     double sum = 0;
     for (int c = 0; c < fit->nchannel; c++)

@@ -1,6 +1,7 @@
 #include "ema/modal_gram.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Functions of a mode, times nu^4 and then the first eight times nu^2: real and imaginary parts of g, g^2, g', g'^2; and times
  * nu^4 only |g|^2 g, |g|^4, which as partial fractions would lose digits far from the pole. Behind those of all modes 1, nu^2,
@@ -8,24 +9,60 @@
 #define FOURTH  11
 #define SQUARE  8
 #define OF_MODE (FOURTH + SQUARE)
-#define NEAREST 0.02 /* of what a line sees: the half bandwidth or the spacing of the lines */
+#define OF_PAIR 16  /* of two poles too close: products of their four columns each, times nu^4, behind the three */
+#define NEAREST 0.2 /* of what a line sees: the half bandwidth, the distance to the lines, their spacing */
 
-int modal_gram_functions(int nmode)
+int modal_gram_functions(const struct modal_gram *gram)
 {
-    return OF_MODE * nmode + 3;
+    return OF_MODE * gram->nmode + 3 + OF_PAIR * gram->nclose;
 }
 
-int modal_gram_is_good(int nmode, const double complex *pole, double spacing)
+static int most_close(int nmode)
 {
-    for (int r = 0; r < nmode; r++) {
-        double half = -creal(pole[r]);
-        if (!(half > 1e-9))
-            return 0;
-        for (int s = 0; s < r; s++)
-            if (cabs(conj(pole[r]) + pole[s]) < NEAREST * fmax(spacing, fmax(half, -creal(pole[s]))))
-                return 0;
+    return nmode + nmode / 2;
+}
+
+int modal_gram_new(struct pool *pool, int nline, int nmode, struct modal_gram *gram)
+{
+    *gram = (struct modal_gram){.nline = nline, .nmode = nmode, .nclose = most_close(nmode)};
+    gram->most = modal_gram_functions(gram);
+    gram->table = POOL_ARRAY(pool, double, (size_t)nline *(size_t)gram->most);
+    gram->a = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
+    gram->b = POOL_ARRAY(pool, double complex, (size_t)nmode *(size_t)nmode);
+    gram->close = POOL_ARRAY(pool, int, 2 * (size_t)gram->nclose);
+    return gram->table && gram->a && gram->b && gram->close ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static double seen(double complex pole, double first, double last)
+{
+    return fmax(-creal(pole), fmax(first - cimag(pole), cimag(pole) - last));
+}
+
+/* Sums of partial fractions lose (what the lines see of two poles over their distance)^3. */
+static int is_close(double complex one, double complex other, double first, double last, double spacing)
+{
+    double distance = fmin(cabs(conj(one) + conj(other)), cabs(conj(one) + other));
+    return distance < NEAREST * fmax(spacing, fmax(seen(one, first, last), seen(other, first, last)));
+}
+
+static int find_close(struct modal_gram *gram, const double *nu, const double complex *pole)
+{
+    double first = nu[0], last = nu[gram->nline - 1], spacing = (last - first) / gram->nline;
+    gram->nclose = 0;
+    for (int s = 0; s < gram->nmode; s++) {
+        if (!(-creal(pole[s]) > 1e-9))
+            return 1;
+        for (int r = 0; r <= s; r++) {
+            if (!is_close(pole[r], pole[s], first, last, spacing))
+                continue;
+            if (gram->nclose == most_close(gram->nmode))
+                return 1;
+            gram->close[2 * gram->nclose] = r;
+            gram->close[2 * gram->nclose + 1] = s;
+            gram->nclose++;
+        }
     }
-    return 1;
+    return 0;
 }
 
 static void fill_mode(int n, const double *nu, double complex pole, double *f)
@@ -46,9 +83,33 @@ static void fill_mode(int n, const double *nu, double complex pole, double *f)
     }
 }
 
-void modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole)
+/* Real and imaginary parts of the four columns of a mode at one line, over -nu^2 */
+static void columns_of(double nu, double complex pole, double value[4][2])
+{
+    double a = creal(pole), b = cimag(pole), below = nu - b, above = nu + b;
+    double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above);
+    double gr = -a * d, gi = -below * d, mr = -a * e, mi = -above * e;
+    double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
+    double all[4][2] = {{gr + mr, gi + mi}, {mi - gi, gr - mr}, {g2r + m2r, g2i + m2i}, {m2i - g2i, g2r - m2r}};
+    memcpy(value, all, sizeof all);
+}
+
+static void fill_pair(int n, const double *nu, double complex one, double complex other, double *f)
+{
+    for (int i = 0; i < n; i++) {
+        double x[4][2], y[4][2], fourth = nu[i] * nu[i] * nu[i] * nu[i];
+        columns_of(nu[i], one, x);
+        columns_of(nu[i], other, y);
+        for (int k = 0; k < OF_PAIR; k++)
+            f[i + (ptrdiff_t)k * n] = fourth * (x[k % 4][0] * y[k / 4][0] + x[k % 4][1] * y[k / 4][1]);
+    }
+}
+
+int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole)
 {
     int n = gram->nline, m = gram->nmode;
+    if (find_close(gram, nu, pole))
+        return 1;
     for (int r = 0; r < m; r++)
         fill_mode(n, nu, pole[r], gram->table + (ptrdiff_t)OF_MODE * r * n);
     double *rest = gram->table + (ptrdiff_t)OF_MODE * m * n;
@@ -58,11 +119,14 @@ void modal_gram_fill(struct modal_gram *gram, const double *nu, const double com
         rest[i + n] = square;
         rest[i + (ptrdiff_t)2 * n] = square * square;
     }
+    for (int k = 0; k < gram->nclose; k++)
+        fill_pair(n, nu, pole[gram->close[2 * k]], pole[gram->close[2 * k + 1]], rest + (3 + (ptrdiff_t)OF_PAIR * k) * n);
     for (int s = 0; s < m; s++)
         for (int r = 0; r < m; r++) {
             gram->a[r + (ptrdiff_t)s * m] = -1 / (pole[s] + conj(pole[r]));
             gram->b[r + (ptrdiff_t)s * m] = -1 / (conj(pole[s]) + conj(pole[r]));
         }
+    return 0;
 }
 
 struct number { /* complex: the product of C guards against infinities at ten times the cost */
@@ -162,6 +226,16 @@ static void put_rest(const struct modal_gram *gram, const double *sum, int r, do
         }
 }
 
+static void put_close(const struct modal_gram *gram, const double *sum, int r, int s, double *matrix)
+{
+    int m = gram->nmode, q = 2 * m + 4;
+    ptrdiff_t all = 4 * (ptrdiff_t)m + 5;
+    for (int k = 0; k < OF_PAIR; k++) {
+        int row = 2 * r + k % 2 + (k % 4 / 2 ? q : 0), column = 2 * s + k / 4 % 2 + (k / 8 ? q : 0);
+        matrix[row + column * all] = matrix[column + row * all] = sum[k];
+    }
+}
+
 void modal_gram_assemble(const struct modal_gram *gram, const double *sum, double *matrix)
 {
     int m = gram->nmode;
@@ -172,6 +246,8 @@ void modal_gram_assemble(const struct modal_gram *gram, const double *sum, doubl
         put_rest(gram, sum, s, matrix);
     }
     const double *rest = sum + (ptrdiff_t)OF_MODE * m;
+    for (int k = 0; k < gram->nclose; k++)
+        put_close(gram, rest + 3 + (ptrdiff_t)OF_PAIR * k, gram->close[2 * k], gram->close[2 * k + 1], matrix);
     for (int k = 0; k < 4; k++)
         for (int j = 0; j < 4; j++)
             matrix[2 * m + j + (2 * m + k) * all] = (j - k) % 2 ? 0 : j / 2 != k / 2 ? -rest[1] : rest[j < 2 ? 0 : 2];

@@ -11,6 +11,7 @@
 #define NEGLIGIBLE     1e-6  /* of chi2: a step that promises less moves no pole by a thousandth of its standard deviation */
 #define NEAR           0.02
 #define LITTLE_DAMPED  1e-3
+#define QUIET          3 /* steps in succession that leave the modes where they are */
 
 static int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
 {
@@ -62,30 +63,43 @@ static double sum_chi2(const struct modal_fit *fit)
     return sum;
 }
 
-/* (S + mu diag S) delta = g, scaled to a unit diagonal. Returns 0, or 1 where that is not definite. */
-static int damped_step(int p, const double *information, const double *score, double mu, double *factor, double *scale,
-                       double *delta)
+/* (S + mu diag S) delta = g, scaled to a unit diagonal, beside steps delta of the poles with limited [nmode] nonzero as they are.
+ * Returns 0, or 1 where that is not definite. */
+static int damped_step(int p, const double *information, const double *score, double mu, const int *limited, double *factor,
+                       double *scale, double *delta)
 {
     for (int j = 0; j < p; j++) {
         double d = information[j + (ptrdiff_t)j * p];
         scale[j] = d > 0 ? 1 / sqrt(d) : 0;
-        delta[j] = score[j] * scale[j];
+    }
+    for (int j = 0; j < p; j++) {
+        if (limited[j / 2])
+            continue;
+        double rest = score[j];
+        for (int k = 0; k < p; k++)
+            rest -= limited[k / 2] ? information[j + (ptrdiff_t)k * p] * delta[k] : 0;
+        delta[j] = rest * scale[j];
     }
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
-            factor[j + (ptrdiff_t)k * p] = j == k ? 1 + mu : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
+            factor[j + (ptrdiff_t)k * p] = j == k ? 1 + mu
+                                           : limited[j / 2] || limited[k / 2]
+                                               ? 0
+                                               : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
     if (cholesky_factor(p, factor))
         return 1;
+    for (int j = 0; j < p; j++)
+        scale[j] = limited[j / 2] ? 1 + mu : scale[j];
     cholesky_solve(p, factor, 1, delta);
     for (int j = 0; j < p; j++)
         delta[j] *= scale[j];
     return 0;
 }
 
-/* Whether the undamped step moves no pole but guards by more than NEAR of its standard deviation. A guard may wander along a
- * valley for ever, which changes nothing for the modes. inverse [p * p], scale and delta [p] are workspace. */
-static int is_settled(const struct modal_fit *fit, const double *information, const double *score, double *inverse, double *scale,
-                      double *delta)
+/* Whether a step [2 nmode] moves no pole but guards by more than NEAR of its standard deviation beside guards as they are. A
+ * guard may wander along a valley for ever, which changes nothing for the modes. inverse [p * p] and scale [p] are workspace. */
+static int leaves_modes(const struct modal_fit *fit, const double *information, const double *step, double *inverse,
+                        double *scale)
 {
     int p = 2 * fit->nmode;
     double determinant;
@@ -93,36 +107,60 @@ static int is_settled(const struct modal_fit *fit, const double *information, co
         scale[j] = information[j + (ptrdiff_t)j * p] > 0 ? 1 / sqrt(information[j + (ptrdiff_t)j * p]) : 0;
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
-            inverse[j + (ptrdiff_t)k * p] = j == k ? 1 : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
+            inverse[j + (ptrdiff_t)k * p] = j == k ? 1
+                                            : fit->loose[j / 2] || fit->loose[k / 2]
+                                                ? 0
+                                                : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
     if (positive_invert(p, inverse, &determinant))
         return 0;
     for (int j = 0; j < p; j++) {
-        delta[j] = 0;
-        for (int k = 0; k < p; k++)
-            delta[j] += inverse[j + (ptrdiff_t)k * p] * scale[k] * score[k];
-        if (!fit->loose[j / 2] && !fit->held[j / 2] && delta[j] * delta[j] > NEAR * NEAR * inverse[j + (ptrdiff_t)j * p])
+        double variance = inverse[j + (ptrdiff_t)j * p] * scale[j] * scale[j];
+        if (!fit->loose[j / 2] && !fit->held[j / 2] && step[j] * step[j] > NEAR * NEAR * variance)
             return 0;
     }
     return 1;
 }
 
-/* Largest step over the half bandwidth; poles := old + limited step */
-static double move_poles(int nmode, const double complex *old, const double *delta, double complex *pole)
+/* Takes the step [2 nmode] back to the half bandwidth of each pole, limited [nmode] nonzero where it was longer. Returns the
+ * largest step over the half bandwidth. */
+static double limit_step(int nmode, const double complex *pole, double *step, int *limited)
 {
     double largest = 0;
     for (int r = 0; r < nmode; r++) {
-        double complex step = CMPLX(delta[(ptrdiff_t)2 * r], delta[(ptrdiff_t)2 * r + 1]);
-        double half = fmax(fabs(creal(old[r])), 1e-12), size = cabs(step) / half;
+        double *re = step + (ptrdiff_t)2 * r, *im = re + 1, damping = creal(pole[r]), half = fmax(fabs(damping), 1e-12);
+        double size = hypot(*re, *im) / half;
         largest = fmax(largest, size);
-        if (size > 1)
-            step /= size;
+        if (size > 1) {
+            limited[r] = 1;
+            *re /= size;
+            *im /= size;
+        }
         /* a pole may lose at most nine tenths of its damping in a step: past zero it would model nothing */
-        double re = creal(old[r]) + creal(step);
-        if (creal(old[r]) < 0 && re > 0.1 * creal(old[r]))
-            re = 0.1 * creal(old[r]);
-        pole[r] = CMPLX(re, cimag(old[r]) + cimag(step));
+        if (damping < 0 && damping + *re > 0.1 * damping) {
+            limited[r] = 1;
+            *re = -0.9 * damping;
+        }
     }
     return largest;
+}
+
+/* The step beside poles whose own is limited, as one that a guard beyond the lines asks for may be: the others take the steps
+ * that go with the limited ones. Returns the largest over the half bandwidth, negative where the information is not definite. */
+static double limited_step(const struct modal_fit *fit, const double *information, const double *score, double mu, int *limited,
+                           double *factor, double *scale, double *delta)
+{
+    int m = fit->nmode, any = 0;
+    memset(limited, 0, (size_t)m * sizeof *limited);
+    if (damped_step(2 * m, information, score, mu, limited, factor, scale, delta))
+        return -1;
+    double size = limit_step(m, fit->pole, delta, limited);
+    for (int r = 0; r < m; r++)
+        any |= limited[r];
+    if (any && damped_step(2 * m, information, score, mu, limited, factor, scale, delta))
+        return -1;
+    if (any)
+        (void)limit_step(m, fit->pole, delta, limited);
+    return size;
 }
 
 /* One descent with weights as they are. Returns ROTID_OK or ROTID_STOP_CANCELLED. */
@@ -133,7 +171,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
     double *information = refinement->work, *factor = information + (ptrdiff_t)p * p, *score = factor + (ptrdiff_t)p * p;
     double *scale = score + p, *delta = scale + p, mu = 1e-4;
     double chi2 = modal_fit_evaluate(fit, MODAL_FIT_POLES);
-    int fresh = 1, refused = 0, guarded = 0;
+    int fresh = 1, refused = 0, guarded = 0, quiet = 0;
     for (int r = 0; r < fit->nmode; r++)
         guarded |= fit->loose[r];
     refinement->converged = 0;
@@ -144,11 +182,8 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             environment->progress(environment->context, "refine poles", refinement->iterations);
         if (fresh)
             sum_channels(fit, information, score);
-        if (guarded && fresh && i && is_settled(fit, information, score, factor, scale, delta)) {
-            refinement->converged = 1;
-            break;
-        }
-        if (damped_step(p, information, score, mu, factor, scale, delta)) {
+        double size = limited_step(fit, information, score, mu, refinement->moved, factor, scale, delta);
+        if (size < 0) {
             mu = fmax(10 * mu, 1e-3);
             fresh = 0;
             continue;
@@ -157,7 +192,9 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
         for (int j = 0; j < p; j++)
             promised += score[j] * delta[j];
         memcpy(old, fit->pole, (size_t)fit->nmode * sizeof *old);
-        double size = move_poles(fit->nmode, old, delta, fit->pole), trial = modal_fit_evaluate(fit, MODAL_FIT_POLES);
+        for (int r = 0; r < fit->nmode; r++)
+            fit->pole[r] += CMPLX(delta[(ptrdiff_t)2 * r], delta[(ptrdiff_t)2 * r + 1]);
+        double trial = modal_fit_evaluate(fit, MODAL_FIT_POLES);
         refinement->iterations++;
         /* near the minimum chi2 no longer tells a small step from rounding: such a step is taken as it is */
         int small = size < 1e-5;
@@ -165,8 +202,11 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             chi2 = trial;
             fresh = 1;
             refused = 0;
+            if (guarded && mu <= LITTLE_DAMPED)
+                quiet = leaves_modes(fit, information, delta, factor, scale) ? quiet + 1 : 0;
             mu = fmax(mu / 10, 1e-12);
-            if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7) || (mu <= LITTLE_DAMPED && promised < NEGLIGIBLE)) {
+            if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7) ||
+                (mu <= LITTLE_DAMPED && size <= 1 && promised < NEGLIGIBLE) || quiet == QUIET) {
                 refinement->converged = 1;
                 break;
             }
@@ -207,10 +247,11 @@ static void widen(const struct modal_fit *fit, const double *inverse, double *st
     }
 }
 
-static void pole_covariance(const struct modal_fit *fit, struct refinement *refinement)
+/* covariance [p * p] of the poles, those of the others as known. Returns 0, or 1 where their information is not definite. */
+static int invert_information(const struct modal_fit *fit, double *score, double *scale, double *covariance)
 {
     int p = 2 * fit->nmode;
-    double *score = refinement->work, *scale = score + p, *step = scale + p, *covariance = refinement->covariance, determinant;
+    double determinant;
     sum_channels(fit, covariance, score);
     for (int j = 0; j < p; j++) {
         double d = covariance[j + (ptrdiff_t)j * p];
@@ -219,16 +260,38 @@ static void pole_covariance(const struct modal_fit *fit, struct refinement *refi
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
             covariance[j + (ptrdiff_t)k * p] *= scale[j] * scale[k];
-    if (positive_invert(p, covariance, &determinant)) {
+    if (positive_invert(p, covariance, &determinant))
+        return 1;
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            covariance[j + (ptrdiff_t)k * p] *= fit->held[j / 2] || fit->held[k / 2] ? 0 : scale[j] * scale[k];
+    return 0;
+}
+
+/* Of a guard beyond the lines the information may be lost in rounding; the modes are then told beside it where it is. */
+static void hold_guards_outside(struct modal_fit *fit)
+{
+    for (int r = 0; r < fit->nmode; r++)
+        if (cimag(fit->pole[r]) < fit->nu[0] || cimag(fit->pole[r]) > fit->nu[fit->nline - 1])
+            fit->held[r] = 1;
+}
+
+static void pole_covariance(struct modal_fit *fit, struct refinement *refinement)
+{
+    int p = 2 * fit->nmode;
+    double *score = refinement->work, *scale = score + p, *step = scale + p, *covariance = refinement->covariance;
+    int lost = invert_information(fit, score, scale, covariance);
+    if (lost) {
+        hold_guards_outside(fit);
+        lost = invert_information(fit, score, scale, covariance);
+    }
+    if (lost) {
         for (int j = 0; j < p * p; j++)
             covariance[j] = NAN;
         for (int j = 0; j < p; j++)
             refinement->widened[j] = 1;
         return;
     }
-    for (int k = 0; k < p; k++)
-        for (int j = 0; j < p; j++)
-            covariance[j + (ptrdiff_t)k * p] *= fit->held[j / 2] || fit->held[k / 2] ? 0 : scale[j] * scale[k];
     widen(fit, covariance, step, refinement->widened);
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
