@@ -1,11 +1,12 @@
-"""How the work of an identification grows: all instructions, libraries included, by callgrind, of fits that differ in one size by a
-factor of eight, over their evaluations, and the exponent p of a + b n^p through three sizes: what does not grow, such as the start of
-the process, has no part in it. Replicates are those of a diagnosis. Arguments: program,
-folder."""
+"""How the work of an identification grows: instructions by callgrind, libraries included, of one evaluation of a fit with its
+Jacobian (medians over the calls, most of which begin with the modes of the step before), for three sizes that span a factor of eight,
+and the exponent p of a + b n^p through them: what does not grow has no part in it. Replicates are those of a diagnosis, whole. Arguments:
+program, folder."""
 import json
 import math
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 
@@ -33,9 +34,11 @@ def run(*arguments):
     return json.loads(out.read_text())
 
 
-def count(*arguments):
-    done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/callgrind", rotid, *map(str, arguments),
-                           "--quiet", "--json", str(folder / "counted.json")], capture_output=True, text=True)
+def callgrind(options, *arguments):
+    for old in folder.glob("callgrind*"):
+        old.unlink()
+    done = subprocess.run(["valgrind", "--tool=callgrind", *options, f"--callgrind-out-file={folder}/callgrind", rotid,
+                           *map(str, arguments), "--quiet", "--json", str(folder / "counted.json")], capture_output=True, text=True)
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
 
 
@@ -61,13 +64,18 @@ def deck(name, elements=400, sensors=0, modes=6, parameters=1, states=1, shapes=
     return path
 
 
+def median_of_calls(function, path):
+    """Each call ends with a dump of its own."""
+    callgrind([f"--toggle-collect={function}", f"--dump-after={function}"], "identify", path, "--no-baseline")
+    return statistics.median(int(re.search(r"^totals: (\d+)", dump.read_text(), re.M).group(1)) for dump in folder.glob("callgrind.*"))
+
+
 def per_evaluation(path):
-    evaluations = run("identify", path, "--no-baseline")["evaluations"]
-    return count("identify", path, "--no-baseline") / evaluations
+    return median_of_calls("joint_residual", path) + median_of_calls("joint_jacobian", path)
 
 
 def diagnosis(path, replicates):
-    return count("diagnose", path, "--threads", 1, "--replicates", replicates)
+    return callgrind([], "diagnose", path, "--threads", 1, "--replicates", replicates)
 
 
 SIZES = {
@@ -81,19 +89,19 @@ SIZES = {
 
 def main():
     failed = 0
-    print("instructions of a fit over its evaluations; of a diagnosis beside one with ten replicates")
+    print("instructions of an evaluation of a fit and its Jacobian; of a diagnosis beside one with ten replicates")
     print(f"{'growth of an evaluation in':30}{'from':>8}{'to':>8}{'M instructions':>20}{'exponent':>18}")
     for name, (make, low, high) in SIZES.items():
         try:
             middle = round(math.sqrt(low * high))
             work = [per_evaluation(make(n)) for n in (low, middle, high)]
-        except (RuntimeError, KeyError) as error:
+        except (RuntimeError, KeyError, statistics.StatisticsError) as error:
             print(f"{name}: not measured: {error}")
             failed += 1
             continue
         # of n^p: the increments are as high^p - middle^p to middle^p - low^p, which is (high/middle)^p where the sizes are in proportion
         if not work[0] < work[1] < work[2]:
-            print(f"{name}: not measured: the evaluations of the three fits differ by more than the size does: {work}")
+            print(f"{name}: not measured: they do not rise: {work}")
             continue
         exponent = math.log((work[2] - work[1]) / (work[1] - work[0])) / math.log(math.sqrt(high / low))
         over = exponent > MOST.get(name, 1.1)
