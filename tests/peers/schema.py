@@ -122,9 +122,10 @@ def main():
     stops = set(re.findall(r'X\(ROTID_STOP_\w+, \d+, "([^"]+)"\)', (ROOT / "include" / "rotid.h").read_text()))
     reasons = set()
     for deck in sorted(INPUT.glob("*.inp")):
-        identifies = any(line.upper().startswith("*IDENTIFY") for line in deck.read_text().splitlines())
+        cards = {line.split(",")[0].strip().upper() for line in deck.read_text().splitlines() if line.startswith("*")}
+        identifies, is_measured = "*IDENTIFY" in cards, bool(cards & {"*MODES", "*MEASURED"})
         for command in COMMANDS:
-            needs = command in ("sensitivity", "identify") and not identifies
+            needs = command in ("sensitivity", "identify") and not identifies or command in ("identify", "diagnose") and not is_measured
             run(checks, f"{command} {deck.name}", schemas[command], command, deck, (), (2,) if needs else (0, 1) if command == "identify" else (0,))
 
     with temporary_folder() as folder:
@@ -166,7 +167,7 @@ def run(checks, name, schema, command, deck, options, codes):
 def draw(checks, name, result):
     """What the pictures rest on: a geometry without gaps, and shapes that give the printed MAC."""
     geometry, length = result["geometry"], result["geometry"]["length_m"]
-    spans = [(s["from_m"], s["to_m"]) for g in geometry["groups"] for s in g["segments"]]
+    spans = [(s["from_m"], s["to_m"]) for g in geometry["groups"] if not g.get("layer_of") for s in g["segments"]]
     edges = [0] + [b for _, b in spans]
     joined = all(abs(a - e) < 1e-8 * length for (a, _), e in zip(spans, edges)) and abs(edges[-1] - length) < 1e-8 * length
     nodes = geometry["nodes_z_m"]
@@ -174,6 +175,8 @@ def draw(checks, name, result):
     rising = all(a < b for a, b in zip(nodes, nodes[1:])) and nodes[0] == 0 and abs(nodes[-1] - length) < 1e-8 * length
     checks.true(f"{name}: geometry without gaps", joined and inside and rising, (edges, nodes[:3], nodes[-3:]))
     fits = [result] if "shapes" in result else [result[k] for k in ("today", "base", "extended") if result.get(k)]
+    # of several states each has its own
+    fits = [state for fit in fits for state in (fit.get("states") or [fit])]
     wrong = [text for fit in fits for text in misdrawn(fit)]
     if fits:
         checks.true(f"{name}: shapes as printed", not wrong, "; ".join(wrong[:3]))
