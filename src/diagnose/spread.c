@@ -39,7 +39,13 @@ const char *spread_sentence(struct engine *engine)
     const rotid_verdict *verdict = &out->result.verdict;
     const char *text = "";
     char figure[32];
-    if (!out->nalternative || out->alternative[out->nalternative - 1].set < 2) /* one alone */
+    int sets = 0;
+    for (int i = 0, set = 0; i < out->nalternative; i++)
+        if (out->alternative[i].nidentified && out->alternative[i].set != set) {
+            set = out->alternative[i].set;
+            sets++;
+        }
+    if (sets < 2) /* one alone differs from none, as do those that were weighed without a refit of the parameters */
         return "";
     for (int p = 0; p < verdict->nspread; p++) {
         const rotid_spread *s = &verdict->spread[p];

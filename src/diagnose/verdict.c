@@ -10,7 +10,8 @@
 #include "diagnose/round.h"
 #include "diagnose/verdict.h"
 
-#define MANY 3 /* causes that together still leave something imitate what none of them is */
+#define MANY          3 /* causes that together still leave something imitate what none of them is */
+#define ONE_PARAMETER 2 /* of chi2: a parameter that gains less is worth none */
 
 /* Adds what an approximate cause leaves to the noise, and says so. */
 static int add_discrepancy(struct engine *engine, const struct candidate *c, struct states *states)
@@ -121,6 +122,24 @@ static double margin_of(const struct diagnosis_round *round)
     return margin;
 }
 
+static int same_cause(const struct candidate *a, const struct candidate *b)
+{
+    return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
+}
+
+/* Whether one of two causes does alone what the pair does. */
+static int adds_nothing(const struct diagnosis_round *round, const struct candidate *pair)
+{
+    for (const struct candidate *member = pair; member && pair->with; member = member->with)
+        for (int i = 0; i < round->ncandidate; i++) {
+            const struct candidate *alone = &round->candidate[i];
+            if (!alone->with && alone->result.refitted && same_cause(alone, member) &&
+                alone->result.chi2_drop > pair->result.chi2_drop - ONE_PARAMETER)
+                return 1;
+        }
+    return 0;
+}
+
 /* The candidates of a round that lie within `margin` of the first, those refused for their size alone behind the others. One may
  * be alone: what keeps it from a name is then not another one. */
 static int take_set(struct engine *engine, const struct diagnosis_round *round, double margin)
@@ -138,7 +157,7 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
             if (taken[i] || !c->result.refitted || !(c->result.chi2_drop > round->result.threshold / 2))
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-            taken[i] = at_bound ? near && c->result.at_bound
+            taken[i] = at_bound ? near && c->result.at_bound && !adds_nothing(round, c)
                                 : i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold);
             sets += taken[i];
             for (const struct candidate *member = c; taken[i] && member; member = member->with) {
@@ -149,11 +168,6 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
             }
         }
     return ROTID_OK;
-}
-
-static int same_cause(const struct candidate *a, const struct candidate *b)
-{
-    return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
 }
 
 /* The states of the base with all named causes but one, their data as they are now, but without what that one leaves. */
