@@ -280,6 +280,23 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
     close_run(&r);
 }
 
+/* Without its cause the model takes G to its bound, eight times what is true; from there every refit of the true cause ends in
+ * another minimum, and beam theory, which has no size, took the name. */
+static void a_cause_is_refitted_from_the_deck_where_the_base_has_strayed(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, ROTID_SOURCE_DIR "/tests/data/decks/strayed_base.inp");
+    const struct diagnosis *d = &r.d;
+    assert_true(d->base.fit->x[1] > 5 * 1.23447e10);
+    assert_kind(&r, ROTID_NAMED);
+    assert_int_equal(d->ncause, 1);
+    assert_string_equal(d->cause[0].cause->id, "step_stiffness");
+    assert_close(d->cause[0].effect.value[0], 41.7797, 0, 3);
+    assert_true(d->extended.fit->ci_lower[1] < 1.23447e10 && d->extended.fit->ci_upper[1] > 1.23447e10);
+    close_run(&r);
+}
+
 static int open_all(void **state)
 {
     return folder_make(state) || symlink(INPUT "data", folder_path("data"));
@@ -296,6 +313,7 @@ int main(void)
         cmocka_unit_test(supports_are_a_false_lead),
         cmocka_unit_test(few_modes_of_a_slender_beam_leave_G_open),
         cmocka_unit_test(six_frequencies_of_the_paper_carry_no_name),
+        cmocka_unit_test(a_cause_is_refitted_from_the_deck_where_the_base_has_strayed),
     };
     return cmocka_run_group_tests(tests, open_all, folder_remove);
 }

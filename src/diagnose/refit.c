@@ -12,6 +12,7 @@
 #define SAME_PLACE 0.03 /* of the rotor's length */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
 #define WIDER      10.0
+#define STRAYED    3.0 /* times the start of the deck */
 
 static double inside(const rotid_parameter *bounds, double value)
 {
@@ -473,6 +474,16 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
     return ROTID_OK;
 }
 
+/* Whether a parameter ran so far from the deck's to make up for what is missing that the way back may lead past another minimum.
+ */
+static int is_strayed(int nown, const double *x, const double *deck)
+{
+    for (int p = 0; p < nown; p++)
+        if (!(x[p] / deck[p] < STRAYED && x[p] / deck[p] > 1 / STRAYED))
+            return 1;
+    return 0;
+}
+
 int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit)
@@ -486,7 +497,8 @@ int refit_set(struct pool *pool, const struct states *states, const int *number,
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     int status = fit_from(pool, states, number, holdout, set->x ? set->x : x, scan, set, environment, refit);
     if (!status && deck &&
-        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter)))
+        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter) ||
+         is_strayed(states->nparameter, x, deck)))
         status = fit_from(pool, states, number, holdout, deck, scan, set, environment, refit);
     if (!status)
         status = refit_widen(pool, scan, set, number, holdout, environment, refit);
