@@ -48,7 +48,7 @@ static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct ei
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
-    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count};
+    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count, .within = TOLERANCE};
     e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
@@ -287,6 +287,11 @@ void eigen_band_want(struct eigen_band *e, int from, int to)
 {
     e->from = from;
     e->to = to;
+}
+
+void eigen_band_within(struct eigen_band *e, double residual)
+{
+    e->within = residual;
 }
 
 void eigen_band_begin(struct eigen_band *e, const double *phi)

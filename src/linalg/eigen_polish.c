@@ -8,11 +8,10 @@
 #include "linalg/matrix.h"
 #include "linalg/ritz.h"
 
-#define ROUNDS    4     /* the error is cubed in each */
-#define TOLERANCE 1e-12 /* of the residual */
-#define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
-#define NEAR      1e-2  /* of the residual of a pair that is not wanted */
-#define OFFSET    1e-7  /* of that shift below the lowest of them */
+#define ROUNDS  4    /* the error is cubed in each */
+#define CLUSTER 1e-3 /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define NEAR    1e-2 /* of the residual of a pair that is not wanted */
+#define OFFSET  1e-7 /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)
 {
@@ -81,7 +80,7 @@ static void solve_by_arrow(struct eigen_band *e, const double *expected, double 
     int pair[ARROW_SHIFTS], waiting = 0;
     for (int begin = 0, end; begin < e->count; begin = end) {
         end = cluster_end(e, begin);
-        if (end - begin > 1 || !(expected[begin] > TOLERANCE))
+        if (end - begin > 1 || !(expected[begin] > e->within))
             continue;
         sigma[begin] = e->value[begin];
         pair[waiting++] = begin;
@@ -143,7 +142,7 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
         int good = 1;
         end = cluster_end(e, begin);
         for (int j = begin; j < end; j++)
-            good &= expected[j] <= TOLERANCE;
+            good &= expected[j] <= e->within;
         double at = NAN, distance = INFINITY;
         if (good)
             memcpy(e->image + (ptrdiff_t)begin * n, e->ritz + (ptrdiff_t)begin * n,
@@ -175,7 +174,7 @@ static int count_open(struct eigen_band *e, double rounding, double *expected)
 {
     int open = 0;
     for (int j = 0; j < e->count; j++) {
-        if (e->residual[j] <= (is_wanted(e, j) ? TOLERANCE : NEAR) || (expected[j] <= TOLERANCE && e->residual[j] <= rounding))
+        if (e->residual[j] <= (is_wanted(e, j) ? e->within : NEAR) || (expected[j] <= e->within && e->residual[j] <= rounding))
             continue;
         expected[j] = INFINITY;
         open++;
@@ -198,7 +197,7 @@ int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
             worst = 0;
             for (int j = 0; j < e->count; j++)
                 worst = fmax(worst, expected[j]);
-        } while (worst > TOLERANCE && round < ROUNDS);
+        } while (worst > e->within && round < ROUNDS);
     }
     return 1;
 }
