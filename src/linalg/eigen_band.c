@@ -37,7 +37,7 @@ static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct ei
     if (!e->by_arrow)
         return ROTID_OK;
     e->row = POOL_ARRAY(pool, int, n);
-    e->rows = POOL_ARRAY(pool, double, ARROW_SHIFTS *(size_t)n);
+    e->rows = POOL_ROOM(pool, double, ARROW_SHIFTS *(size_t)n);
     if (!e->row || !e->rows)
         return ROTID_ERROR_MEMORY;
     for (int i = 0, f = 0, inner = 0; i < n; i++)
@@ -52,14 +52,14 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
-    e->basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
-    e->mass_basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
-    e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
-    e->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
+    e->basis = POOL_ROOM(pool, double, (size_t)n *(size_t)width);
+    e->mass_basis = POOL_ROOM(pool, double, (size_t)n *(size_t)width);
+    e->ritz = POOL_ROOM(pool, double, (size_t)n *(size_t)block);
+    e->image = POOL_ROOM(pool, double, (size_t)n *(size_t)block);
     e->value = POOL_ARRAY(pool, double, width);
     e->residual = POOL_ARRAY(pool, double, block);
     e->shifts = POOL_ARRAY(pool, double, 3 * count);
-    e->projected = POOL_ARRAY(pool, double, (size_t)width *(size_t)width);
+    e->projected = POOL_ROOM(pool, double, (size_t)width *(size_t)width);
     e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->residual || !e->shifts ||
         !e->projected || !e->work)

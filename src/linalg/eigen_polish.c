@@ -21,16 +21,20 @@ double eigen_rounding(const struct eigen_band *e)
 double eigen_residuals(struct eigen_band *e, const rotid_matrix *m, int columns, int watched)
 {
     int n = e->n;
-    double worst = 0, *difference = e->work, *image_of_it = e->work + n;
+    double worst = 0;
     matrix_multiply(m, columns, e->ritz, e->image);
     memcpy(e->mass_basis, e->image, (size_t)n * (size_t)columns * sizeof(double));
     factor_solve(&e->factor, columns, e->image);
-    for (int j = 0; j < watched; j++) {
+    for (int j = 0; j < watched; j++) { /* x - (lambda - s) y and M times that in the basis, which is free */
         const double *x = e->ritz + (ptrdiff_t)j * n, *y = e->image + (ptrdiff_t)j * n;
+        double *difference = e->basis + (ptrdiff_t)j * n;
         for (int i = 0; i < n; i++)
             difference[i] = x[i] - (e->value[j] - e->shift) * y[i];
-        matrix_multiply(m, 1, difference, image_of_it);
-        e->residual[j] = sqrt(fabs(cblas_ddot(n, difference, 1, image_of_it, 1)));
+    }
+    double *image_of_it = e->basis + (ptrdiff_t)watched * n;
+    matrix_multiply(m, watched, e->basis, image_of_it);
+    for (int j = 0; j < watched; j++) {
+        e->residual[j] = sqrt(fabs(cblas_ddot(n, e->basis + (ptrdiff_t)j * n, 1, image_of_it + (ptrdiff_t)j * n, 1)));
         worst = fmax(worst, e->residual[j]);
         if (!isfinite(e->residual[j]))
             return INFINITY;

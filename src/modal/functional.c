@@ -59,8 +59,10 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     f->shape = measured->shape ? POOL_ARRAY(pool, double, (size_t)nmaster *(size_t)nmode) : NULL;
     if (status)
         return status;
-    if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE)
+    if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE) {
         eigen_full_within(&f->prediction.full, WITHIN);
+        eigen_full_want(&f->prediction.full, model->nrigid < count ? model->nrigid : 0, count);
+    }
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
         return ROTID_ERROR_MEMORY;
     if (f->shape)
