@@ -5,8 +5,6 @@
 
 #include "modal/measured_check.h"
 
-#define WITHIN 1e-10 /* of a vector, where frequencies alone are compared: they are good to its square */
-
 static const double two_pi = 6.28318530717958647692;
 
 int functional_fits(const rotid_measured *measured, int mode)
@@ -59,10 +57,8 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     f->shape = measured->shape ? POOL_ARRAY(pool, double, (size_t)nmaster *(size_t)nmode) : NULL;
     if (status)
         return status;
-    if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE) {
-        eigen_full_within(&f->prediction.full, WITHIN);
+    if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE) /* rigid motions have no number */
         eigen_full_want(&f->prediction.full, model->nrigid < count ? model->nrigid : 0, count);
-    }
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
         return ROTID_ERROR_MEMORY;
     if (f->shape)
