@@ -64,23 +64,34 @@ void pool_absorb(struct pool *pool, struct pool *other)
     other->last = NULL;
 }
 
-void *pool_get(struct pool *pool, size_t count, size_t size)
+static void *take(struct pool *pool, size_t count, size_t size, int zeroed)
 {
     int fits = !size || count <= (SIZE_MAX - sizeof(union header)) / size;
     size_t bytes = fits ? sizeof(union header) + count * size : 0;
     /* calloc knows which memory is new, and zero: a large block costs what is used of it */
     union header *block = !fits             ? NULL
                           : pool->allocator ? pool->allocator->allocate(pool->allocator->context, bytes)
-                                            : calloc(1, bytes);
+                          : zeroed          ? calloc(1, bytes)
+                                            : malloc(bytes);
     if (!block) {
         pool->out_of_memory = 1;
         return NULL;
     }
-    if (pool->allocator)
+    if (pool->allocator && zeroed)
         memset(block, 0, bytes);
     block->previous = pool->last;
     pool->last = block;
     return block + 1;
+}
+
+void *pool_get(struct pool *pool, size_t count, size_t size)
+{
+    return take(pool, count, size, 1);
+}
+
+void *pool_room(struct pool *pool, size_t count, size_t size)
+{
+    return take(pool, count, size, 0);
 }
 
 void *pool_grow(struct pool *pool, void *array, size_t count, size_t *capacity, size_t size)

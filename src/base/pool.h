@@ -1,5 +1,5 @@
 /* Memory of one job: everything a job allocates hangs on its pool and goes with it, so a routine that fails
- * half-way has nothing to undo. Blocks are zeroed. Not shared between threads. */
+ * half-way has nothing to undo. Not shared between threads. */
 #ifndef ROTID_BASE_POOL_H
 #define ROTID_BASE_POOL_H
 
@@ -27,9 +27,12 @@ void pool_absorb(struct pool *pool, struct pool *other);
 /* count * size zeroed bytes aligned for any type; NULL when memory is out or the product overflows. Zero bytes give a
  * valid pointer. */
 void *pool_get(struct pool *pool, size_t count, size_t size);
+/* The same with whatever was there before: workspace, which is written before it is read. */
+void *pool_room(struct pool *pool, size_t count, size_t size);
 
 #define POOL_NEW(pool, type)          ((type *)pool_get((pool), 1, sizeof(type)))
 #define POOL_ARRAY(pool, type, count) ((type *)pool_get((pool), (size_t)(count), sizeof(type)))
+#define POOL_ROOM(pool, type, count)  ((type *)pool_room((pool), (size_t)(count), sizeof(type)))
 /* The list gets room for count elements. Its length: 0 where memory is out, so that a loop that fills it is safe. */
 #define POOL_LIST(pool, list, count) (((list) = pool_get((pool), (size_t)(count), sizeof *(list))) ? (int)(count) : 0)
 

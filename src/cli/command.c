@@ -94,9 +94,10 @@ int command_write_result(struct command *command, struct result *result, int cod
     if (!command->json)
         return code;
     result->warnings = message_warnings(&command->messages, &command->pool, &result->nwarnings);
-    char *text = result->warnings ? result_json(result) : NULL, *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
+    char *text = result->warnings ? result_json(result) : NULL;
+    code = command_write_file(command, command->json, text, code);
     json_free(text);
-    return command_write_file(command, command->json, line, code);
+    return code;
 }
 
 int command_wants_progress(const struct command *command)

@@ -41,11 +41,13 @@ static int run(struct command *command)
 }
 
 /* glibc raises the size from which a block is pages of its own to that of the largest block freed so far: matrices then stay in
- * the heap after their use, are cleared by hand where new pages are zero, and the end of the heap comes and goes. */
+ * the heap after their use and are cleared by hand where new pages are zero. The rest of the heap is kept: its end would come and
+ * go with each pool. */
 static void keep_large_blocks_apart(void)
 {
 #ifdef __GLIBC__
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    (void)mallopt(M_TRIM_THRESHOLD, 1 << 26);
 #endif
 }
 

@@ -15,8 +15,10 @@
 #define MOST_FITS 6    /* of the trials that come nearest */
 #define OFF_HZ    0.02 /* of a frequency, and */
 #define OFF_SHAPE 0.05 /* of 1 - MAC: what the parameters of the deck still put right */
-static const double shares[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.85}; /* of the way from no effect to a bound; and with a place */
-static const double shares_at_places[] = {0.03, 0.1, 0.3, 0.8};
+#define STEPS     6    /* of the way from no effect to a bound; and with a place */
+#define STEPS_AT  4
+static const double shares[STEPS] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.85};
+static const double shares_at_places[STEPS_AT] = {0.03, 0.1, 0.3, 0.8};
 
 struct trial {
     struct effect effect;
@@ -35,7 +37,7 @@ struct trials {
 static int sizes_of(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, double *size)
 {
     double lower, upper, neutral = cause->parameter[cause->size].neutral;
-    int count = 0, place = cause->place >= 0, steps = place ? 4 : 6;
+    int count = 0, place = cause->place >= 0, steps = place ? STEPS_AT : STEPS;
     const double *share = place ? shares_at_places : shares;
     cause_bounds(cause, rotor, effect, cause->size, &lower, &upper);
     for (int side = 0; side < 2; side++) {
@@ -51,12 +53,13 @@ static int sizes_of(const struct cause_kind *cause, const struct rotor *rotor, c
 }
 
 /* How far the model with the effect is from the data, the modes paired anew: frequencies but for a factor that all have, and 1 -
- * MAC. */
-static int cost_of(struct pool *pool, const struct trials *trials, const struct effect *effect, double *cost)
+ * MAC. spectrum: in, that of a trial near by, or without modes; out, that of the model, without modes where it has none. */
+static int cost_of(struct pool *pool, const struct trials *trials, const struct effect *effect, struct spectrum *spectrum,
+                   double *cost)
 {
     const struct engine *e = trials->engine;
+    const struct spectrum near = *spectrum;
     struct job job = *e->job;
-    struct spectrum spectrum;
     struct comparison compared;
     struct message_list quiet;
     *cost = INFINITY;
@@ -68,18 +71,19 @@ static int cost_of(struct pool *pool, const struct trials *trials, const struct 
     if (job.rotor.neffect)
         memcpy(job.rotor.effect, e->job->rotor.effect, (size_t)job.rotor.neffect * sizeof *effect);
     job.rotor.effect[job.rotor.neffect++] = *effect;
-    int status = spectrum_compute_parts(pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter, e->fit->x,
-                                        ROTID_GUYAN, comparison_candidates(&job), 0, &spectrum);
+    *spectrum = (struct spectrum){0};
+    int status = spectrum_try(pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter, e->fit->x,
+                              comparison_candidates(&job), near.phi ? &near : NULL, spectrum);
     if (!status)
-        status = comparison_make(pool, &job, &spectrum, &quiet, &compared);
+        status = comparison_make(pool, &job, spectrum, &quiet, &compared);
     if (status)
         return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
     double sum = 0, square = 0, shapes = 0;
     int count = 0;
     for (int k = 0; k < job.measurement.nmode; k++) {
-        if (job.measurement.holdout[k] || compared.number[k] > spectrum.count)
+        if (job.measurement.holdout[k] || compared.number[k] > spectrum->count)
             continue;
-        double off = log(spectrum.full_hz[compared.number[k] - 1] / job.measurement.frequency_hz[k]);
+        double off = log(spectrum->full_hz[compared.number[k] - 1] / job.measurement.frequency_hz[k]);
         sum += off;
         square += off * off;
         count++;
@@ -95,25 +99,31 @@ static int try_candidate(void *context, int index, int worker)
     const struct scan_candidate *c = &trials->scan->candidate[index];
     const struct rotor *rotor = &trials->engine->job->rotor;
     double size[SIZES], cost;
-    int place = c->cause->place, status = ROTID_OK;
+    int place = c->cause->place, steps = place < 0 ? STEPS : STEPS_AT, status = ROTID_OK;
     (void)worker;
     trials->best[index].cost = INFINITY;
     if (c->cause->solid || c->suspect || !c->cause->effect->nparameter)
         return ROTID_OK;
     int sizes = sizes_of(c->cause, rotor, &c->effect, size), places = place < 0 ? 1 : PLACES;
+    struct pool scratch[2]; /* of a trial, and of the one before, whose modes it begins with */
+    struct spectrum spectrum = {0};
+    for (int i = 0; i < 2; i++)
+        pool_open(&scratch[i], trials->pool[index].allocator);
     for (int i = 0; i < sizes * places && !status; i++) {
-        struct pool scratch;
         struct effect effect = c->effect;
         int at = i / sizes;
         effect.value[c->cause->size] = size[i % sizes];
         if (place >= 0)
             effect.value[place] = rotor_length(rotor) * (at + 0.5) / PLACES;
-        pool_open(&scratch, trials->pool[index].allocator);
-        status = cost_of(&scratch, trials, &effect, &cost);
-        pool_close(&scratch);
+        if (i % steps == 0) /* at another place, or on the other side of no effect */
+            spectrum = (struct spectrum){0};
+        pool_close(&scratch[i % 2]);
+        status = cost_of(&scratch[i % 2], trials, &effect, &spectrum, &cost);
         if (!status && cost < trials->best[index].cost)
             trials->best[index] = (struct trial){effect, cost};
     }
+    for (int i = 0; i < 2; i++)
+        pool_close(&scratch[i]);
     return status;
 }
 

@@ -34,6 +34,7 @@ struct eigen_band {
     int n, count, block, depth;
     int from, to;          /* pairs from ... to - 1 are polished; the others have to be near alone */
     int started;           /* ritz holds the pairs of the call before */
+    double within;         /* of the residual of a pair that is polished */
     int plain;             /* without polishing, in this attempt */
     int failures;          /* of polishing from a cold start */
     int known;             /* Ritz values in `value`: count, or with the guards of the block iteration block */
@@ -66,8 +67,11 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
 /* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
- * length, and by the square of that in lambda. None is missed all the same. */
+ * length, and by the square of that in lambda, and above a wide gap be mixed with ones that are missed. No wanted one is. */
 void eigen_band_want(struct eigen_band *e, int from, int to);
+
+/* As eigen_wide_within. */
+void eigen_band_within(struct eigen_band *e, double residual);
 
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
 void eigen_band_begin(struct eigen_band *e, const double *phi);

@@ -15,7 +15,8 @@
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define NEAR        0.03  /* residual from which polishing converges */
 #define MOST_CYCLES 60
-#define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
+#define FEW_FAR     16  /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
+#define WIDE_GAP    0.1 /* of an eigenvalue */
 #define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
@@ -37,7 +38,7 @@ static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct ei
     if (!e->by_arrow)
         return ROTID_OK;
     e->row = POOL_ARRAY(pool, int, n);
-    e->rows = POOL_ARRAY(pool, double, ARROW_SHIFTS *(size_t)n);
+    e->rows = POOL_ROOM(pool, double, ARROW_SHIFTS *(size_t)n);
     if (!e->row || !e->rows)
         return ROTID_ERROR_MEMORY;
     for (int i = 0, f = 0, inner = 0; i < n; i++)
@@ -48,18 +49,18 @@ static int new_arrow(struct pool *pool, const rotid_matrix *structure, struct ei
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
-    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count};
+    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count, .within = TOLERANCE};
     e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
-    e->basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
-    e->mass_basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
-    e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
-    e->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
+    e->basis = POOL_ROOM(pool, double, (size_t)n *(size_t)width);
+    e->mass_basis = POOL_ROOM(pool, double, (size_t)n *(size_t)width);
+    e->ritz = POOL_ROOM(pool, double, (size_t)n *(size_t)block);
+    e->image = POOL_ROOM(pool, double, (size_t)n *(size_t)block);
     e->value = POOL_ARRAY(pool, double, width);
     e->residual = POOL_ARRAY(pool, double, block);
     e->shifts = POOL_ARRAY(pool, double, 3 * count);
-    e->projected = POOL_ARRAY(pool, double, (size_t)width *(size_t)width);
+    e->projected = POOL_ROOM(pool, double, (size_t)width *(size_t)width);
     e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->residual || !e->shifts ||
         !e->projected || !e->work)
@@ -231,19 +232,32 @@ static int check(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
     return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
+/* Eigenvalues below the shift */
+static int count_below(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double shift)
+{
+    int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
+    if (negative >= 0)
+        return negative;
+    matrix_combine(1, k, -shift, m, &e->shifted);
+    return factor_negative_count(&e->inertia, &e->shifted);
+}
+
 /* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
- * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
+ * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. Where pairs above the wanted
+ * ones, which are not polished, are mixed with others: are there the wanted ones alone below a shift amid a wide gap above them?
+ */
 static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
     int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;
-    int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
-    if (negative >= 0)
-        return negative == expected;
-    matrix_combine(1, k, -shift, m, &e->shifted);
-    return factor_negative_count(&e->inertia, &e->shifted) == expected;
+    if (count_below(e, k, m, shift) == expected)
+        return 1;
+    if (e->to < 1 || e->to == e->count)
+        return 0;
+    double wanted = e->value[e->to - 1], next = e->value[e->to];
+    return next - wanted > WIDE_GAP * fabs(next) && count_below(e, k, m, (wanted + next) / 2) == e->to;
 }
 
 /* Ritz pairs of the vectors that are there. */
@@ -287,6 +301,11 @@ void eigen_band_want(struct eigen_band *e, int from, int to)
 {
     e->from = from;
     e->to = to;
+}
+
+void eigen_band_within(struct eigen_band *e, double residual)
+{
+    e->within = residual;
 }
 
 void eigen_band_begin(struct eigen_band *e, const double *phi)

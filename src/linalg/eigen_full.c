@@ -51,6 +51,8 @@ void eigen_full_within(struct eigen_full *e, double residual)
 {
     if (e->wide)
         eigen_wide_within(&e->panels, residual);
+    else if (!e->dense)
+        eigen_band_within(&e->band, residual);
 }
 
 void eigen_full_vouch(struct eigen_full *e)

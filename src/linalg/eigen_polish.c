@@ -8,11 +8,10 @@
 #include "linalg/matrix.h"
 #include "linalg/ritz.h"
 
-#define ROUNDS    4     /* the error is cubed in each */
-#define TOLERANCE 1e-12 /* of the residual */
-#define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
-#define NEAR      1e-2  /* of the residual of a pair that is not wanted */
-#define OFFSET    1e-7  /* of that shift below the lowest of them */
+#define ROUNDS  4    /* the error is cubed in each */
+#define CLUSTER 1e-3 /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define NEAR    1e-2 /* of the residual of a pair that is not wanted */
+#define OFFSET  1e-7 /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)
 {
@@ -22,16 +21,20 @@ double eigen_rounding(const struct eigen_band *e)
 double eigen_residuals(struct eigen_band *e, const rotid_matrix *m, int columns, int watched)
 {
     int n = e->n;
-    double worst = 0, *difference = e->work, *image_of_it = e->work + n;
+    double worst = 0;
     matrix_multiply(m, columns, e->ritz, e->image);
     memcpy(e->mass_basis, e->image, (size_t)n * (size_t)columns * sizeof(double));
     factor_solve(&e->factor, columns, e->image);
-    for (int j = 0; j < watched; j++) {
+    for (int j = 0; j < watched; j++) { /* x - (lambda - s) y and M times that in the basis, which is free */
         const double *x = e->ritz + (ptrdiff_t)j * n, *y = e->image + (ptrdiff_t)j * n;
+        double *difference = e->basis + (ptrdiff_t)j * n;
         for (int i = 0; i < n; i++)
             difference[i] = x[i] - (e->value[j] - e->shift) * y[i];
-        matrix_multiply(m, 1, difference, image_of_it);
-        e->residual[j] = sqrt(fabs(cblas_ddot(n, difference, 1, image_of_it, 1)));
+    }
+    double *image_of_it = e->basis + (ptrdiff_t)watched * n;
+    matrix_multiply(m, watched, e->basis, image_of_it);
+    for (int j = 0; j < watched; j++) {
+        e->residual[j] = sqrt(fabs(cblas_ddot(n, e->basis + (ptrdiff_t)j * n, 1, image_of_it + (ptrdiff_t)j * n, 1)));
         worst = fmax(worst, e->residual[j]);
         if (!isfinite(e->residual[j]))
             return INFINITY;
@@ -81,7 +84,7 @@ static void solve_by_arrow(struct eigen_band *e, const double *expected, double 
     int pair[ARROW_SHIFTS], waiting = 0;
     for (int begin = 0, end; begin < e->count; begin = end) {
         end = cluster_end(e, begin);
-        if (end - begin > 1 || !(expected[begin] > TOLERANCE))
+        if (end - begin > 1 || !(expected[begin] > e->within))
             continue;
         sigma[begin] = e->value[begin];
         pair[waiting++] = begin;
@@ -124,7 +127,9 @@ static void expect(struct eigen_band *e, const double *sigma, const double *gap,
                 double cosine = cblas_ddot(e->n, e->ritz + (ptrdiff_t)j * e->n, 1, e->mass_basis + (ptrdiff_t)i * e->n, 1);
                 inside += cosine * cosine;
             }
-        expected[j] = sqrt(fmax(1 - inside, 4 * DBL_EPSILON)) * fabs(e->value[j] - sigma[j]) / gap[j];
+        double turned =
+            sqrt(fmax(1 - inside, 4 * DBL_EPSILON)); /* less than that cannot be seen, but is known of the step before */
+        expected[j] = fmin(turned, expected[j]) * fabs(e->value[j] - sigma[j]) / gap[j];
     }
 }
 
@@ -143,7 +148,7 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
         int good = 1;
         end = cluster_end(e, begin);
         for (int j = begin; j < end; j++)
-            good &= expected[j] <= TOLERANCE;
+            good &= expected[j] <= e->within;
         double at = NAN, distance = INFINITY;
         if (good)
             memcpy(e->image + (ptrdiff_t)begin * n, e->ritz + (ptrdiff_t)begin * n,
@@ -175,7 +180,7 @@ static int count_open(struct eigen_band *e, double rounding, double *expected)
 {
     int open = 0;
     for (int j = 0; j < e->count; j++) {
-        if (e->residual[j] <= (is_wanted(e, j) ? TOLERANCE : NEAR) || (expected[j] <= TOLERANCE && e->residual[j] <= rounding))
+        if (e->residual[j] <= (is_wanted(e, j) ? e->within : NEAR) || (expected[j] <= e->within && e->residual[j] <= rounding))
             continue;
         expected[j] = INFINITY;
         open++;
@@ -198,7 +203,7 @@ int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
             worst = 0;
             for (int j = 0; j < e->count; j++)
                 worst = fmax(worst, expected[j]);
-        } while (worst > TOLERANCE && round < ROUNDS);
+        } while (worst > e->within && round < ROUNDS);
     }
     return 1;
 }

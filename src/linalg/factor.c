@@ -27,7 +27,7 @@ static int new_wide(struct pool *pool, int n, int kd, struct factor *f)
 
 static int new_narrow(struct pool *pool, int n, struct factor *f)
 {
-    f->band = POOL_ARRAY(pool, double, (size_t)f->lda *(size_t)n);
+    f->band = POOL_ROOM(pool, double, (size_t)f->lda *(size_t)n);
     f->band_pivot = POOL_ARRAY(pool, int, n);
     return f->band && f->band_pivot ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
@@ -41,11 +41,11 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->position = POOL_ARRAY(pool, int, structure->n);
     f->inner = POOL_ARRAY(pool, int, n);
     f->outer = POOL_ARRAY(pool, int, outer);
-    f->coupling = POOL_ARRAY(pool, double, (size_t)n *outer);
-    f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
+    f->coupling = POOL_ROOM(pool, double, (size_t)n *outer);
+    f->x = POOL_ROOM(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, (f->is_wide ? WIDE_COLUMNS : BAND_LANES) * (size_t)n);
+    f->work = POOL_ROOM(pool, double, (f->is_wide ? WIDE_COLUMNS : BAND_LANES) * (size_t)n);
     f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer); /* >= 2 BAND_LANES */
     f->same = POOL_ARRAY(pool, int, n);
     f->first = POOL_ARRAY(pool, int, outer);

@@ -57,6 +57,8 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     f->shape = measured->shape ? POOL_ARRAY(pool, double, (size_t)nmaster *(size_t)nmode) : NULL;
     if (status)
         return status;
+    if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE) /* rigid motions have no number */
+        eigen_full_want(&f->prediction.full, model->nrigid < count ? model->nrigid : 0, count);
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
         return ROTID_ERROR_MEMORY;
     if (f->shape)

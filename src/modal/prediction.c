@@ -69,7 +69,7 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->below = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->size *nparam : 0);
-    p->image = POOL_ARRAY(pool, double, full ? 2 * vectors : 0);
+    p->image = POOL_ROOM(pool, double, full ? 2 * vectors : 0);
     p->dk_is_zero = p->dm_is_zero = 1; /* as the pool gives them */
     p->x = POOL_ARRAY(pool, double, nparam);
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);

@@ -9,6 +9,7 @@
 
 #define DIGITS 9
 #define WIDEST 24 /* characters of such a number, with sign, point and exponent */
+#define POWERS 22 /* of ten, that are numbers without rounding */
 
 static cJSON *put(struct json_tree *tree, cJSON *parent, const char *key, cJSON *item)
 {
@@ -53,17 +54,60 @@ void json_text(struct json_tree *tree, cJSON *parent, const char *key, const cha
     (void)put(tree, parent, key, cJSON_CreateString(text)); /* what is no UTF-8 in it is replaced at the end */
 }
 
+/* The nine digits of a positive number as an integer, and the power of ten of the first one; 0 where a product with a power of
+ * ten is not near enough to tell how it rounds. */
+static long nine_digits(double value, int *exponent)
+{
+    static const double power[POWERS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                             1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (!(value > 1e-13 && value < 1e30))
+        return 0;
+    int first = (int)floor(log10(value)), shift = DIGITS - 1 - first;
+    double scaled = shift < 0 ? value / power[-shift] : value * power[shift], below = floor(scaled);
+    if (fabs(scaled - below - 0.5) < 1e-6 || scaled < 1e8 || scaled >= 999999999.5)
+        return 0;
+    *exponent = first;
+    return (long)below + (scaled - below > 0.5);
+}
+
+/* As printf's %.9g writes a finite number, which costs five times as much; the characters written. */
+static size_t write_digits(char *text, double value)
+{
+    int exponent;
+    long digits = nine_digits(fabs(value), &exponent);
+    if (!digits)
+        return (size_t)snprintf(text, WIDEST + 1, "%.*g", DIGITS, value);
+    char digit[DIGITS], *c = text;
+    int scientific = exponent < -4 || exponent >= DIGITS, point = scientific ? 0 : exponent, last = DIGITS - 1;
+    for (int i = DIGITS - 1; i >= 0; i--, digits /= 10)
+        digit[i] = (char)('0' + digits % 10);
+    while (last > 0 && digit[last] == '0')
+        last--;
+    if (value < 0)
+        *c++ = '-';
+    for (int i = point < 0 ? point : 0; i <= last || i <= point; i++) {
+        *c++ = (char)(i < 0 ? '0' : digit[i]); /* the zeros in front of a fraction, and those up to the point, are digits too */
+        if (i == point && i < last)
+            *c++ = '.';
+    }
+    if (scientific)
+        c += snprintf(c, 6, "e%+03d", exponent);
+    return (size_t)(c - text);
+}
+
 /* Numbers that are `stride` apart. */
 static void put_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value, ptrdiff_t stride)
 {
     size_t length = 1, room = (size_t)(count > 0 ? count : 0) * (WIDEST + 1) + 3;
     char *text = malloc(room);
     for (int i = 0; i < count && text; i++) {
-        const char *comma = i ? "," : "";
         double number = value[i * stride];
-        int more = isfinite(number) ? snprintf(text + length, room - length, "%s%.*g", comma, DIGITS, number)
-                                    : snprintf(text + length, room - length, "%snull", comma);
-        length += (size_t)more;
+        if (i)
+            text[length++] = ',';
+        if (isfinite(number))
+            length += write_digits(text + length, number);
+        else
+            length += (size_t)snprintf(text + length, room - length, "null");
     }
     if (text) {
         text[0] = '[';
@@ -108,18 +152,35 @@ void json_open(struct json_tree *tree)
     tree->failed = !tree->root;
 }
 
-/* A copy with `behind` at its end, in which control characters are escaped: cJSON does so with those of ASCII alone, and a file
- * is shown on terminals too. They stand within texts only, but for the blanks between values. */
-static char *escape(const char *text, const char *behind)
+/* The length of what stands at the beginning and is copied as it is: ASCII, and the blanks between values. */
+static size_t plain(const char *text)
+{
+    const char *c = text;
+    while ((*c >= ' ' && *c < 0x7f) || *c == '\n' || *c == '\t')
+        c++;
+    return (size_t)(c - text);
+}
+
+/* A copy with a line feed at its end, in which control characters are escaped: cJSON does so with those of ASCII alone, and a
+ * file is shown on terminals too. They stand within texts only, but for the blanks between values. */
+static char *escape(const char *text)
 {
     unsigned code;
-    size_t room = strlen(text) + strlen(behind) + 1;
-    for (const char *c = text; *c; c += text_utf8(c) ? text_utf8(c) : 1)
+    size_t room = strlen(text) + 2;
+    for (const char *c = text + plain(text); *c; c += plain(c)) {
         room += text_visible(c) ? 0 : 6; /* of an escape, or of what stands for a byte that is no UTF-8 */
+        c += text_utf8(c) ? text_utf8(c) : 1;
+    }
     char *copy = cJSON_malloc(room), *end = copy;
-    while (copy && *text) {
+    while (copy) {
+        size_t as_it_is = plain(text);
+        memcpy(end, text, as_it_is);
+        end += as_it_is;
+        text += as_it_is;
+        if (!*text)
+            break;
         size_t bytes = text_utf8(text);
-        if (text_is_control(text, &code) && *text != '\n' && *text != '\t') {
+        if (text_is_control(text, &code)) {
             end += snprintf(end, 7, "\\u%04x", code & 0xffff);
         } else {
             memcpy(end, bytes ? text : TEXT_REPLACEMENT, bytes ? bytes : 3);
@@ -128,13 +189,13 @@ static char *escape(const char *text, const char *behind)
         text += bytes ? bytes : 1;
     }
     if (copy)
-        (void)strcpy(end, behind);
+        (void)strcpy(end, "\n");
     return copy;
 }
 
-static char *finish(struct json_tree *tree, char *text, const char *behind)
+static char *finish(struct json_tree *tree, char *text)
 {
-    char *escaped = text ? escape(text, behind) : NULL;
+    char *escaped = text ? escape(text) : NULL;
     cJSON_free(text);
     cJSON_Delete(tree->root);
     tree->root = NULL;
@@ -143,12 +204,12 @@ static char *finish(struct json_tree *tree, char *text, const char *behind)
 
 char *json_close(struct json_tree *tree)
 {
-    return finish(tree, tree->failed ? NULL : cJSON_Print(tree->root), "");
+    return finish(tree, tree->failed ? NULL : cJSON_Print(tree->root));
 }
 
 char *json_close_line(struct json_tree *tree)
 {
-    return finish(tree, tree->failed ? NULL : cJSON_PrintUnformatted(tree->root), "\n");
+    return finish(tree, tree->failed ? NULL : cJSON_PrintUnformatted(tree->root));
 }
 
 void json_free(char *text)

@@ -10,10 +10,10 @@ struct json_tree {
 };
 
 void json_open(struct json_tree *tree);
-/* The text, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
+/* The text, which ends in a line feed, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
 char *json_close(struct json_tree *tree);
 void json_free(char *text);
-/* The same without a blank, in one line that ends in a line feed. */
+/* The same without a blank, in one line. */
 char *json_close_line(struct json_tree *tree);
 
 /* Each adds to an object under `key`, to an array where `key` is NULL; nothing and a mark on the tree where `parent` is NULL. */

@@ -7,6 +7,7 @@
 #include "model/model.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */
+#define ROUGH        1e-4 /* the same of a trial */
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
 /* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
@@ -20,6 +21,13 @@ static int mass_is_positive(const struct models *models, const struct rotor *rot
     return only_moduli;
 }
 
+/* How exact a solution is, and what it begins with in place of the modes that all share: NULL, or a spectrum of nearly the same
+ * model, which may be of another size. */
+struct manner {
+    double within;
+    const struct spectrum *near;
+};
+
 /* What is kept of a solution: pairs from the rigid ones on. */
 struct solution {
     struct rotor_model *model;
@@ -30,8 +38,8 @@ struct solution {
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. known: NULL, or the solution on another
  * mesh. scratch: for what its solution takes */
 static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                      const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
-                      struct rotor_model *model, struct prediction *prediction)
+                      const struct parameter *parameter, const double *x, int refine, struct manner manner,
+                      const struct solution *known, int *count, struct rotor_model *model, struct prediction *prediction)
 {
     int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
@@ -39,14 +47,19 @@ static int full_model(struct pool *pool, struct pool *scratch, struct models *mo
     int nshared = status ? 0 : model->equations.nmodes;
     *count = *count < most ? *count : most;
     int pairs = status ? 0 : model->equations.nrigid + *count;
+    const struct spectrum *near = manner.near;
+    if (!status && near && near->model->equations.n == model->equations.n && near->nrigid + near->count >= pairs) {
+        model->equations.modes = near->phi - (ptrdiff_t)near->nrigid * model->equations.n;
+        model->equations.nmodes = pairs;
+    }
     if (!status && known && known->pairs >= pairs && nshared < pairs)
         status = model_begin_with(scratch, model, known->model, pairs, known->phi);
     if (!status)
         status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, pairs, 0, prediction);
-    model->equations.modes = shared; /* those of another mesh go with the scratch */
+    model->equations.modes = shared; /* the others do not last as long */
     model->equations.nmodes = nshared;
     if (!status) {
-        eigen_full_within(&prediction->full, WITHIN);
+        eigen_full_within(&prediction->full, manner.within);
         if (mass_is_positive(models, rotor, nparameter, parameter))
             eigen_full_vouch(&prediction->full);
         status = prediction_compute(prediction, x);
@@ -82,8 +95,8 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
 
 /* The matrices and factors of a solution, ten times what is kept of it, go before the next one. */
 static int solve(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                 const struct parameter *parameter, const double *x, int refine, const struct solution *known, int *count,
-                 struct solution *out)
+                 const struct parameter *parameter, const double *x, int refine, struct manner manner,
+                 const struct solution *known, int *count, struct solution *out)
 {
     struct pool scratch;
     struct prediction p;
@@ -91,7 +104,8 @@ static int solve(struct pool *pool, struct models *models, const struct rotor *r
     if (!out->model)
         return ROTID_ERROR_MEMORY;
     pool_open(&scratch, pool->allocator);
-    int status = full_model(pool, &scratch, models, rotor, nparameter, parameter, x, refine, known, count, out->model, &p);
+    int status =
+        full_model(pool, &scratch, models, rotor, nparameter, parameter, x, refine, manner, known, count, out->model, &p);
     if (!status) {
         const rotid_model *equations = &out->model->equations;
         out->size = p.size;
@@ -159,20 +173,20 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
                                   SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS, spectrum);
 }
 
-int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
-                           struct spectrum *s)
+static int compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                   const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct manner manner,
+                   struct spectrum *s)
 {
     struct solution own = {0}, other = {0};
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
     const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models));
     int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
-    int status =
-        coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, NULL, &count, &other) : ROTID_OK;
+    int status = coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, NULL, &count, &other)
+                              : ROTID_OK;
     if (!status)
-        status = solve(pool, models, rotor, nparameter, parameter, x, refine, coarse_first ? &other : NULL, &count, &own);
+        status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, coarse_first ? &other : NULL, &count, &own);
     if (!status && meshed && !coarse_first)
-        status = solve(pool, models, rotor, nparameter, parameter, x, limit.refine, &own, &count, &other);
+        status = solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, &own, &count, &other);
     if (status)
         return status;
     const rotid_model *equations = &own.model->equations;
@@ -213,6 +227,21 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
     for (int j = 0; j < count && !status; j++)
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
     return status;
+}
+
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *spectrum)
+{
+    return compute(pool, models, rotor, nparameter, parameter, x, reduction, count, parts, (struct manner){WITHIN, NULL},
+                   spectrum);
+}
+
+int spectrum_try(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                 const struct parameter *parameter, const double *x, int count, const struct spectrum *near,
+                 struct spectrum *spectrum)
+{
+    return compute(pool, models, rotor, nparameter, parameter, x, ROTID_GUYAN, count, 0, (struct manner){ROUGH, near}, spectrum);
 }
 
 double spectrum_correlation(const struct spectrum *s, const double *shape, int j, double *work)

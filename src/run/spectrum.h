@@ -39,6 +39,12 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,
                            struct spectrum *spectrum);
 
+/* Of the full model alone, vectors good to 1e-4 and frequencies to the square of it: one of many trials. near: NULL, or the
+ * spectrum of a model that is nearly this one, whose modes it begins with. */
+int spectrum_try(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                 const struct parameter *parameter, const double *x, int count, const struct spectrum *near,
+                 struct spectrum *spectrum);
+
 /* NCO of a measured shape [nmaster] with mode j of the full model by the condensed mass; MAC where there is no such matrix.
  * work [nmaster]. */
 double spectrum_correlation(const struct spectrum *spectrum, const double *shape, int j, double *work);
