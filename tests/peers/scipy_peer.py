@@ -136,7 +136,9 @@ class SolidRotor:
         for i, section in enumerate(self.owner):
             material = (e, g, 0.28, 7650.0) if section == self.core else (2.1e11, 2.1e11 / 2.6, 0.30, 7850.0)
             area, inertia = scipy_fit.disc(self.sections[section][1])
-            pair = scipy_fit.element(material[0], material[1], scipy_fit.shear_coefficient(material[2]), material[3], area, inertia,
+            # Cowper's 6 (1 + nu)/(7 + 6 nu) is 6/(7 - 2 x) with x = nu G/E, of sheets their own nu and E (1.9e11 Pa)
+            kappa = 6 / (7 - 2 * material[2] * g / 1.9e11) if section == self.core else scipy_fit.shear_coefficient(material[2])
+            pair = scipy_fit.element(material[0], material[1], kappa, material[3], area, inertia,
                                      self.z[i + 1] - self.z[i])
             place = slice(2 * i, 2 * i + 4)
             k[place, place] += pair[0]
