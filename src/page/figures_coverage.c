@@ -88,7 +88,7 @@ static void draw(struct plot *plot, const struct series *series, const struct co
     double low = fmax(0, 10 * floor((c->least - 5) / 10));
     plot_line(plot, "set xrange [%g:101]\nset xtics %g", low, plot_tic(100 - low, 5));
     rows_draw(plot, c->rows, c->name);
-    plot_axes(plot, "intervals that hold the truth [%]", NULL);
+    plot_axes(plot, "coverage [%]", NULL);
     plot_line(plot, "set arrow 1 from first %g, graph 0 to first %g, graph 1 nohead ls 11", NOMINAL, NOMINAL);
     (void)fputs("plot ", plot->out);
     for (int k = 0; k < c->ndot; k++)
