@@ -67,7 +67,7 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
 /* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their
- * length, and by the square of that in lambda, and above a wide gap be mixed with ones that are missed. No wanted one is. */
+ * length, and by the square of that in lambda. None is missed all the same. */
 void eigen_band_want(struct eigen_band *e, int from, int to);
 
 /* As eigen_wide_within. */

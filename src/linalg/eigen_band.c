@@ -15,8 +15,7 @@
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define NEAR        0.03  /* residual from which polishing converges */
 #define MOST_CYCLES 60
-#define FEW_FAR     16  /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
-#define WIDE_GAP    0.1 /* of an eigenvalue */
+#define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
 #define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
@@ -232,32 +231,19 @@ static int check(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
     return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
-/* Eigenvalues below the shift */
-static int count_below(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double shift)
-{
-    int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
-    if (negative >= 0)
-        return negative;
-    matrix_combine(1, k, -shift, m, &e->shifted);
-    return factor_negative_count(&e->inertia, &e->shifted);
-}
-
 /* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
- * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. Where pairs above the wanted
- * ones, which are not polished, are mixed with others: are there the wanted ones alone below a shift amid a wide gap above them?
- */
+ * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
 static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
     int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;
-    if (count_below(e, k, m, shift) == expected)
-        return 1;
-    if (e->to < 1 || e->to == e->count)
-        return 0;
-    double wanted = e->value[e->to - 1], next = e->value[e->to];
-    return next - wanted > WIDE_GAP * fabs(next) && count_below(e, k, m, (wanted + next) / 2) == e->to;
+    int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
+    if (negative >= 0)
+        return negative == expected;
+    matrix_combine(1, k, -shift, m, &e->shifted);
+    return factor_negative_count(&e->inertia, &e->shifted) == expected;
 }
 
 /* Ritz pairs of the vectors that are there. */
