@@ -224,10 +224,9 @@ static void channel_gram(const struct modal_fit *fit, int c, enum modal_fit_part
 static void derivative_products(int nmode, int q, const double *x, const double *gram, double *schur)
 {
     ptrdiff_t all = 4 * (ptrdiff_t)nmode + 5, p = 2 * (ptrdiff_t)nmode;
-    for (int s = 0; s < nmode; s++)
-        for (int r = 0; r <= s; r++) {
-            const double *one = gram + q + 2 * r + (q + 2 * s) * all, *two = one + all, *u = x + 2 * (ptrdiff_t)r,
-                         *v = x + 2 * (ptrdiff_t)s;
+    for (ptrdiff_t s = 0; s < nmode; s++)
+        for (ptrdiff_t r = 0; r <= s; r++) {
+            const double *one = gram + q + 2 * r + (q + 2 * s) * all, *two = one + all, *u = x + 2 * r, *v = x + 2 * s;
             double left[2][2] = {{u[0] * one[0] + u[1] * one[1], u[0] * two[0] + u[1] * two[1]},
                                  {u[0] * one[1] - u[1] * one[0], u[0] * two[1] - u[1] * two[0]}};
             for (int i = 0; i < 2; i++) {

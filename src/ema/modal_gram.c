@@ -57,9 +57,9 @@ static int find_close(struct modal_gram *gram, const double *nu, const double co
                 continue;
             if (gram->nclose == most_close(gram->nmode))
                 return 1;
-            gram->close[2 * gram->nclose] = r;
-            gram->close[2 * gram->nclose + 1] = s;
-            gram->nclose++;
+            int *pair = gram->close + 2 * (ptrdiff_t)gram->nclose++;
+            pair[0] = r;
+            pair[1] = s;
         }
     }
     return 0;
@@ -119,8 +119,8 @@ int modal_gram_fill(struct modal_gram *gram, const double *nu, const double comp
         rest[i + n] = square;
         rest[i + (ptrdiff_t)2 * n] = square * square;
     }
-    for (int k = 0; k < gram->nclose; k++)
-        fill_pair(n, nu, pole[gram->close[2 * k]], pole[gram->close[2 * k + 1]], rest + (3 + (ptrdiff_t)OF_PAIR * k) * n);
+    for (ptrdiff_t k = 0; k < gram->nclose; k++)
+        fill_pair(n, nu, pole[gram->close[2 * k]], pole[gram->close[2 * k + 1]], rest + (3 + OF_PAIR * k) * n);
     for (int s = 0; s < m; s++)
         for (int r = 0; r < m; r++) {
             gram->a[r + (ptrdiff_t)s * m] = -1 / (pole[s] + conj(pole[r]));
@@ -214,7 +214,7 @@ static void put_rest(const struct modal_gram *gram, const double *sum, int r, do
     ptrdiff_t all = 4 * (ptrdiff_t)m + 5;
     for (int power = 0; power < 2; power++)
         for (int fourth = 0; fourth < 2; fourth++) {
-            const double *f = sum + (ptrdiff_t)OF_MODE * r + (fourth ? 0 : FOURTH) + 2 * power;
+            const double *f = sum + (ptrdiff_t)OF_MODE * r + (fourth ? 0 : FOURTH) + (power ? 2 : 0);
             double sign = fourth ? 1 : -1, plus_re = sign * (f[0] + f[4]), plus_im = sign * (f[1] + f[5]);
             double minus_re = sign * (f[0] - f[4]), minus_im = sign * (f[1] - f[5]);
             double block[2][2] = {{plus_re, plus_im}, {-minus_im, minus_re}};
@@ -246,8 +246,8 @@ void modal_gram_assemble(const struct modal_gram *gram, const double *sum, doubl
         put_rest(gram, sum, s, matrix);
     }
     const double *rest = sum + (ptrdiff_t)OF_MODE * m;
-    for (int k = 0; k < gram->nclose; k++)
-        put_close(gram, rest + 3 + (ptrdiff_t)OF_PAIR * k, gram->close[2 * k], gram->close[2 * k + 1], matrix);
+    for (ptrdiff_t k = 0; k < gram->nclose; k++)
+        put_close(gram, rest + 3 + OF_PAIR * k, gram->close[2 * k], gram->close[2 * k + 1], matrix);
     for (int k = 0; k < 4; k++)
         for (int j = 0; j < 4; j++)
             matrix[2 * m + j + (2 * m + k) * all] = (j - k) % 2 ? 0 : j / 2 != k / 2 ? -rest[1] : rest[j < 2 ? 0 : 2];

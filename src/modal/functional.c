@@ -61,7 +61,7 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
         eigen_full_want(&f->prediction.full, model->nrigid < count ? model->nrigid : 0, count);
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
         return ROTID_ERROR_MEMORY;
-    if (f->shape)
+    if (measured->shape && f->shape)
         scale_shapes(measured, nmaster, f->shape);
     for (int k = 0; k < nmode; k++) {
         f->pair[k] = model->nrigid + measured->number[k] - 1;
