@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "diagnose/refit.h"
+#include "fit/quantile.h"
 
-#define QUANTILE 3.841459 /* of chi2 with one degree of freedom, 95 % */
-#define HELD     1e-6     /* of the range: what a place may still move that is held */
-#define NEAR     0.01     /* of the range: as near as an end is looked for */
-#define STEPS    6
+#define HELD  1e-6 /* of the range: what a place may still move that is held */
+#define NEAR  0.01 /* of the range: as near as an end is looked for */
+#define STEPS 6
 
 struct profile {
     const struct engine *engine;
@@ -28,17 +28,15 @@ static int look_at(const struct profile *profile, double z, double *far)
            to = fmin(profile->upper, z + room);
     pool_open(&scratch, profile->engine->pool->allocator);
     int status = states_started_at(&scratch, profile->states, profile->fit->x, &held);
-    for (int s = 0; s < held.nstate && !status; s++)
-        for (int q = 0; q < held.state[s].job.unknowns.nparameter; q++)
-            if (state_unknown(&held.state[s], q) == profile->p) {
-                rotid_parameter *own = &held.state[s].job.unknowns.bounds[q], *all = &held.bounds[profile->p];
-                own->lower = all->lower = from;
-                own->upper = all->upper = to;
-                own->start = all->start = (from + to) / 2;
-            }
-    if (!status)
+    if (!status) {
+        rotid_parameter *place = &held.bounds[profile->p];
+        place->lower = from;
+        place->upper = to;
+        place->start = (from + to) / 2;
+        states_share_bounds(&held, profile->p);
         status =
             refit_states(&scratch, &held, profile->engine->number, profile->engine->holdout, profile->engine->environment, &fit);
+    }
     *far = status ? INFINITY : sqrt(fmax(0, fit->chi2 - profile->fit->chi2));
     rotid_fit_free(fit);
     pool_close(&scratch);
@@ -48,7 +46,7 @@ static int look_at(const struct profile *profile, double z, double *far)
 /* The end on the side of `bound`: the distance grows with that of the place, nearly in proportion. */
 static int find_end(const struct profile *profile, double z, double bound, double *end)
 {
-    double limit = sqrt(QUANTILE) * profile->fit->widened_by, inside = z, outside = bound, near = 0, far;
+    double limit = sqrt(chi_square_limit(0.05, 1)) * profile->fit->widened_by, inside = z, outside = bound, near = 0, far;
     int status = look_at(profile, bound, &far);
     *end = bound;
     if (status || far <= limit)

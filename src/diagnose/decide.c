@@ -241,10 +241,14 @@ static int is_in_all(const struct candidate *all, const struct candidate *c)
     return distance < SAME * all->result.chi2_drop && chi_square_tail(distance, 1) > 0.05;
 }
 
-static int has_cause(const struct candidate *set, const struct candidate *cause)
+int candidate_is(const struct candidate *a, const struct candidate *b)
 {
-    return (set->cause == cause->cause && set->effect.target == cause->effect.target && set->state == cause->state) ||
-           (set->with && has_cause(set->with, cause));
+    return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
+}
+
+int candidate_has(const struct candidate *set, const struct candidate *cause)
+{
+    return candidate_is(set, cause) || (set->with && candidate_has(set->with, cause));
 }
 
 /* Pairs that cannot be told apart name what all of them have, and the next round asks for the rest: the candidate of that cause
@@ -255,7 +259,7 @@ static int name_common(struct diagnosis_round *round)
         struct candidate c = round->candidate[i];
         int common = !c.with && !c.refused && isfinite(c.result.chi2) && c.cause->class == CAUSE_PHYSICAL && c.cause->place < 0;
         for (int s = 0; s < round->result.set; s++)
-            common &= has_cause(&round->candidate[s], &c);
+            common &= candidate_has(&round->candidate[s], &c);
         if (!common)
             continue;
         for (int s = 0; s < round->result.set; s++)

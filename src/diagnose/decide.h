@@ -23,6 +23,10 @@ struct before {
 
 double candidate_score(const struct candidate *candidate);
 
+/* Whether the first causes of two candidates are one, at its target and in its state; and whether one of a set is that cause. */
+int candidate_is(const struct candidate *a, const struct candidate *b);
+int candidate_has(const struct candidate *set, const struct candidate *cause);
+
 /* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the
  * candidates has room for one more. */
 int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round);

@@ -134,8 +134,7 @@ static int map_unknowns(struct pool *pool, int added, int nparameter, struct sta
     return ROTID_OK;
 }
 
-/* The bounds of an unknown of all for the states that have it. */
-static void share_bounds(struct states *states, int p)
+void states_share_bounds(struct states *states, int p)
 {
     for (int s = 0; s < states->nstate; s++)
         for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
@@ -172,7 +171,7 @@ static int add_bounds(struct pool *pool, const struct states *from, const struct
             }
         }
         set_start(&bounds[p], inside(&bounds[p], bounds[p].start));
-        share_bounds(to, p);
+        states_share_bounds(to, p);
     }
     return ROTID_OK;
 }
@@ -390,7 +389,7 @@ int refit_beyond(struct pool *pool, const struct states *states, int nown, const
         else
             bounds->upper = bounds->upper > 0 ? bounds->upper * WIDER : bounds->upper / WIDER;
         bounds->start = fit->x[p];
-        share_bounds(&wider, p);
+        states_share_bounds(&wider, p);
         widened = 1;
     }
     if (status || !widened)

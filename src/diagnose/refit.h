@@ -32,6 +32,9 @@ int states_with_effect(struct pool *pool, const struct states *from, const doubl
 /* The same for the starts of all. */
 int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
 
+/* The bounds and the start of unknown p of all for the states that have it. */
+void states_share_bounds(struct states *states, int p);
+
 /* *to := the states with the values that their effects have at x. */
 int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
 
@@ -45,8 +48,9 @@ struct refit {
 
 /* Best of the fits from the most promising places of the set, the states' own parameters starting at x [nparameter], which is
  * where the scan was made (at those of the set, where it has some); and at `deck` [nparameter] (NULL: none) as well where none of
- * those fits succeeded or one of these parameters ends at a bound. Statuses of memory and cancellation only: where every fit
- * fails, or ends above the model without its causes, which it contains, fit is NULL. */
+ * those fits succeeded, one of these parameters ends at a bound, or one at x is more than three times as large or small as in the
+ * deck. Statuses of memory and cancellation only: where every fit fails, or ends above the model without its causes, which it
+ * contains, fit is NULL. */
 int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit);

@@ -122,18 +122,13 @@ static double margin_of(const struct diagnosis_round *round)
     return margin;
 }
 
-static int same_cause(const struct candidate *a, const struct candidate *b)
-{
-    return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
-}
-
 /* Whether one of two causes does alone what the pair does. */
 static int adds_nothing(const struct diagnosis_round *round, const struct candidate *pair)
 {
     for (const struct candidate *member = pair; member && pair->with; member = member->with)
         for (int i = 0; i < round->ncandidate; i++) {
             const struct candidate *alone = &round->candidate[i];
-            if (!alone->with && alone->result.refitted && same_cause(alone, member) &&
+            if (!alone->with && alone->result.refitted && candidate_is(alone, member) &&
                 alone->result.chi2_drop > pair->result.chi2_drop - ONE_PARAMETER)
                 return 1;
         }
@@ -234,7 +229,7 @@ static int doubt_cause(struct engine *engine, int cause, struct doubt *d)
 static int is_named(const struct doubt *d, const struct candidate *c)
 {
     const struct candidate *named = &d->round.candidate[0];
-    return d->round.result.kind == ROTID_NAMED && (same_cause(named, c) || (named->with && same_cause(named->with, c)));
+    return d->round.result.kind == ROTID_NAMED && candidate_has(named, c);
 }
 
 /* Whether the other one of two stays named: where beside it nothing is missing any more, since the noise has what it leaves as an
@@ -244,7 +239,7 @@ static int other_stays(const struct diagnosis *out, const struct doubt *d, int t
 {
     int stays = d->round.result.kind == ROTID_ADEQUATE;
     for (int i = 0; i < d->round.result.set && d->round.result.kind == ROTID_AMBIGUOUS && together; i++)
-        stays |= !d->round.candidate[i].with && same_cause(&d->round.candidate[i], &out->cause[d->cause]);
+        stays |= !d->round.candidate[i].with && candidate_is(&d->round.candidate[i], &out->cause[d->cause]);
     return stays && out->ncause == 2;
 }
 
@@ -260,7 +255,8 @@ static int confirm(struct engine *engine, struct doubt *found)
     *found = (struct doubt){.cause = -1};
     for (int c = 0; c < doubted && !status && (found->cause < 0 || found->alone); c++) {
         struct doubt d;
-        if (together && c && same_cause(&out->cause[c], &out->cause[0])) /* the model without the one is that without the other */
+        if (together && c &&
+            candidate_is(&out->cause[c], &out->cause[0])) /* the model without the one is that without the other */
             continue;
         status = doubt_cause(engine, c, &d);
         if (status || is_named(&d, &out->cause[c])) {

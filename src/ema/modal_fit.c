@@ -407,7 +407,7 @@ double modal_fit_evaluate(struct modal_fit *fit, enum modal_fit_part part)
         product_gram(fit->ncolumn, 2 * n, fit->basis, fit->gram);
         product_transposed(fit->ncolumn, fit->nchannel, 2 * n, fit->basis, fit->y, fit->right);
     }
-    struct evaluation evaluation = {fit, part, is_summed(fit) && !modal_gram_fill(&fit->summed, fit->nu, fit->pole)};
+    struct evaluation evaluation = {fit, part, is_summed(fit) && !modal_gram_fill(&fit->summed, fit->nu, fit->pole, fit->basis)};
     (void)parallel_for(fit->threads, (fit->nchannel + TOGETHER - 1) / TOGETHER, evaluate_channels, &evaluation);
     double sum = 0;
     for (int c = 0; c < fit->nchannel; c++)

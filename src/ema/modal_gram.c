@@ -1,7 +1,6 @@
 #include "ema/modal_gram.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Functions of a mode, times nu^4 and then the first eight times nu^2: real and imaginary parts of g, g^2, g', g'^2; and times
  * nu^4 only |g|^2 g, |g|^4, which as partial fractions would lose digits far from the pole. Behind those of all modes 1, nu^2,
@@ -9,7 +8,7 @@
 #define FOURTH  11
 #define SQUARE  8
 #define OF_MODE (FOURTH + SQUARE)
-#define OF_PAIR 16  /* of two poles too close: products of their four columns each, times nu^4, behind the three */
+#define OF_PAIR 16  /* of two poles too close: products of their four columns each, behind the three */
 #define NEAREST 0.2 /* of what a line sees: the half bandwidth, the distance to the lines, their spacing */
 
 int modal_gram_functions(const struct modal_gram *gram)
@@ -83,29 +82,17 @@ static void fill_mode(int n, const double *nu, double complex pole, double *f)
     }
 }
 
-/* Real and imaginary parts of the four columns of a mode at one line, over -nu^2 */
-static void columns_of(double nu, double complex pole, double value[4][2])
+/* Columns of phi and psi of two modes, [2 n] each, two and two side by side. */
+static void fill_pair(int n, const double *const one[2], const double *const other[2], double *f)
 {
-    double a = creal(pole), b = cimag(pole), below = nu - b, above = nu + b;
-    double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above);
-    double gr = -a * d, gi = -below * d, mr = -a * e, mi = -above * e;
-    double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
-    double all[4][2] = {{gr + mr, gi + mi}, {mi - gi, gr - mr}, {g2r + m2r, g2i + m2i}, {m2i - g2i, g2r - m2r}};
-    memcpy(value, all, sizeof all);
-}
-
-static void fill_pair(int n, const double *nu, double complex one, double complex other, double *f)
-{
-    for (int i = 0; i < n; i++) {
-        double x[4][2], y[4][2], fourth = nu[i] * nu[i] * nu[i] * nu[i];
-        columns_of(nu[i], one, x);
-        columns_of(nu[i], other, y);
-        for (int k = 0; k < OF_PAIR; k++)
-            f[i + (ptrdiff_t)k * n] = fourth * (x[k % 4][0] * y[k / 4][0] + x[k % 4][1] * y[k / 4][1]);
+    for (int k = 0; k < OF_PAIR; k++) {
+        const double *x = one[k % 4 / 2] + (ptrdiff_t)2 * n * (k % 2), *y = other[k / 8] + (ptrdiff_t)2 * n * (k / 4 % 2);
+        for (int i = 0; i < n; i++)
+            f[i + (ptrdiff_t)k * n] = x[i] * y[i] + x[i + n] * y[i + n];
     }
 }
 
-int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole)
+int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole, const double *basis)
 {
     int n = gram->nline, m = gram->nmode;
     if (find_close(gram, nu, pole))
@@ -119,8 +106,12 @@ int modal_gram_fill(struct modal_gram *gram, const double *nu, const double comp
         rest[i + n] = square;
         rest[i + (ptrdiff_t)2 * n] = square * square;
     }
-    for (ptrdiff_t k = 0; k < gram->nclose; k++)
-        fill_pair(n, nu, pole[gram->close[2 * k]], pole[gram->close[2 * k + 1]], rest + (3 + OF_PAIR * k) * n);
+    const double *psi = basis + (ptrdiff_t)2 * n * (2 * m + 4);
+    for (ptrdiff_t k = 0; k < gram->nclose; k++) {
+        ptrdiff_t r = (ptrdiff_t)4 * n * gram->close[2 * k], s = (ptrdiff_t)4 * n * gram->close[2 * k + 1];
+        fill_pair(n, (const double *const[2]){basis + r, psi + r}, (const double *const[2]){basis + s, psi + s},
+                  rest + (3 + OF_PAIR * k) * n);
+    }
     for (int s = 0; s < m; s++)
         for (int r = 0; r < m; r++) {
             gram->a[r + (ptrdiff_t)s * m] = -1 / (pole[s] + conj(pole[r]));

@@ -26,9 +26,10 @@ int modal_gram_new(struct pool *pool, int nline, int nmode, struct modal_gram *g
 /* Number of functions in the table, for the poles that it was filled for. */
 int modal_gram_functions(const struct modal_gram *gram);
 
-/* Fills the table and the denominators for the lines nu [nline], rising. Returns 0, or 1 where a pole is not damped or too many
- * are close. */
-int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole);
+/* Fills the table and the denominators for the lines nu [nline], rising, and the columns basis [2 nline * (4 nmode + 4)] of
+ * modal_fit.h at these poles; where psi is not filled, neither are the products with it. Returns 0, or 1 where a pole is not
+ * damped or too many are close. */
+int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole, const double *basis);
 
 /* From sums [functions] of one channel over w^2 of its lines: matrix [(4 nmode + 5)^2], both triangles, but for the last row and
  * column: columns in the order of modal_fit.h. */

@@ -63,15 +63,21 @@ static double sum_chi2(const struct modal_fit *fit)
     return sum;
 }
 
+/* scale [p] that makes the diagonal of a matrix [p * p] one, 0 where that is not positive. */
+static void unit_diagonal(int p, const double *matrix, double *scale)
+{
+    for (int j = 0; j < p; j++) {
+        double d = matrix[j + (ptrdiff_t)j * p];
+        scale[j] = d > 0 ? 1 / sqrt(d) : 0;
+    }
+}
+
 /* (S + mu diag S) delta = g, scaled to a unit diagonal, beside steps delta of the poles with limited [nmode] nonzero as they are.
  * Returns 0, or 1 where that is not definite. */
 static int damped_step(int p, const double *information, const double *score, double mu, const int *limited, double *factor,
                        double *scale, double *delta)
 {
-    for (int j = 0; j < p; j++) {
-        double d = information[j + (ptrdiff_t)j * p];
-        scale[j] = d > 0 ? 1 / sqrt(d) : 0;
-    }
+    unit_diagonal(p, information, scale);
     for (int j = 0; j < p; j++) {
         if (limited[j / 2])
             continue;
@@ -103,8 +109,7 @@ static int leaves_modes(const struct modal_fit *fit, const double *information, 
 {
     int p = 2 * fit->nmode;
     double determinant;
-    for (int j = 0; j < p; j++)
-        scale[j] = information[j + (ptrdiff_t)j * p] > 0 ? 1 / sqrt(information[j + (ptrdiff_t)j * p]) : 0;
+    unit_diagonal(p, information, scale);
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
             inverse[j + (ptrdiff_t)k * p] = j == k ? 1
@@ -253,10 +258,7 @@ static int invert_information(const struct modal_fit *fit, double *score, double
     int p = 2 * fit->nmode;
     double determinant;
     sum_channels(fit, covariance, score);
-    for (int j = 0; j < p; j++) {
-        double d = covariance[j + (ptrdiff_t)j * p];
-        scale[j] = d > 0 ? 1 / sqrt(d) : 0;
-    }
+    unit_diagonal(p, covariance, scale);
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
             covariance[j + (ptrdiff_t)k * p] *= scale[j] * scale[k];
