@@ -28,7 +28,7 @@
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
-# Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1.
+# Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1, V=1: whole commands.
 #   BLAS=openblas   or reference (libblas as it is installed), blis, or names of pkg-config; BLAS_CFLAGS and BLAS_LIBS for what
 #                   pkg-config does not know. Each in a BUILD of its own.
 
@@ -107,6 +107,10 @@ SUPPORT := $(BUILD)/tests/support.a
 ROOMS := $(BUILD)/program-objects.a
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
+# One short line a file; V=1 shows the commands.
+QUIET := $(if $(filter 1,$(V)),,@)
+tell = $(if $(filter 1,$(V)),,@echo '$(1) $(patsubst $(BUILD)/%,%,$(2))')
+
 .PHONY: all abi schema demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
         coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
@@ -118,7 +122,8 @@ endif
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
+	$(call tell,CC,$<)
+	$(QUIET)$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
 
 # The commit stands in every result, so the file that holds it follows it.
 EXTRA_blas = -DROTID_BLAS='"$(BLAS)"' -DROTID_OPENBLAS=$(if $(findstring openblas,$(BLAS)),1,0)
@@ -135,7 +140,8 @@ $(ROOMS): $(PROGRAM_OBJECTS)
 # q: members of one name stay beside each other
 $(OBJECTS) $(SUPPORT) $(ROOMS):
 	@rm -f $@
-	$(AR) qcs $@ $^
+	$(call tell,AR,$@)
+	$(QUIET)$(AR) qcs $@ $^
 
 # Static: every object for itself, so that a host links those alone that it calls. Their hidden names begin with rotid_private_
 # there, so that a host may have a pool_open too.
@@ -152,13 +158,15 @@ $(MEMBERS): $(BUILD)/members/%.o: $(BUILD)/src/%.o $(BUILD)/private.names
 # in one folder a member would take the place of another of its name
 $(BUILD)/librotid.a: $(MEMBERS)
 	@rm -f $@
-	$(AR) qcs $@ $^
+	$(call tell,AR,$@)
+	$(QUIET)$(AR) qcs $@ $^
 
 # Shared, and what a static host has to link beside it, for rotid.pc: without folders of this machine where the linker finds the
 # libraries by itself. A sanitizer's names come with the program.
 NO_UNDEFINED = $(if $(findstring -fsanitize,$(CFLAGS) $(LDFLAGS)),,-Wl,-z,defs)
 $(BUILD)/$(SHARED): $(LIBRARY_OBJECTS)
-	$(CC) -shared -Wl,-soname,$(SONAME) $(NO_UNDEFINED) $(CFLAGS) $(LDFLAGS) $^ $(LIBRARY_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) -shared -Wl,-soname,$(SONAME) $(NO_UNDEFINED) $(CFLAGS) $(LDFLAGS) $^ $(LIBRARY_LIBS) -o $@
 	@echo 'int main(void) { return 0; }' | $(CC) -x c - -x none $(filter-out -L%,$(LIBRARY_LIBS)) -o $(BUILD)/finds 2>/dev/null && \
 	    rm $(BUILD)/finds && echo '$(filter-out -L%,$(LIBRARY_LIBS))' > $(BUILD)/librotid.libs || echo '$(LIBRARY_LIBS)' > $(BUILD)/librotid.libs
 $(BUILD)/librotid.so: $(BUILD)/$(SHARED)
@@ -166,14 +174,16 @@ $(BUILD)/librotid.so: $(BUILD)/$(SHARED)
 	@ln -sf $(SONAME) $@
 
 $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: override CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c %/command_table.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
 	@$(MAKE) --no-print-directory MPI=1 all
@@ -181,16 +191,19 @@ check-mpi:
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 $(BUILD)/tools/hide/%.o $(BUILD)/tools/power/%.o $(BUILD)/tools/hammer/%.o: ALL_CFLAGS += -Itools -Itests
 
 # A hammer test as it would be recorded: time records in a universal file.
 $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c) $(filter-out %/hide_main.c,$(wildcard tools/hide/*.c)))
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh rotors with hidden effects by the thousand; POWER holds options, such as "--cases 200 --log FILE".
 $(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT) $(ROOMS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
 
@@ -198,7 +211,8 @@ power: $(BUILD)/power
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 $(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 # These go from records of a hammer test on, which that program makes.
 $(BUILD)/tests/test_page_plain $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer
@@ -250,7 +264,8 @@ bench bench-quick: all $(BUILD)/hide
 
 # MINPACK driving the model of a deck, where its C version is installed; looks into the library, as tests do
 $(BUILD)/fit_host: $(BUILD)/tools/bench/fit_host.o $(ROOMS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
 $(BUILD)/tools/bench/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 bench: $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/fit_host)
 
@@ -286,7 +301,8 @@ check-valgrind: all $(TEST_PROGRAMS)
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
                        $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
 $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
@@ -317,7 +333,8 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 FUZZERS := uff deck table plan results
 FUZZ_PROGRAMS := $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 $(FUZZ_PROGRAMS): %: %.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(FUZZ_PROGRAMS)
 fuzz:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) LDFLAGS='-fsanitize=fuzzer,address,undefined' \
@@ -340,7 +357,8 @@ coverage:
 SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/growth.h src/run/sensitivity.h
 $(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
 $(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+	$(call tell,LD,$@)
+	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 schema: $(BUILD)/schema
 	@$(BUILD)/schema docs/schema $(SCHEMA_HEADERS)
 # test_schema compares them with docs/schema

@@ -23,9 +23,9 @@ module rotid
                                          c_null_char, c_loc, c_funloc, c_sizeof, c_associated, c_f_pointer
   implicit none
 
-  character(len=*), parameter :: ROTID_VERSION_TEXT = "0.2.0"
+  character(len=*), parameter :: ROTID_VERSION_TEXT = "0.3.0"
   integer(c_int), parameter :: ROTID_VERSION_MAJOR = 0
-  integer(c_int), parameter :: ROTID_VERSION_MINOR = 2
+  integer(c_int), parameter :: ROTID_VERSION_MINOR = 3
   integer(c_int), parameter :: ROTID_VERSION_PATCH = 0
 
   ! ------------------------------------------------------------------------------------------------ constants
@@ -72,9 +72,9 @@ module rotid
   integer(c_int), parameter :: ROTID_UNEXPLAINED = 3
 
   ! functional
-  integer(c_int), parameter :: ROTID_HYBRID = 0
-  integer(c_int), parameter :: ROTID_HYBRID_F = 1
-  integer(c_int), parameter :: ROTID_LIKELIHOOD = 2
+  integer(c_int), parameter :: ROTID_LIKELIHOOD = 0
+  integer(c_int), parameter :: ROTID_HYBRID = 1
+  integer(c_int), parameter :: ROTID_HYBRID_F = 2
 
   ! reduction
   integer(c_int), parameter :: ROTID_REDUCTION_NONE = 0
@@ -1116,6 +1116,12 @@ module rotid
       integer(c_int), value :: status
       type(c_ptr) :: text
     end function rotid_status_name
+
+    function rotid_status_converged(status) result(converged) bind(C, name="rotid_status_converged")
+      import :: c_int
+      integer(c_int), value :: status
+      integer(c_int) :: converged
+    end function rotid_status_converged
 
     ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_check_deck,
     ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_suggest_deck, rotid_free

@@ -37,12 +37,12 @@ extern "C" {
 #define ROTID_API
 #endif
 
-#define ROTID_VERSION       "0.2.0"
+#define ROTID_VERSION       "0.3.0"
 #define ROTID_VERSION_MAJOR 0 /* of the shared library too: librotid.so.MAJOR */
-#define ROTID_VERSION_MINOR 2
+#define ROTID_VERSION_MINOR 3
 #define ROTID_VERSION_PATCH 0
 
-/* The version of the library that is linked, such as "0.2.0". */
+/* The version of the library that is linked, such as "0.3.0". */
 ROTID_API const char *rotid_version(void);
 
 /* ------------------------------------------------------------------------------------------------ status */
@@ -82,6 +82,9 @@ enum {
 ROTID_API const char *rotid_status_text(int status);
 /* Its name, such as "ROTID_OK". */
 ROTID_API const char *rotid_status_name(int status);
+/* 1 where the status of an iteration (of rotid_lm, of rotid_fit_result) tells a minimum: ROTID_STOP_GRADIENT, _STEP and _OBJECTIVE;
+ * 0 for every other one: ROTID_STOP_STALLED is no minimum, ROTID_OK no end of an iteration. */
+ROTID_API int rotid_status_converged(int status);
 
 /* ------------------------------------------------------------------------------------------------ environment */
 
@@ -1125,14 +1128,14 @@ typedef struct rotid_state {
                              may be one; NULL: the first ones in their order */
 } rotid_state;
 
-enum { ROTID_HYBRID, ROTID_HYBRID_F, ROTID_LIKELIHOOD }; /* functional */
+enum { ROTID_LIKELIHOOD, ROTID_HYBRID, ROTID_HYBRID_F }; /* functional */
 enum { ROTID_REDUCTION_NONE, ROTID_GUYAN, ROTID_IRS };   /* reduction */
 enum { ROTID_NELSON, ROTID_MODAL };                      /* eigenvector derivative; ROTID_MODAL needs a reduction */
 
-/* Zeros but for the size, or rotid_fit_defaults: a zero takes the default in brackets. */
+/* Zeros but for the size, or rotid_fit_defaults, which are one choice: a zero takes the default in brackets. */
 typedef struct rotid_fit_options {
     size_t size;
-    int functional, reduction, derivative;
+    int functional, reduction, derivative; /* [ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON] */
     int baseline;              /* nonzero: minimise the same objective with NLopt as well, where the library has it */
     int max_iterations;        /* [100] */
     double gradient_tolerance; /* [1e-10] of the cosine between the residual and each column of the Jacobian */
@@ -1202,7 +1205,8 @@ struct rotid_fit_result {
  *   ROTID_HYBRID_F    r_k = 1 - R*_k / (w^_k w~_k)                                                (16)
  *   ROTID_LIKELIHOOD  r_k = (f_k - f^_k)/s_k and (a_k phi_kj - phi^_kj)/s_kj, a_k the best scale; needs frequency_std, and
  *                     shape_std where shapes are given
- * Entry: `nparam` parameters, `measured` with at least one fitted mode. With nparam = 0 (`parameter` may be NULL) the model is
+ * Entry: `nparam` parameters, `measured` with at least one fitted mode, each mode
+ * number once; `options` NULL: the defaults. With nparam = 0 (`parameter` may be NULL) the model is
  * only evaluated and compared: converged with ROTID_STOP_GRADIENT after 0 iterations, chi2 and dof of the residuals, arrays over
  * the parameters empty, no baseline. Exit: *result, to be freed with rotid_fit_free, also when the iteration ended without
  * convergence (status >= 0). On an error (< 0) *result is NULL. Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory:
@@ -1328,7 +1332,7 @@ typedef struct rotid_lm_result {
     double objective, cosine, mu;
 } rotid_lm_result;
 
-/* Length of the workspace of rotid_lm in doubles. */
+/* Length of the workspace of rotid_lm in doubles; 0 unless m, n >= 1. */
 ROTID_API size_t rotid_lm_workspace(int m, int n);
 
 /* Levenberg-Marquardt: min 1/2 r'r. Each step solves (J'J + mu (s D)^2) h = -J'r by QR of [J; sqrt(mu) s D], D the largest column
@@ -1351,7 +1355,7 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure,
                        double *x, double *r, double *jacobian, double *work, rotid_lm_result *result);
 
-/* Length of the workspace of rotid_check_jacobian in doubles. */
+/* Length of the workspace of rotid_check_jacobian in doubles; 0 unless m, n >= 1. */
 ROTID_API size_t rotid_check_jacobian_workspace(int m, int n);
 
 /* Compares the Jacobian that `residual` gives at x [n] with central differences D of its residual, extrapolated over a sequence

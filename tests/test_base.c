@@ -333,6 +333,13 @@ static void every_status_has_its_own_name_and_text(void **state)
     }
 }
 
+static void three_statuses_tell_a_minimum(void **state)
+{
+    (void)state;
+    for (int i = 0; i < nstatus; i++)
+        assert_int_equal(rotid_status_converged(statuses[i].value), statuses[i].value >= 1 && statuses[i].value <= 3);
+}
+
 static void other_values_are_unknown_statuses(void **state)
 {
     (void)state;
@@ -364,6 +371,7 @@ int main(void)
         cmocka_unit_test(a_long_message_is_cut_not_overrun),
         cmocka_unit_test(messages_survive_a_failed_allocation),
         cmocka_unit_test(every_status_has_its_own_name_and_text),
+        cmocka_unit_test(three_statuses_tell_a_minimum),
         cmocka_unit_test(other_values_are_unknown_statuses),
         cmocka_unit_test(the_median_is_the_middle_one_or_the_mean_of_the_middle_two),
     };

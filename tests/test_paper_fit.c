@@ -146,7 +146,7 @@ static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
     (void)state;
     if (!baseline_count(2))
         skip(); /* built without NLopt */
-    for (int functional = ROTID_HYBRID; functional <= ROTID_LIKELIHOOD; functional++)
+    for (int functional = ROTID_LIKELIHOOD; functional <= ROTID_HYBRID_F; functional++)
         for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_GUYAN; reduction++) {
             struct paper_fit fit;
             int usable = 0;

@@ -53,7 +53,7 @@ int main(void)
     if (status == ROTID_OK)
         status = rotid_lm(M, N, residual, NULL, NULL, failure, b, r, jacobian, work, &result);
     free(work);
-    if (status < 0 || status == ROTID_STOP_ITERATIONS) {
+    if (!rotid_status_converged(status)) {
         fprintf(stderr, "%s\n", *failure ? failure : rotid_status_text(status));
         return 1;
     }

@@ -13,6 +13,11 @@ const char *rotid_status_text(int status)
     }
 }
 
+int rotid_status_converged(int status)
+{
+    return status == ROTID_STOP_GRADIENT || status == ROTID_STOP_STEP || status == ROTID_STOP_OBJECTIVE;
+}
+
 const char *rotid_status_name(int status)
 {
     switch (status) {

@@ -1,11 +1,13 @@
 #include "cli/command.h"
 #include "report/table.h"
+#include "result/judgement.h"
 
 static int show(struct command *command, rotid_identification *found)
 {
     struct result result = {.head = command->head, .identify = found};
     const rotid_fit_result *fit = found->fit;
-    int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
+    int doubtful = !fit->converged || fit->any_at_bound || fit->any_undetermined || fit_is_inadequate(found);
+    int code = doubtful ? EXIT_DOUBTFUL : EXIT_DONE;
     command_take_messages(command, NULL, found->nmessage, found->message);
     if (command_wants_table(command)) {
         table_identify(terminal_out(), &result, !command->no_baseline, command->verbose);

@@ -22,8 +22,8 @@ struct check {
 
 size_t rotid_check_jacobian_workspace(int m, int n)
 {
-    size_t rows = m > 0 ? (size_t)m : 0, columns = n > 0 ? (size_t)n : 0;
-    return columns + rows * columns + (3 + 2 * STEPS) * rows;
+    size_t rows = (size_t)m, columns = (size_t)n;
+    return m < 1 || n < 1 ? 0 : columns + rows * columns + (3 + 2 * STEPS) * rows;
 }
 
 static int all_finite(ptrdiff_t n, const double *x)

@@ -398,6 +398,13 @@ static int make_result(struct entry *entry, const struct fit_problem *problem, c
     return status;
 }
 
+/* NULL: zeros, the defaults. */
+static int take_options(const rotid_fit_options *given, char *failure, rotid_fit_options *options)
+{
+    memset(options, 0, sizeof *options);
+    return given ? sized_take(SIZED_FIT_OPTIONS, given, failure, options) : ROTID_OK;
+}
+
 int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
               const rotid_fit_options *options, const rotid_environment *environment, char *failure, rotid_fit_result **result)
 {
@@ -408,18 +415,17 @@ int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const 
     int status = entry_open(&entry, environment, failure);
     if (result)
         *result = NULL;
-    if (!status && (!model || !measured || !options || !result))
+    if (!status && (!model || !measured || !result))
         status = refuse(failure, "%s is NULL, expected a struct",
                         !model      ? "model"
                         : !measured ? "measured"
-                        : !options  ? "options"
                                     : "result");
     if (!status)
         status = sized_take(SIZED_MODEL, model, failure, &own_model);
     if (!status)
         status = sized_take(SIZED_MEASURED, measured, failure, &own_measured);
     if (!status)
-        status = sized_take(SIZED_FIT_OPTIONS, options, failure, &own_options);
+        status = take_options(options, failure, &own_options);
     const struct joint_state state = {.model = &own_model, .measured = &own_measured};
     const struct fit_problem problem = {.nstate = 1, .nparam = own_model.nparam, .state = &state, .parameter = parameter};
     if (!status)
@@ -471,13 +477,13 @@ int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rot
     int status = entry_open(&entry, environment, failure);
     if (result)
         *result = NULL;
-    if (!status && (!state || !options || !result))
-        status = refuse(failure, "%s is NULL, expected a struct", !state ? "state" : !options ? "options" : "result");
+    if (!status && (!state || !result))
+        status = refuse(failure, "%s is NULL, expected a struct", state ? "result" : "state");
     if (!status && (nstate < 1 || nparam < 0))
         status = nstate < 1 ? refuse(failure, "nstate is %d, expected 1 or more", nstate)
                             : refuse(failure, "nparam is %d, expected 0 or more", nparam);
     if (!status)
-        status = sized_take(SIZED_FIT_OPTIONS, options, failure, &own_options);
+        status = take_options(options, failure, &own_options);
     if (!status)
         status = take_states(&entry.scratch, nstate, state, failure, &own);
     if (!status) {

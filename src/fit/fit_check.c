@@ -43,8 +43,8 @@ int fit_check_parameters(const char *count, int nparam, const rotid_parameter *p
 
 static int check_options(const rotid_fit_options *options, char *failure)
 {
-    if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD)
-        return refuse(failure, "options->functional is %d, expected ROTID_HYBRID, ROTID_HYBRID_F or ROTID_LIKELIHOOD",
+    if (options->functional < ROTID_LIKELIHOOD || options->functional > ROTID_HYBRID_F)
+        return refuse(failure, "options->functional is %d, expected ROTID_LIKELIHOOD, ROTID_HYBRID or ROTID_HYBRID_F",
                       options->functional);
     if (options->reduction < ROTID_REDUCTION_NONE || options->reduction > ROTID_IRS)
         return refuse(failure, "options->reduction is %d, expected ROTID_REDUCTION_NONE, ROTID_GUYAN or ROTID_IRS",

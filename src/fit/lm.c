@@ -26,6 +26,7 @@ struct lm {
     int m, n;
     rotid_residual residual;
     void *user;
+    char *failure;
     rotid_lm_options options;
     double *x, *r, *jacobian; /* the caller's: the best point */
     double unit;              /* a power of two: the largest component of unit r is between a half and one, and its square has a
@@ -46,7 +47,7 @@ struct lm {
 
 size_t rotid_lm_workspace(int m, int n)
 {
-    return 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
+    return m < 1 || n < 1 ? 0 : 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
 }
 
 static int all_finite(ptrdiff_t n, const double *x)
@@ -100,12 +101,21 @@ static double largest_cosine(const struct lm *lm, const double *r, const double 
     return largest;
 }
 
+/* Why there is nothing to start from, unless the callback has said more. */
+static int callback_failed(struct lm *lm, const char *asked, int returned)
+{
+    return lm->failure && *lm->failure ? ROTID_ERROR_CALLBACK
+                                       : failure_say(lm->failure, ROTID_ERROR_CALLBACK, "residual returned %d when asked for %s, expected 0",
+                                                     returned, asked);
+}
+
 /* The Jacobian at the point whose residual was computed last. Nonzero where no usable Jacobian exists. */
 static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
 {
     lm->result->jacobians++;
-    if (lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian))
-        return ROTID_ERROR_CALLBACK;
+    int returned = lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian);
+    if (returned)
+        return callback_failed(lm, "the jacobian", returned);
     for (int j = 0; j < lm->n; j++)
         if (!isfinite(least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
             return ROTID_ERROR_FINITE;
@@ -318,8 +328,9 @@ static int minimise(struct lm *lm)
 {
     double objective[CREEP];
     lm->result->evaluations = 1;
-    if (lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL))
-        return ROTID_ERROR_CALLBACK;
+    int returned = lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL);
+    if (returned)
+        return callback_failed(lm, "r at the start", returned);
     if (!all_finite(lm->m, lm->r))
         return ROTID_ERROR_FINITE;
     measure(lm);
@@ -372,7 +383,7 @@ static int check_arguments(int m, int n, rotid_residual residual, const double *
 static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
                double *r, double *jacobian, double *work, rotid_lm_result *result)
 {
-    struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .x = x, .r = r, .jacobian = jacobian, .result = result};
+    struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .failure = failure, .x = x, .r = r, .jacobian = jacobian, .result = result};
     int status = check_arguments(m, n, residual, x, r, jacobian, work, result, failure);
     if (!status && options)
         status = sized_take(SIZED_LM_OPTIONS, options, failure, &lm.options);

@@ -11,6 +11,10 @@ static int check_mode(const rotid_measured *measured, int k, char *failure)
         return refuse(failure, "measured->frequency_hz[%d] is %g, expected a positive number", k, measured->frequency_hz[k]);
     if (measured->number[k] < 1)
         return refuse(failure, "measured->number[%d] is %d, expected a mode of the model, from 1", k, measured->number[k]);
+    for (int other = 0; other < k; other++)
+        if (measured->number[other] == measured->number[k])
+            return refuse(failure, "measured->number[%d] is %d, and so is measured->number[%d], expected each mode of the model once",
+                          k, measured->number[k], other);
     if (measured->frequency_std && !(measured->frequency_std[k] > 0 && isfinite(measured->frequency_std[k])))
         return refuse(
             failure,

@@ -114,8 +114,8 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
             pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
     if (!noisy)
         return;
-    if (fit_p_value(fit) < JUDGEMENT_CHANCE)
-        say(reasons, worst >= 0 && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_BAD : TONE_CARE,
+    if (fit_is_inadequate(fit))
+        say(reasons, TONE_BAD,
             pool_format(
                 pool,
                 "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
@@ -197,7 +197,8 @@ void answer_identify(struct document *document, const struct result *result, con
                     : "Can be relied on as far as the model is right";
     document_section(document, "trust", "How far to trust it");
     document_list(document, reasons.count, reasons.text);
-    section_hidden(document, fit, fit->nhidden, fit->hidden);
+    if (!fit_is_inadequate(fit)) /* else something shows already */
+        section_hidden(document, fit, fit->nhidden, fit->hidden);
 }
 
 void answer_plain(struct document *document, const struct result *result)

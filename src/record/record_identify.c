@@ -1,6 +1,6 @@
 #include "record/record.h"
 
-const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
+const char *const functional_words[] = {"LIKELIHOOD", "HYBRID", "HYBRID_F", NULL};
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
 const char *const derivative_words[] = {"NELSON", "MODAL", NULL};
 const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};

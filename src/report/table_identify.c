@@ -77,23 +77,26 @@ static void print_parameter(FILE *out, const rotid_fitted_parameter *p)
     (void)fputc('\n', out);
 }
 
-/* What the intervals rest on, and what the misfit has made of them. */
-static void print_intervals(FILE *out, const rotid_identification *fit)
+/* What the intervals rest on, what the misfit has made of them, and whether the model is adequate. */
+static void print_intervals(FILE *out, const struct result_head *head, const rotid_identification *fit)
 {
     if (fit->noise && !strcmp(fit->noise->intervals_from, "residuals") && fit->dof > 0)
         (void)fprintf(out,
                       "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them "
                       "on the measurement\n",
                       fit->dof);
-    if (!(fit->intervals_widened_by > 1))
-        return;
-    double p_value = fit_p_value(fit); /* half of all adequate models have a misfit above the noise */
-    (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
-                  NUMBER(3, fit->intervals_widened_by));
-    if (p_value < JUDGEMENT_CHANCE)
-        (void)fprintf(out, ", and the model is not adequate for these data\n");
-    else
-        (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * p_value);
+    if (fit->intervals_widened_by > 1)
+        (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
+                      NUMBER(3, fit->intervals_widened_by));
+    if (fit->intervals_widened_by > 1 && !fit_is_inadequate(fit)) /* half of all adequate models have a misfit above the noise */
+        (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests", 100 * fit_p_value(fit));
+    if (fit->intervals_widened_by > 1)
+        (void)fputc('\n', out);
+    if (fit_is_inadequate(fit)) {
+        (void)fputs("the model is not adequate for these data: its parameters have absorbed what it lacks; rotid diagnose ", out);
+        name_cell(out, 0, head->deck ? head->deck : "DECK");
+        (void)fputs(" looks for the cause\n", out);
+    }
 }
 
 /* What the intervals know nothing of: the cause that moves each parameter most, where that is more than half of its interval. */
@@ -118,7 +121,7 @@ static void print_hidden(FILE *out, const rotid_identification *fit)
     wrap_close(&wrap);
 }
 
-static void print_parameters(FILE *out, const rotid_identification *fit)
+static void print_parameters(FILE *out, const struct result_head *head, const rotid_identification *fit)
 {
     int n = fit->nparameters;
     (void)fprintf(out, "%-14s %14s  %-8s %27s   %s\n", "parameter", "value", "unit", "95 % interval", "start");
@@ -139,8 +142,9 @@ static void print_parameters(FILE *out, const rotid_identification *fit)
             (void)fprintf(out, ", correlation %.3f", fit->correlation[1]);
         (void)fprintf(out, "\n");
     }
-    print_intervals(out, fit);
-    print_hidden(out, fit);
+    print_intervals(out, head, fit);
+    if (!fit_is_inadequate(fit)) /* else something shows already */
+        print_hidden(out, fit);
 }
 
 static void print_history(FILE *out, const rotid_identification *fit)
@@ -204,7 +208,7 @@ void table_identify(FILE *out, const struct result *result, int baseline, int hi
     const rotid_identification *fit = result->identify;
     table_heading(out, &result->head);
     print_head(out, fit);
-    print_parameters(out, fit);
+    print_parameters(out, &result->head, fit);
     if (fit->nbaseline)
         print_baseline(out, fit);
     else if (baseline && !fit->nlopt)

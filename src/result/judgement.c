@@ -33,9 +33,24 @@ int fit_worst_mode(const rotid_identification *fit)
     return worst;
 }
 
+static double p_value(double chi2, int dof)
+{
+    return isfinite(chi2) && dof > 0 ? chi_square_tail(chi2, dof) : (double)NAN;
+}
+
 double fit_p_value(const rotid_identification *fit)
 {
-    return isfinite(fit->chi2) && fit->dof > 0 ? chi_square_tail(fit->chi2, fit->dof) : (double)NAN;
+    return p_value(fit->chi2, fit->dof);
+}
+
+int misfit_is_inadequate(double chi2, int dof)
+{
+    return p_value(chi2, dof) < JUDGEMENT_CHANCE;
+}
+
+int fit_is_inadequate(const rotid_identification *fit)
+{
+    return misfit_is_inadequate(fit->chi2, fit->dof);
 }
 
 const char *fit_state_of_mode(const rotid_identification *fit, int k)

@@ -12,6 +12,9 @@ double fit_rms_percent(const rotid_identification *fit, int holdout);
 int fit_worst_mode(const rotid_identification *fit);
 /* How often the stated noise alone leaves a misfit of chi2 or more; NaN without noise or degrees of freedom. */
 double fit_p_value(const rotid_identification *fit);
+/* Whether that is less than JUDGEMENT_CHANCE: the model is not adequate for the data. 0 where no noise is stated, chi2 NaN. */
+int misfit_is_inadequate(double chi2, int dof);
+int fit_is_inadequate(const rotid_identification *fit);
 /* The fit as one of its states has it: what that has for itself in place of what all have. */
 rotid_identification fit_of_state(const rotid_identification *fit, int s);
 /* The name of the state that entry k of modes is of; NULL where the deck is one state. */

@@ -78,6 +78,7 @@ static const struct field cell_fields[] = {
     INTEGER(struct study_cell_result, converged, FROM_0),
     INTEGER(struct study_cell_result, at_bound, FROM_0),
     INTEGER(struct study_cell_result, not_converged, FROM_0),
+    INTEGER(struct study_cell_result, not_adequate, FROM_0 | SINCE_LATER),
     INTEGER(struct study_cell_result, failed, FROM_0),
     INTEGER(struct study_cell_result, reached_best, MAY_BE_NULL | FROM_0),
     STRUCTS(struct study_cell_result, parameters, 0, parameter_record),

@@ -209,6 +209,7 @@ struct study_cell_result {
     int converged;          /* not at a bound */
     int at_bound;           /* converged at a bound */
     int not_converged;      /* fits that did not */
+    int not_adequate;       /* of those that converged, at a bound or not: noise alone leaves such a misfit in less than 1 % of tests */
     int failed;             /* runs without a result */
     int reached_best;       /* runs whose objective is the best of their replicate; ROTID_NONE with one start each */
     int nparameters;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "file/open.h"
+#include "result/judgement.h"
 #include "study/results.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
@@ -242,6 +243,7 @@ static void add_run(struct sums *s, const struct study_run *run)
     add_objective(s, cell, run, usable);
     if (!usable)
         return;
+    cell->said.not_adequate += misfit_is_inadequate(fit->chi2_per_dof * fit->dof, fit->dof);
     if (isfinite(fit->chi2_per_dof)) {
         cell->chi2s++;
         cell->chi2_sum += fit->chi2_per_dof;

@@ -126,13 +126,13 @@ static void print_parameter(FILE *out, const struct columns *c, const struct cel
 static void print_cells(FILE *out, const struct study_result *s, const struct columns *c)
 {
     print_place(out, c, NULL);
-    (void)fprintf(out, "%6s%5s%6s%8s%s%s%9s  %-*s%13s%10s%10s%s\n", "runs", "fail", "bound", "no conv",
+    (void)fprintf(out, "%6s%5s%6s%8s%8s%s%s%9s  %-*s%13s%10s%10s%s\n", "runs", "fail", "bound", "no conv", "not ad.",
                   c->has_starts ? "  at best" : "", c->has_holdout ? "    held" : "", "rms[%]", c->parameter, "parameter", "mean",
                   "std", "stated", c->has_truth ? "       bias in95%" : "");
     for (int i = 0; i < s->ncells; i++) {
         const struct study_cell_result *cell = &s->cells[i];
         print_place(out, c, cell);
-        (void)fprintf(out, "%6d%5d%6d%8d", cell->runs, cell->failed, cell->at_bound, cell->not_converged);
+        (void)fprintf(out, "%6d%5d%6d%8d%8d", cell->runs, cell->failed, cell->at_bound, cell->not_converged, cell->not_adequate);
         if (c->has_starts)
             (void)fprintf(out, "%9d", cell->reached_best == ROTID_NONE ? cell->converged + cell->at_bound : cell->reached_best);
         if (c->has_holdout)
@@ -141,7 +141,7 @@ static void print_cells(FILE *out, const struct study_result *s, const struct co
         for (int p = 0; p < cell->nparameters; p++) {
             if (p) {
                 print_blank(out, c);
-                (void)fprintf(out, "%*s", 34 + (c->has_starts ? 9 : 0) + (c->has_holdout ? 8 : 0), "");
+                (void)fprintf(out, "%*s", 42 + (c->has_starts ? 9 : 0) + (c->has_holdout ? 8 : 0), "");
             }
             print_parameter(out, c, &cell->parameters[p]);
             (void)fputc('\n', out);

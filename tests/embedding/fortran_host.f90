@@ -305,7 +305,8 @@ contains
     call rotid_free(fit)
 
     environment = rotid_environment(cancelled=c_funloc(stop_at_once))
-    status = rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], environment=environment)
+    status = rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], environment=environment, &
+                             options=rotid_fit_options(functional=ROTID_HYBRID))
     call check(status == ROTID_OK .and. associated(fit), 'a cancelled fit')
     if (associated(fit)) call check(fit%status == ROTID_STOP_CANCELLED, 'that it was cancelled')
     call rotid_free(fit)
@@ -324,7 +325,8 @@ contains
                'shapes with a master too few')
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], shape=shapes, master=[0, 3]) &
                == ROTID_ERROR_ARGUMENT, 'masters from 0')
-    call check(rotid_fit_model(model, parameter, [1, 2], hz, fit) == ROTID_ERROR_CALLBACK, 'a callback that fails')
+    call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, options=rotid_fit_options(functional=ROTID_HYBRID)) &
+               == ROTID_ERROR_CALLBACK, 'a callback that fails')
     call check(.not. associated(fit), 'no result of it')
   end subroutine models
 
