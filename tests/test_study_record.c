@@ -48,11 +48,11 @@ static const char *line_of(long run, const char *status, double value)
     next = (next + 1) % 8;
     (void)snprintf(text[next], sizeof text[next],
                    "{\"run\":%ld,\"cell\":" CELL ",\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
-                   "\"functional\":\"HYBRID\",\"reduction\":\"GUYAN\",\"objective\":%g,\"chi2_per_dof\":null,\"dof\":1,"
+                   "\"functional\":\"HYBRID\",\"reduction\":\"GUYAN\",\"objective\":%g,\"chi2_per_dof\":%g,\"dof\":1,"
                    "\"iterations\":1,\"evaluations\":1,\"stop_reason\":\"\",\"sensors\":0,\"parameters\":[{\"name\":\"a\","
                    "\"unit\":\"1\",\"value\":%g,\"start\":1,\"std\":2,\"ci95\":[0,4],\"at_bound\":false,"
                    "\"identifiable\":true,\"truth\":3}],\"modes\":[],\"hidden\":null,\"warnings\":[],\"seconds\":%g}\n",
-                   run, run, status, value, value, 0.001 * (double)run);
+                   run, run, status, value, value > 5 ? 6.64 : 6.63, value, 0.001 * (double)run);
     return text[next];
 }
 
@@ -537,6 +537,7 @@ static void summaries_add_up(void **state)
     assert_true(s.ncells == 1 && s.done == RUNS && s.runs == RUNS && s.missing == 0 && s.failed == 1 && s.nerrors == 1);
     const struct study_cell_result *cell = &s.cells[0];
     assert_true(cell->converged == 3 && cell->at_bound == 1 && cell->not_converged == 1 && cell->failed == 1);
+    assert_int_equal(cell->not_adequate, 1); /* 1 % of one degree of freedom is at 6.635, and what did not converge is not judged */
     const struct cell_parameter *p = &cell->parameters[0];
     assert_true(cell->nparameters == 1 && p->count == 4 && p->min == 2 && p->max == 6);
     assert_close(p->mean, 4, 1e-14, 0);
