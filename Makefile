@@ -20,6 +20,7 @@
 #   make fuzz       the readers of decks, tables, universal files, plans and results on random input, FUZZ_SECONDS (600) each
 #   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
+#   make frozen     outputs of every command on every deck beside those of another commit: REF=commit
 #   make mutate     makes the mistakes of tests/mutations one by one in a copy: does the named test fail? ROWS="covariance 118": of these
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
@@ -343,6 +344,11 @@ fuzz:
 	    OPENBLAS_NUM_THREADS=1 $(BUILD)/fuzz/tests/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1024 \
 	    -max_len=65536 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus/$$name \
 	    tests/fuzz/corpus/$$name || exit 1; done
+
+# Outputs of all commands on all decks beside those of another commit: FROZEN="--only identify ema" for some, --long for all.
+.PHONY: frozen
+frozen: all
+	@$(PYTHON) tools/frozen '$(BUILD)' $(REF) $(FROZEN)
 
 # Would the tests fail? ROWS: parts of file names, tests or line numbers of the list.
 .PHONY: mutate
