@@ -314,7 +314,8 @@ static void every_routine_with_a_status_says_why(void **state)
     for (int i = 0; i < header.nfunction; i++) {
         const struct header_function *f = &header.function[i];
         const char *text = header_function_text(&test_pool, f);
-        int says = strstr(text, "char *failure") != NULL, fails = strcmp(f->result.base, "int") == 0 && !f->result.pointers && strcmp(f->name, "rotid_status_converged") != 0;
+        int says = strstr(text, "char *failure") != NULL,
+            fails = strcmp(f->result.base, "int") == 0 && !f->result.pointers && strcmp(f->name, "rotid_status_converged") != 0;
         if (says != fails)
             fail_msg("%s", text);
         count += fails;

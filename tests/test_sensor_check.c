@@ -134,11 +134,11 @@ static void noise_understated(void **state)
     assert_true(alarms <= 1);
 }
 
-enum trouble { GAIN_HIGH, GAIN_LOW, SIGN, SWAP_NEXT, SWAP_FAR, MOVED, COPY, DEAD, TROUBLES };
-static const char *const trouble_name[] = {
-    "gain 1.4", "gain 0.7", "sign", "swap of neighbours", "swap of distant ones", "60 mm off", "copy", "dead"};
-static const enum sensor_fault_kind expected[] = {FAULT_GAIN, FAULT_GAIN,     FAULT_SIGN,      FAULT_SWAP,
-                                                  FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD};
+enum trouble { GAIN_HIGH, GAIN_LOW, SIGN, SWAP_NEXT, SWAP_FAR, MOVED, COPY, DEAD, COPY_AGAIN, TROUBLES };
+static const char *const trouble_name[] = {"gain 1.4",  "gain 0.7", "sign", "swap of neighbours",     "swap of distant ones",
+                                           "60 mm off", "copy",     "dead", "copy with noise of 1e-6"};
+static const enum sensor_fault_kind expected[] = {FAULT_GAIN,     FAULT_GAIN,      FAULT_SIGN, FAULT_SWAP,     FAULT_SWAP,
+                                                  FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD, FAULT_DUPLICATE};
 
 /* Puts the fault on sensor s, t being the other one. Returns the chi2 of what it changes; *shift [m] of MOVED. */
 static double spoil(struct scene *scene, enum hidden hidden, enum trouble trouble, int s, int t, double *shift)
@@ -196,8 +196,9 @@ static void one_fault(void **state)
             while (trouble != SWAP_NEXT && abs(s - t) < 3);
             double change = spoil(&scene, hidden, trouble, s, t, &shift);
             add_noise(&scene);
-            for (int k = 0; trouble == COPY && k < MODES; k++)
-                scene.shape[s + k * n] = scene.shape[t + k * n];
+            for (int k = 0; (trouble == COPY || trouble == COPY_AGAIN) && k < MODES; k++)
+                scene.shape[s + k * n] =
+                    scene.shape[t + k * n] * (1 + (trouble == COPY ? 0 : 1e-6 * random_normal(&scene.random)));
             if (change < 30) /* too small for anyone */
                 continue;
             int count = check(&scene, 3, fault);

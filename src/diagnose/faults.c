@@ -316,13 +316,14 @@ static void choose_line(int stated, int *count, struct rival *rival)
     *count = kept;
 }
 
-/* Takes the line out where every rival within the margin of a name has it, in units of what the best leaves: of all positions
- * there is one fault, and what the model lacks beside it may be found once they are right. *changed then. */
+/* Takes the line out where it leaves a model that explains the data, and every rival within the margin of a name has it. Beside a
+ * model that is grossly wrong a shift or another scale of all positions lowers chi2, too. *changed then. */
 static int settle_line(struct engine *engine, int count, const struct rival *rival, int best, int *changed)
 {
     rotid_data_finding finding;
-    double rate = rival[best].dof > 0 ? rival[best].chi2 / rival[best].dof : 1,
-           limit = rival[best].score + LEAST_MARGIN * fmax(1, rate);
+    double limit = rival[best].score + LEAST_MARGIN;
+    if (chi_square_tail(rival[best].chi2, rival[best].dof) < 0.01)
+        return ROTID_OK;
     for (int i = 0; i < count; i++)
         if (rival[i].score <= limit && !(rival[i].has_line && rival[i].line.line.flip == rival[best].line.line.flip))
             return ROTID_OK;

@@ -14,6 +14,7 @@
 #define FEW_SENSORS 7.0
 /* Modes in which a copy has to agree, and the share of the sensors, one in so many, that are no copies but mirror images. */
 #define COPY_MODES 2
+#define COPY_APART 1e-3 /* of their noise, at most, in each mode */
 #define DIGITS     1e-6 /* of the largest component: as many are no step but all that there are */
 #define MIRRORED   5
 /* Sensors for which a bad neighbour is tried. */
@@ -194,9 +195,9 @@ static double digit_step(int n, const double *reading, const int *present)
     return step;
 }
 
-/* Whether two channels agree to the last digit wherever both were measured, so often that noise does not make it. What makes two
- * channels equal in one mode is the step of the digits over the spread of noise; and their neighbours differ, else it is a mirror
- * image without noise. */
+/* Whether two channels agree a thousand times better than their noise wherever both were measured, so often that noise does not
+ * make it: two independent readings are within d of each other with a probability of about d over the spread of noise, d no less
+ * than the step of the digits. Their neighbours differ, else it is a mirror image without noise. */
 static int is_copy(const struct search *search, int s, int t)
 {
     const struct sensor_field *field = &search->field;
@@ -207,10 +208,11 @@ static int is_copy(const struct search *search, int s, int t)
         const int *present = field->present + (ptrdiff_t)k * n;
         if (!present[s] || !present[t] || (m[s] == 0 && m[t] == 0)) /* two that are dead are no copies */
             continue;
-        if (m[s] != m[t])
+        double apart = fabs(m[s] - m[t]), noise = sqrt(field->variance[s + k * n]);
+        if (apart > COPY_APART * noise)
             return 0;
         shared++;
-        chance += log(fmin(1, digit_step(n, m, present) / sqrt(field->variance[s + k * n])));
+        chance += log(fmin(1, fmax(digit_step(n, m, present), 2 * apart) / noise));
     }
     return shared >= COPY_MODES && chance < log(search->false_alarm);
 }

@@ -105,8 +105,8 @@ static double largest_cosine(const struct lm *lm, const double *r, const double 
 static int callback_failed(struct lm *lm, const char *asked, int returned)
 {
     return lm->failure && *lm->failure ? ROTID_ERROR_CALLBACK
-                                       : failure_say(lm->failure, ROTID_ERROR_CALLBACK, "residual returned %d when asked for %s, expected 0",
-                                                     returned, asked);
+                                       : failure_say(lm->failure, ROTID_ERROR_CALLBACK,
+                                                     "residual returned %d when asked for %s, expected 0", returned, asked);
 }
 
 /* The Jacobian at the point whose residual was computed last. Nonzero where no usable Jacobian exists. */
@@ -201,7 +201,8 @@ static int what_is_left(struct lm *lm)
     double promise = predicted_decrease(lm, mu, lm->scratch);
     if (negligible(lm, lm->scratch))
         return ROTID_STOP_STEP;
-    return promise <= fmax(FLAT, lm->options.objective_tolerance) * lm->objective || 2 * promise <= rounded * rounded || lm->result->cosine * lm->result->cosine <= FLAT
+    return promise <= fmax(FLAT, lm->options.objective_tolerance) * lm->objective || 2 * promise <= rounded * rounded ||
+                   lm->result->cosine * lm->result->cosine <= FLAT
                ? ROTID_STOP_OBJECTIVE
                : ROTID_STOP_STALLED;
 }
@@ -383,7 +384,15 @@ static int check_arguments(int m, int n, rotid_residual residual, const double *
 static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
                double *r, double *jacobian, double *work, rotid_lm_result *result)
 {
-    struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .failure = failure, .x = x, .r = r, .jacobian = jacobian, .result = result};
+    struct lm lm = {.m = m,
+                    .n = n,
+                    .residual = residual,
+                    .user = user,
+                    .failure = failure,
+                    .x = x,
+                    .r = r,
+                    .jacobian = jacobian,
+                    .result = result};
     int status = check_arguments(m, n, residual, x, r, jacobian, work, result, failure);
     if (!status && options)
         status = sized_take(SIZED_LM_OPTIONS, options, failure, &lm.options);
