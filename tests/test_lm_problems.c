@@ -283,9 +283,12 @@ static void test_gain_ratio_keeps_its_digits_beside_a_large_constant_residual(vo
     }
 }
 
+#define DRAWS 20
+
 struct noisy {
     const struct mgh_problem *problem;
     double noise;
+    unsigned draw;
 };
 
 /* The same noise for the same x, as the rounding of an eigensolver is. */
@@ -294,7 +297,7 @@ static int noisy_residual(void *user, int m, int n, const double *x, double *r, 
     const struct noisy *noisy = user;
     int status = noisy->problem->residual(NULL, m, n, x, r, jacobian);
     for (int i = 0; r && i < m; i++) {
-        uint64_t z = (uint64_t)i, bits;
+        uint64_t z = (uint64_t)i + 1000 * (uint64_t)noisy->draw, bits;
         for (int j = 0; j < n; j++) {
             memcpy(&bits, &x[j], sizeof bits);
             z = (z ^ bits) * 0x9E3779B97F4A7C15u;
@@ -307,27 +310,31 @@ static int noisy_residual(void *user, int m, int n, const double *x, double *r, 
 }
 
 /* Noise of 1e-10 of the residual, as a rotor has with eigenvalues good to 1e-11: f tells x to 1e-5, the gradient to 1e-9. Where
- * Gauss-Newton steps overshoot, as in the first two, rounding decides which of the last steps count. */
+ * Gauss-Newton steps overshoot, as in the first two, rounding decides which of the last steps count. One draw of the noise costs
+ * Chebyquad 10 from 4 evaluations fewer to 18 more, by the kernels of the BLAS: the mean of DRAWS is judged. */
 static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_evaluations(void **state)
 {
     (void)state;
     for (int k = 0; k < mgh_count; k++) {
         const struct mgh_problem *problem = &mgh_problems[k];
-        struct noisy noisy = {problem, 1e-10 * sqrt(problem->minimum[0] / problem->m)};
+        struct noisy noisy = {problem, 1e-10 * sqrt(problem->minimum[0] / problem->m), 0};
         struct outcome clean, out;
         if (problem->minimum[0] == 0 || !strcmp(problem->name, "Meyer") || !strcmp(problem->name, "Brown-Dennis"))
             continue; /* these two need more than 100 steps without noise */
         (void)solve(problem, 1, &clean);
-        mgh_start(problem, 1, out.x);
-        int m = problem->m, n = problem->n;
-        int status = rotid_lm(m, n, noisy_residual, &noisy, NULL, NULL, out.x, out.r, out.jacobian, work, &out.result);
-        recompute(problem, out.x, &out.objective, &out.cosine);
-        print_message("%-18s with noise %.1e: %-21s cosine %.1e evaluations %d, without %d\n", problem->name, noisy.noise,
-                      rotid_status_name(status), out.cosine, out.result.evaluations, clean.result.evaluations);
-        assert_true(status > 0 && status != ROTID_STOP_ITERATIONS);
+        int m = problem->m, n = problem->n, evaluations = 0;
         int overshoots = !strcmp(problem->name, "Freudenstein-Roth") || !strcmp(problem->name, "Jennrich-Sampson");
-        assert_close(out.cosine, 0, 0, overshoots ? 1e-5 : 1e-8);
-        assert_true(out.result.evaluations <= (overshoots ? 4 : 1) * clean.result.evaluations + 15);
+        for (noisy.draw = 0; noisy.draw < DRAWS; noisy.draw++) {
+            mgh_start(problem, 1, out.x);
+            int status = rotid_lm(m, n, noisy_residual, &noisy, NULL, NULL, out.x, out.r, out.jacobian, work, &out.result);
+            recompute(problem, out.x, &out.objective, &out.cosine);
+            assert_true(status > 0 && status != ROTID_STOP_ITERATIONS);
+            assert_close(out.cosine, 0, 0, overshoots ? 1e-5 : 1e-8);
+            evaluations += out.result.evaluations;
+        }
+        print_message("%-18s with noise %.1e: evaluations %.1f in the mean, without %d\n", problem->name, noisy.noise,
+                      (double)evaluations / DRAWS, clean.result.evaluations);
+        assert_true(evaluations <= DRAWS * ((overshoots ? 4 : 1) * clean.result.evaluations + 15));
     }
 }
 
