@@ -29,15 +29,21 @@ int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e)
     return e->a && e->b && e->values && e->vectors && e->work && e->iwork && e->ifail ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+static void put_matrices(struct eigen_dense *e, const double *k, const double *m)
+{
+    size_t square = (size_t)e->n * (size_t)e->n;
+    memcpy(e->a, m, square * sizeof(double));
+    for (size_t i = 0; i < square; i++)
+        e->b[i] = k[i] - e->shift * m[i];
+}
+
 /* The `count` largest mu, ascending, and their vectors with phi' (K - s M) phi = 1. */
 static int solve_inverse(struct eigen_dense *e, const double *k, const double *m)
 {
     int n = e->n;
     size_t square = (size_t)n * (size_t)n;
-    memcpy(e->a, m, square * sizeof(double));
-    for (size_t i = 0; i < square; i++)
-        e->b[i] = k[i] - e->shift * m[i];
     lapack_int info, found = e->count;
+    put_matrices(e, k, m);
     if (e->count == n) {
         info = LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork, e->iwork,
                                    e->liwork);
@@ -46,6 +52,13 @@ static int solve_inverse(struct eigen_dense *e, const double *k, const double *m
         double abstol = 2 * LAPACKE_dlamch_work('S'); /* eigenvalues to full accuracy want this (LAPACK Users' Guide, dsygvx) */
         info = LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, e->a, n, e->b, n, 0, 0, n - e->count + 1, n, abstol,
                                    &found, e->values, e->vectors, n, e->work, e->lwork, e->iwork, e->ifail);
+        if (info <= n && (info || found != e->count)) { /* bisection cannot part eigenvalues that rounding alone tells apart */
+            put_matrices(e, k, m);
+            info = LAPACKE_dsygv_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork);
+            found = e->count;
+            memmove(e->values, e->values + n - e->count, (size_t)e->count * sizeof(double));
+            memcpy(e->vectors, e->a + (ptrdiff_t)n * (n - e->count), (size_t)n * (size_t)e->count * sizeof(double));
+        }
     }
     if (info > n)
         return ROTID_ERROR_STIFFNESS;

@@ -7,11 +7,11 @@
 #include "base/random.h"
 #include "linalg/shift.h"
 
-#define TOLERANCE   2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
-#define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
-#define NEAR        1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
-#define GUARDS      5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
-#define REPAIRS     4     /* times that random vectors look for pairs that were missed */
+#define TOLERANCE 2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
+#define ROUGH     1e-3  /* of it, where eigenvalues are sought for their size */
+#define NEAR      1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
+#define GUARDS    5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
+#define REPAIRS   4     /* times that random vectors look for pairs that were missed */
 
 int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_wide *e)
 {
@@ -96,18 +96,20 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
 
 /* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
  * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
- * above the eigenvalues that they belong to, so no fewer can be there. */
+ * above the eigenvalues that they belong to, so no fewer can be there. -1 where the count fails, or where more eigenvalues lie
+ * below the shift than pairs are kept: no search can prove those complete. */
 static int count_missed(struct eigen_wide *e)
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
     int known = e->count;
     while (known < e->block && e->value[known] <= shift)
         known++;
-    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) - known;
+    int below = factor_negative_count_pencil(&e->factor, &e->pencil, shift);
+    return below <= e->block ? below - known : -1;
 }
 
 /* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
- * new random vectors. */
+ * new random vectors: as many as were missed. */
 static int attempt(struct eigen_wide *e)
 {
     int status = begin(e), watched = e->count;
@@ -119,10 +121,11 @@ static int attempt(struct eigen_wide *e)
         int missed = count_missed(e);
         if (!missed)
             return ROTID_OK;
-        if (repair == REPAIRS || missed < 0 || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
+        if (repair == REPAIRS || missed < 0)
             return ROTID_ERROR_EIGEN;
         watched = watched + missed < e->block ? watched + missed : e->block;
-        lanczos_extend(&e->lanczos);
+        status =
+            factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_EIGEN : lanczos_extend(&e->lanczos, missed);
     }
     return status;
 }

@@ -11,9 +11,10 @@
 
 int lanczos_new(struct pool *pool, struct pencil *pencil, struct factor *factor, int columns, int block, struct lanczos *l)
 {
-    int n = pencil->n, most = BLOCKS * block;
-    *l = (struct lanczos){.n = n, .columns = columns, .block = block, .most = most, .pencil = pencil, .factor = factor};
-    size_t vectors = (size_t)n * (size_t)(most + 2 * block), squares = (size_t)most * (size_t)most;
+    int n = pencil->n, most = BLOCKS * block, behind = 2 * block;
+    *l = (struct lanczos){
+        .n = n, .columns = columns, .block = block, .most = most, .behind = behind, .pencil = pencil, .factor = factor};
+    size_t vectors = (size_t)n * (size_t)(most + behind), squares = (size_t)most * (size_t)most;
     l->basis = POOL_ARRAY(pool, double, vectors);
     l->mass_basis = POOL_ARRAY(pool, double, vectors);
     l->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
@@ -21,7 +22,7 @@ int lanczos_new(struct pool *pool, struct pencil *pencil, struct factor *factor,
     l->vector = POOL_ARRAY(pool, double, squares);
     l->component = POOL_ARRAY(pool, double, squares);
     l->theta = POOL_ARRAY(pool, double, most);
-    l->remainder = POOL_ARRAY(pool, double, 4 * (size_t)block * (size_t)block);
+    l->remainder = POOL_ARRAY(pool, double, (size_t)behind *(size_t)behind);
     l->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
     l->iwork = POOL_ARRAY(pool, int, 12 * (size_t)most);
     return l->basis && l->mass_basis && l->image && l->projected && l->vector && l->component && l->theta && l->remainder &&
@@ -30,14 +31,14 @@ int lanczos_new(struct pool *pool, struct pencil *pencil, struct factor *factor,
                : ROTID_ERROR_MEMORY;
 }
 
-/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [2 block * columns]. Columns that are least[c]
+/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [behind * columns]. Columns that are least[c]
  * long or shorter without those before them are dropped. Returns how many are left. */
 static int gram_schmidt(struct lanczos *l, int columns, const double *least, double *w, double *mw, double *remainder)
 {
     int n = l->n, rank = 0;
-    memset(remainder, 0, 2 * (size_t)l->block * (size_t)columns * sizeof(double));
+    memset(remainder, 0, (size_t)l->behind * (size_t)columns * sizeof(double));
     for (int c = 0; c < columns; c++) {
-        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = remainder + 2 * (ptrdiff_t)c * l->block;
+        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = remainder + (ptrdiff_t)c * l->behind;
         if (rank < c) {
             memcpy(x, w + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
             memcpy(mx, mw + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
@@ -70,7 +71,7 @@ static void project_out(struct lanczos *l, int size, int columns, double *w, dou
 static int again(struct lanczos *l, int size, int columns, double *w, double *mw)
 {
     int n = l->n;
-    double *square = l->component + 2 * (ptrdiff_t)l->most * l->block, *least = l->work;
+    double *square = l->component + (ptrdiff_t)l->most * l->behind, *least = l->work;
     if (size) {
         project_out(l, size, columns, w, l->component);
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, l->mass_basis, n, l->component, l->most, 1,
@@ -159,7 +160,7 @@ static double residual(const struct lanczos *l, int pair)
     for (int b = 0; b < l->outside; b++) {
         double sum = 0;
         for (int c = 0; c < l->last; c++)
-            sum += l->remainder[b + 2 * c * l->block] * y[c];
+            sum += l->remainder[b + (ptrdiff_t)c * l->behind] * y[c];
         square += sum * sum;
     }
     return sqrt(square) / lanczos_theta(l, pair);
@@ -191,15 +192,18 @@ static void condense(struct lanczos *l)
     l->size = pairs;
 }
 
-void lanczos_extend(struct lanczos *l)
+int lanczos_extend(struct lanczos *l, int columns)
 {
+    if (columns > l->behind - l->next)
+        return ROTID_ERROR_EIGEN;
     condense(l);
     int size = l->size + l->next, before = l->next;
     double *x = l->basis + (ptrdiff_t)size * l->n;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)l->n * l->columns; i++)
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)l->n * columns; i++)
         x[i] = random_normal(&l->stream);
-    orthonormalise(l, size, l->columns, l->vector);
+    orthonormalise(l, size, columns, l->vector);
     l->next += before;
+    return ROTID_OK;
 }
 
 int lanczos_iterate(struct lanczos *l, int watched, const double *tolerance)
@@ -215,8 +219,9 @@ int lanczos_iterate(struct lanczos *l, int watched, const double *tolerance)
             open = !(lanczos_theta(l, j) > 0) || !(residual(l, j) <= tolerance[j]);
         if (!open)
             return ROTID_OK;
-        if (!l->next) /* the basis holds all of its own images, and not yet the pairs */
-            lanczos_extend(l);
+        if (!l->next &&
+            (status = lanczos_extend(l, l->columns))) /* the basis holds all of its own images, and not yet the pairs */
+            return status;
     }
     return ROTID_ERROR_EIGEN;
 }

@@ -7,18 +7,19 @@
 #include "linalg/factor.h"
 
 struct lanczos {
-    int n, columns, block, most;
+    int n, columns, block;
+    int most, behind;  /* columns that there is room for: of the basis, of the block behind them */
     int size, next;    /* columns of the basis that were multiplied; of the block behind them that were not */
     int last, outside; /* columns that were multiplied last, and columns of Q below */
     struct pencil *pencil;
     struct factor *factor; /* of K - s M */
     struct random_stream stream;
-    double *basis, *mass_basis; /* [n * (most + 2 block)] V with V' M V = 1, and M V */
+    double *basis, *mass_basis; /* [n * (most + behind)] V with V' M V = 1, and M V */
     double *image;              /* [n * block] workspace */
     double *projected;          /* [most^2] V' M (K - s M)^-1 M V, upper triangle */
     double *vector, *theta;     /* [most^2], [most] its lowest pairs, theta ascending */
     double *component;          /* [most^2] workspace */
-    double *remainder;          /* [4 block^2] R: what (K - s M)^-1 M makes of the last columns beyond the basis is Q R */
+    double *remainder;          /* [behind^2] R: what (K - s M)^-1 M makes of the last columns beyond the basis is Q R */
     double *work;               /* [34 most] */
     int *iwork;                 /* [12 most] */
 };
@@ -33,8 +34,9 @@ void lanczos_begin(struct lanczos *l, const double *x);
  * [watched]. ROTID_OK or ROTID_ERROR_EIGEN. */
 int lanczos_iterate(struct lanczos *l, int watched, const double *tolerance);
 
-/* Random vectors join the search, beside the pairs that are known. */
-void lanczos_extend(struct lanczos *l);
+/* `columns` random vectors join the search, beside the pairs that are known. ROTID_OK, or ROTID_ERROR_EIGEN where the block
+ * behind the basis has no room for so many; nothing has changed then. */
+int lanczos_extend(struct lanczos *l, int columns);
 
 /* How many pairs are known: block, or fewer where the basis is smaller; theta of one; the vectors of the lowest ones [n * pairs].
  */

@@ -1,0 +1,101 @@
+/* Eigenpairs of matrices whose eigenvalues are stated: K = S Q D Q' S, M = S^2 with block rotations Q, over numbers of rows, half
+ * bands, counts, clusters and scales of 1e12. Meant for the address sanitizer too: each solver owns a workspace. */
+#include "base/random.h"
+#include "dense.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum spectrum { SPREAD, TWO_VALUES, FEW_COPIES, HALF_ZERO, ALL_EQUAL, TRIPLES, SPECTRA };
+
+static double eigenvalue(enum spectrum spectrum, double high, int n, int i)
+{
+    switch (spectrum) {
+    case TWO_VALUES:
+        return i % 3 ? 1 : high;
+    case FEW_COPIES:
+        return i % 7 ? high * (1 + (double)i / n) : 1;
+    case HALF_ZERO:
+        return i % 2 ? 0 : high * (1 + i);
+    case ALL_EQUAL:
+        return high;
+    case TRIPLES:
+        return pow(high, (double)(i / 3 * 3) / n);
+    default:
+        return pow(high, (double)i / n);
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
+
+/* Rows top ... top + size - 1: D, reflected by 1 - 2 v v' where size > 1. */
+static void put_block(struct random_stream *stream, int top, int size, const double *d, const double *scale, rotid_matrix *k)
+{
+    double v[64], square = 0;
+    for (int i = 0; i < size; i++) {
+        v[i] = size > 1 ? random_normal(stream) : 0;
+        square += v[i] * v[i];
+    }
+    for (int j = 0; j < size; j++)
+        for (int i = j; i < size; i++) {
+            double sum = 0;
+            for (int c = 0; c < size; c++)
+                sum += ((i == c) - (square > 0 ? 2 * v[i] * v[c] / square : 0)) * d[top + c] *
+                       ((j == c) - (square > 0 ? 2 * v[j] * v[c] / square : 0));
+            k->band[(i - j) + (ptrdiff_t)(top + j) * (k->kd + 1)] = scale[top + i] * sum * scale[top + j];
+        }
+}
+
+static void solve_stated(struct pool *pool, int n, int kd, int count, enum spectrum spectrum, double high, int rotated)
+{
+    struct random_stream stream = {(uint64_t)(n + 1000 * kd + 100000 * count)};
+    rotid_matrix k = {.n = n, .kd = kd, .band = numbers(pool, (ptrdiff_t)n * (kd + 1))}, m = k;
+    m.band = numbers(pool, (ptrdiff_t)n * (kd + 1));
+    double *d = numbers(pool, n), *scale = numbers(pool, n), *lambda = numbers(pool, count),
+           *phi = numbers(pool, (ptrdiff_t)n * count), largest = 0;
+    for (int i = 0; i < n; i++) {
+        d[i] = eigenvalue(spectrum, high, n, i);
+        scale[i] = rotated ? pow(10, 3 * random_normal(&stream)) : 1;
+        m.band[(ptrdiff_t)i * (kd + 1)] = scale[i] * scale[i];
+        largest = fmax(largest, d[i]);
+    }
+    int size = rotated ? (kd + 1 < 64 ? kd + 1 : 64) : 1;
+    for (int top = 0; top < n; top += size)
+        put_block(&stream, top, n - top < size ? n - top : size, d, scale, &k);
+    char failure[ROTID_FAILURE_LENGTH];
+    int status = rotid_eigenpairs(&k, &m, count, NULL, failure, lambda, phi);
+    if (status)
+        fail_msg("%s: n %d, kd %d, count %d, spectrum %d, high %g, rotated %d: %s", rotid_status_name(status), n, kd, count,
+                 (int)spectrum, high, rotated, failure);
+    qsort(d, (size_t)n, sizeof *d, ascending);
+    /* Rounding makes that of an eigenvalue beside the highest one. Of pairs that lie 1e12 above the shift the inverse keeps four
+     * digits of the vector, and their quotient twice as many of the eigenvalue. */
+    for (int j = 0; j < count; j++)
+        assert_close(lambda[j], d[j], 1e-6, 64 * n * DBL_EPSILON * largest);
+}
+
+static void eigenvalues_are_those_stated(void **state)
+{
+    static const int sizes[][2] = {{1, 0}, {13, 12}, {40, 3}, {60, 12}, {100, 99}, {120, 11}, {200, 48}},
+                     counts[] = {1, 4, 12, 30};
+    static const double highs[] = {10, 1e6, 1e12};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
+        for (size_t c = 0; c < sizeof counts / sizeof *counts && counts[c] <= sizes[s][0]; c++)
+            for (int spectrum = 0; spectrum < SPECTRA; spectrum++)
+                for (int h = 0; h < 3; h++)
+                    for (int rotated = 0; rotated < 2; rotated++)
+                        solve_stated(*state, sizes[s][0], sizes[s][1], counts[c], (enum spectrum)spectrum, highs[h], rotated);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_POOL(eigenvalues_are_those_stated),
+    };
+    return cmocka_run_group_tests_name("eigen_sweep", tests, NULL, NULL);
+}
