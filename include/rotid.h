@@ -1036,7 +1036,7 @@ ROTID_API void rotid_identification_free(rotid_identification *result);
 typedef struct rotid_diagnose_options {
     size_t size;
     int threads;    /* [1] of this call; its BLAS should have one then */
-    int replicates; /* [1000] of the bootstrap */
+    int replicates; /* [1000] of the bootstrap, at most 1e6 */
     long seed;      /* [1] >= 0, of the random numbers */
     const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
 } rotid_diagnose_options;
@@ -1059,10 +1059,10 @@ typedef struct rotid_suggest_options {
     double frequency_noise; /* [that of the deck, else 0.003] relative */
     double shape_noise;     /* [that of the deck, else 0.02] relative to the largest component */
     double set_up_cost;     /* [20] of a set-up, where a point costs 1 */
-    int sensors;            /* [those of the deck, else 8] of a plan */
-    int modes;              /* [those of the deck, else 5] of a plan */
+    int sensors;            /* [those of the deck, else 8] of a plan, at most 1000 */
+    int modes;              /* [those of the deck, else 5] of a plan, 2 ... 100 */
     int threads;            /* [1] of the diagnosis */
-    int replicates;         /* [1000] of bootstrap and draws */
+    int replicates;         /* [1000] of bootstrap and draws, at most 1e6 */
     long seed;              /* [1] >= 0 */
 } rotid_suggest_options;
 

@@ -205,11 +205,19 @@ static void arguments_out_of_range_are_refused(void **state)
         rotid_diagnose_options options;
         const char *text;
     } wrong[] = {{{.size = sizeof wrong->options, .threads = -1}, "options->threads is -1, expected 0 or more"},
-                 {{.size = sizeof wrong->options, .replicates = -1}, "options->replicates is -1, expected 0 or more"},
+                 {{.size = sizeof wrong->options, .replicates = -1}, "options->replicates is -1, expected 0 ... 1000000"},
                  {{.size = sizeof wrong->options, .seed = -1}, "options->seed is -1, expected 0 or more"},
                  {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 40"}};
+    const struct {
+        rotid_suggest_options options;
+        const char *text;
+    } far[] = {{{.size = sizeof far->options, .modes = 101}, "options->modes is 101, expected 0 ... 100"},
+               {{.size = sizeof far->options, .modes = 1}, "options->modes is 1, expected 2 ... 100"},
+               {{.size = sizeof far->options, .sensors = 1001}, "options->sensors is 1001, expected 0 ... 1000"},
+               {{.size = sizeof far->options, .replicates = 1000001}, "options->replicates is 1000001, expected 0 ... 1e+06"}};
     const double x[2] = {1e11, NAN};
     char failure[512];
+    rotid_suggestion *suggestion;
     rotid_deck *deck;
     assert_status(rotid_deck_read(NULL, 0, NULL, NULL, failure, &deck), ROTID_ERROR_ARGUMENT);
     assert_string_equal(failure, "path is NULL, expected that of a deck");
@@ -253,6 +261,10 @@ static void arguments_out_of_range_are_refused(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_status(rotid_diagnose(deck, &wrong[i].options, NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
         assert_string_equal(failure, wrong[i].text);
+    }
+    for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+        assert_status(rotid_suggest(deck, &far[i].options, NULL, failure, &suggestion), ROTID_ERROR_ARGUMENT);
+        assert_string_equal(failure, far[i].text);
     }
     rotid_diagnosis_free(NULL);
     rotid_deck_free(deck);

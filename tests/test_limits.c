@@ -163,8 +163,8 @@ static void what_is_read_twice_is_no_pipe(void **state)
 
 /* ---- signals */
 
-/* A program that never asks command_cancelled; 's': it has stopped itself first. */
-static pid_t start_deaf(void)
+/* A program that never asks command_cancelled, or all the time; 's': it has stopped itself first. */
+static pid_t start(int computes, int asks)
 {
     int ready[2];
     char byte = 0;
@@ -173,10 +173,12 @@ static pid_t start_deaf(void)
     assert_true(child >= 0);
     if (!child) {
         alarm(120);
-        command_watch_signals();
+        command_watch_signals(computes);
         (void)!write(ready[1], &byte, 1);
-        for (;;)
+        while (!asks)
             (void)pause();
+        for (const struct timespec pause = {.tv_nsec = 10000000};; (void)nanosleep(&pause, NULL))
+            (void)command_cancelled(NULL);
     }
     assert_int_equal(read(ready[0], &byte, 1), 1);
     (void)close(ready[0]);
@@ -197,7 +199,7 @@ static void a_second_signal_ends_the_program(void **state)
     pid_t child[4];
     int status;
     for (int i = 0; i < 4; i++) {
-        child[i] = start_deaf();
+        child[i] = start(0, 0);
         assert_int_equal(kill(child[i], signals[i][0]), 0);
     }
     rest();
@@ -215,7 +217,7 @@ static void two_signals_at_once_are_one(void **state)
 {
     (void)state;
     int status;
-    pid_t child = start_deaf();
+    pid_t child = start(0, 0);
     assert_int_equal(kill(child, SIGSTOP), 0);
     assert_int_equal(waitpid(child, &status, WUNTRACED), child);
     assert_int_equal(kill(child, SIGINT), 0);
@@ -227,6 +229,72 @@ static void two_signals_at_once_are_one(void **state)
     assert_int_equal(waitpid(child, &status, 0), child);
 }
 
+static double seconds_to_end(pid_t child, int expected)
+{
+    struct timespec from, to;
+    int status;
+    (void)clock_gettime(CLOCK_MONOTONIC, &from);
+    assert_int_equal(kill(child, expected), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    (void)clock_gettime(CLOCK_MONOTONIC, &to);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(WTERMSIG(status), expected);
+    return (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
+}
+
+/* One signal is enough, for a library that does not ask and for results that do not come together. */
+static void who_does_not_end_is_ended(void **state)
+{
+    (void)state;
+    assert_in_range((int)(1000 * seconds_to_end(start(1, 0), SIGTERM)), 900, 2900);
+    assert_in_range((int)(1000 * seconds_to_end(start(1, 1), SIGINT)), 4900, 8000);
+}
+
+/* Nothing is written while a deck is read: the first signal ends that. A file that may not grow is no signal at all. */
+static void reading_ends_and_limits_of_files_are_errors(void **state)
+{
+    (void)state;
+    const char *output;
+    assert_int_equal(
+        shell_code(&test_pool, &output, "cd %s && (sleep 5 | timeout -s TERM 0.5 " ROTID_PROGRAM " check /dev/stdin)", folder),
+        124);
+    assert_int_equal(shell_code(&test_pool, &output,
+                                "cd %s && ulimit -f 1 && " LIMITED "identify " DECK " --no-baseline --json x.json", folder),
+                     3);
+    assert_non_null(strstr(output, "rotid: cannot write x.json: File too large"));
+    assert_string_equal(shell(&test_pool, "ls %s", folder), "");
+}
+
+/* ---- decks that are small and ask for much */
+
+#define SHAFT "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.05, 0"
+
+static void decks_that_ask_for_much_are_refused_soon(void **state)
+{
+    (void)state;
+    const char *output;
+    (void)shell(&test_pool,
+                "cd %s && for i in $(seq 0 14); do for j in 1 2 3 4; do echo \"*INCLUDE, FILE=f$((i + 1))\"; done > f$i; "
+                "done; echo '** end' > f15",
+                folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && timeout 10 " ROTID_PROGRAM " check f0", folder), 2);
+    assert_non_null(strstr(output, "f14:3:16: the deck includes more than 1000 files, expected fewer"));
+    assert_null(strstr(output, "larger than")); /* one message */
+    (void)shell(&test_pool,
+                "cd %s && printf '" SHAFT ", 4\n' > deck && seq 1 2000 | sed 's/.*/*SHAPE, FILE=t.csv/' >> deck && "
+                "seq 1 160000 | awk 'BEGIN { print \"mode,sensor,value\" } { print $1 %% 4 + 1 \",\" $1 %% 160 + 1 \",0.5\" "
+                "}' > t.csv",
+                folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && timeout 30 " ROTID_PROGRAM " check deck", folder), 2);
+    assert_non_null(strstr(output, "deck:14:1: the cards of the deck take more than 1000000 rows of tables, expected fewer"));
+    (void)shell(&test_pool,
+                "cd %s && printf '" SHAFT "\n*MODES\n' > deck && seq 1 1000 | awk '{ print $1 \", \" 100 * $1 }' >> deck",
+                folder);
+    output = shell(&test_pool, "cd %s && timeout 10 " ROTID_PROGRAM " check deck", folder);
+    assert_non_null(strstr(output, "fewer than 8 for half a wave of mode 1000, and more elements would have to be stated"));
+    (void)shell(&test_pool, "cd %s && rm -r *", folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,7 +303,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_pipe_without_another_end_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_pipe_with_another_end_is_one_file_more, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_is_read_twice_is_no_pipe, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(decks_that_ask_for_much_are_refused_soon, open_test_pool, close_test_pool),
         cmocka_unit_test(a_second_signal_ends_the_program),
+        cmocka_unit_test(who_does_not_end_is_ended),
+        cmocka_unit_test_setup_teardown(reading_ends_and_limits_of_files_are_errors, open_test_pool, close_test_pool),
         cmocka_unit_test(two_signals_at_once_are_one),
     };
     return cmocka_run_group_tests_name("limits", tests, setup, teardown);

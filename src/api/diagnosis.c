@@ -29,8 +29,8 @@ static int take_options(const rotid_diagnose_options *given, char *failure, stru
         return status;
     if (o.threads < 0)
         return refuse(failure, "options->threads is %d, expected 0 or more", o.threads);
-    if (o.replicates < 0)
-        return refuse(failure, "options->replicates is %d, expected 0 or more", o.replicates);
+    if (o.replicates < 0 || o.replicates > 1000000)
+        return refuse(failure, "options->replicates is %d, expected 0 ... 1000000", o.replicates);
     if (o.seed < 0)
         return refuse(failure, "options->seed is %ld, expected 0 or more", o.seed);
     if (!o.before != !o.after)

@@ -1,4 +1,6 @@
 /* What to measure next, for hosts. */
+#include <limits.h>
+
 #include "api/deck_handle.h"
 #include "api/keep.h"
 #include "api/result_diagnosis.h"
@@ -15,21 +17,21 @@ static int take_options(const rotid_suggest_options *given, char *failure, rotid
         return status;
     const struct {
         const char *name;
-        double value;
-    } number[] = {{"wanted_percent", o->wanted_percent},
-                  {"frequency_noise", o->frequency_noise},
-                  {"shape_noise", o->shape_noise},
-                  {"set_up_cost", o->set_up_cost},
-                  {"sensors", o->sensors},
-                  {"modes", o->modes},
-                  {"threads", o->threads},
-                  {"replicates", o->replicates},
-                  {"seed", (double)o->seed}};
+        double value, most; /* as of the options of the program */
+    } number[] = {{"wanted_percent", o->wanted_percent, 1e12},
+                  {"frequency_noise", o->frequency_noise, 1e12},
+                  {"shape_noise", o->shape_noise, 1e12},
+                  {"set_up_cost", o->set_up_cost, 1e12},
+                  {"sensors", o->sensors, 1000},
+                  {"modes", o->modes, 100},
+                  {"threads", o->threads, INT_MAX},
+                  {"replicates", o->replicates, 1e6},
+                  {"seed", (double)o->seed, 1e12}};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
-        if (!(number[i].value >= 0 && number[i].value <= 1e12))
-            return refuse(failure, "options->%s is %g, expected 0 or more", number[i].name, number[i].value);
+        if (!(number[i].value >= 0 && number[i].value <= number[i].most))
+            return refuse(failure, "options->%s is %.15g, expected 0 ... %g", number[i].name, number[i].value, number[i].most);
     if (o->modes == 1)
-        return refuse(failure, "options->modes is 1, expected 2 or more");
+        return refuse(failure, "options->modes is 1, expected 2 ... 100");
     if (o->threads > PARALLEL_MOST)
         o->threads = PARALLEL_MOST;
     return ROTID_OK;

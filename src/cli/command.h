@@ -126,9 +126,13 @@ int command_wants_progress(const struct command *command);
  * written over five times a second, to be ended with terminal_progress_end. *last: 0, and alive as long as the environment. */
 rotid_environment command_environment(const struct command *command, double *last);
 
+/* A write beyond the largest size of a file is an error, and how a child ended can be waited for, whatever was inherited. */
+void command_set_signals(void);
 /* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time,
- * ends the program. How a child ended can be waited for, whatever was inherited. */
-void command_watch_signals(void);
+ * ends the program. Before, while decks are read and nothing is written, the first one ends it. computes: the program also ends
+ * by the first one where a second passes and command_cancelled was not called, or five and the command has not ended, unless a
+ * file is open for writing. */
+void command_watch_signals(int computes);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
 

@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -118,10 +117,9 @@ int study_conduct(struct command *command, const struct study *study, study_comp
     const struct study_arguments *arguments = &command->study;
     const struct header header = header_of(study, command->head.rotid, command->head.commit,
                                            arguments->shards ? arguments->shard : 1, arguments->shards ? arguments->shards : 1);
-    struct sigaction ignore = {.sa_handler = SIG_IGN};
     struct study_record record;
     int code = EXIT_DONE;
-    (void)sigaction(SIGXFSZ, &ignore, NULL); /* a file that may not grow is then an error like a full disk */
+    command_watch_signals(0);
     int status = record_open(&command->pool, command->output, &header, arguments->retry_failed, &command->messages, &record);
     if (status)
         return refuse(command, status);
@@ -148,6 +146,7 @@ int study_conduct(struct command *command, const struct study *study, study_comp
 static int merge(struct command *command)
 {
     struct merge merged;
+    command_watch_signals(0);
     int status = merge_results(&command->pool, command->nfile, command->file, command->output, &command->messages, &merged);
     if (status)
         return refuse(command, status);

@@ -37,7 +37,11 @@ static int run(struct command *command)
     command_begin_head(command);
     build_set_threads(parallel ? 1 : command->threads);
     int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
-    return code ? code : c->run(command);
+    if (code)
+        return code;
+    if (c->run != command_study) /* which reads its decks itself */
+        command_watch_signals(c->flags & READS_DECK);
+    return c->run(command);
 }
 
 /* glibc raises the size from which a block is pages of its own to that of the largest block freed so far: matrices then stay in
@@ -55,7 +59,7 @@ int main(int argc, char **argv)
 {
     struct command command = {0};
     keep_large_blocks_apart();
-    command_watch_signals();
+    command_set_signals();
     if (terminal_open())
         return EXIT_INTERNAL;
     pool_open(&command.pool, NULL);

@@ -17,6 +17,7 @@ struct deck_reader {
     size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
+    long taken;               /* rows of tables, by all cards */
     int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
     size_t open_room;
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
@@ -109,8 +110,8 @@ int deck_add_group(struct deck_reader *reader, const struct card *card);
 
 #define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS ROTOR_MOST_ELEMENTS /* of a segment, of a bundle of rods, of the rotor with its bundles */
-#define DECK_MOST_STATES   100   /* each is read with all common cards */
-#define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
+#define DECK_MOST_STATES   100                 /* each is read with all common cards */
+#define DECK_MOST_LINES    10000               /* of a card, and sensors of the rotor: they are compared with each other */
 
 /* The readers of the cards, by file. */
 void deck_units(struct deck_reader *reader, const struct card *card);

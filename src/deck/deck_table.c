@@ -1,5 +1,6 @@
 /* FILE on *MODES, *SENSORS, *SHAPE, *FREQUENCIES, *SHAFT and *BEAM: a table in the place of data lines. What is read of it
  * becomes data lines whose places are rows and columns of the table, so the readers of the cards judge them like any others. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@ struct taking {
     struct deck_text *to;    /* cards go there */
     int first;               /* the cards of this table begin there */
     double mode[MOST_MODES]; /* of each of them, where it has one */
+    double asked;            /* MODE of the card, NaN where all modes of the table are taken */
 };
 
 static struct table_text *open_table(struct deck_reader *reader, const struct card *card)
@@ -29,6 +31,10 @@ static struct table_text *open_table(struct deck_reader *reader, const struct ca
     for (int i = 0; i < text->ntable && path; i++)
         if (!strcmp(text->table[i]->path, path))
             return text->table[i];
+    if (path && text->ntable == TABLE_MOST_TABLES) {
+        deck_error(reader, file->value_place, "the deck reads more than %d tables, expected fewer", TABLE_MOST_TABLES);
+        return NULL;
+    }
     struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL,
                       **grown = pool_grow(reader->pool, text->table, (size_t)text->ntable, &text->table_room, sizeof *grown);
     if (!grown || !table || deck_text_add_file(reader->pool, text, path)) {
@@ -46,6 +52,7 @@ static struct table_text *open_table(struct deck_reader *reader, const struct ca
 static struct card *new_card(struct taking *t, struct place place)
 {
     struct card *card = NULL;
+    t->table->bad |= t->to->ncard >= DECK_MOST_CARDS; /* said once a table */
     if (t->to->ncard >= DECK_MOST_CARDS)
         deck_error(t->reader, place, "the deck has more than %d cards with those of the table, expected fewer", DECK_MOST_CARDS);
     else if (!(card = deck_text_add_card(t->reader->pool, t->to, t->card->name, place)))
@@ -82,6 +89,20 @@ static struct field cell_of(const struct data_line *row, int column)
     return (struct field){"", {row->place.file, row->place.line, column < 0 ? 1 : column + 1}, 0};
 }
 
+/* Counts a row that a card takes: 0 where all cards together take too many, which is said once a table. */
+static int may_take(struct taking *t)
+{
+    if (t->reader->taken < TABLE_MOST_TAKEN) {
+        t->reader->taken++;
+        return 1;
+    }
+    if (!t->table->bad)
+        deck_error(t->reader, t->card->place, "the cards of the deck take more than %d rows of tables, expected fewer",
+                   TABLE_MOST_TAKEN);
+    t->table->bad = 1;
+    return 0;
+}
+
 /* The values of a row in the order of a data line. */
 static int values_of(const struct taking *t, const struct data_line *row, struct field *field)
 {
@@ -108,7 +129,7 @@ static void take_rows(struct taking *t)
         return;
     card->option = t->card->option;
     card->noption = t->card->noption;
-    for (int r = t->columns.header; r < t->table->nrow; r++) {
+    for (int r = t->columns.header; r < t->table->nrow && may_take(t); r++) {
         struct field field[TABLE_MOST_VALUES] = {{.text = ""}};
         int count = values_of(t, &t->table->row[r], field);
         if (add_line(t, card, t->table->row[r].place, count, field))
@@ -144,7 +165,7 @@ static void take_sections(struct taking *t)
         deck_error(reader, named->place, "*%s has a NAME and its table a column of groups, expected one of them", t->card->name);
         return;
     }
-    for (int r = 1; r < t->table->nrow && !reader->out_of_memory; r++) {
+    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
         struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]),
                      field[TABLE_MOST_VALUES] = {{.text = ""}};
@@ -178,9 +199,8 @@ static void take_sections(struct taking *t)
 /* The card of the mode that a cell names; NULL where the card asks for another one, or after an error. */
 static struct card *card_of_mode(struct taking *t, const struct field *mode)
 {
-    const struct card_option *asked = card_option(t->card, "MODE");
     double number = strtod(mode->text, NULL);
-    if (asked && strtod(asked->value, NULL) != number)
+    if (!isnan(t->asked) && t->asked != number)
         return NULL;
     int count = t->to->ncard - t->first;
     for (int c = 0; c < count; c++)
@@ -216,12 +236,32 @@ static void take_value(struct taking *t, const struct data_line *row, const stru
         (void)add_line(t, card, row->place, *std->text ? 3 : 2, field);
 }
 
+/* The numbers of the column that names the mode of each row, read once however many cards ask for a mode of it. */
+static const double *modes_of_rows(struct taking *t)
+{
+    struct table_text *table = t->table;
+    if (table->number)
+        return table->number;
+    table->number = POOL_ARRAY(t->reader->pool, double, table->nrow);
+    t->reader->out_of_memory |= !table->number;
+    for (int r = 1; r < table->nrow && table->number; r++) {
+        const char *text = cell_of(&table->row[r], t->columns.key[0]).text;
+        table->number[r] = table_is_number(text) ? strtod(text, NULL) : (double)NAN;
+    }
+    return table->number;
+}
+
 /* mode, sensor, value */
 static void take_triples(struct taking *t)
 {
     const struct card_option *asked = card_option(t->card, "MODE");
     struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
-    for (int r = 1; r < t->table->nrow && !t->reader->out_of_memory; r++) {
+    const double *number = t->columns.key[0] >= 0 && !isnan(t->asked) ? modes_of_rows(t) : NULL;
+    for (int r = 1; r < t->table->nrow && !t->reader->out_of_memory && !t->table->bad; r++) {
+        if (number && !isnan(number[r]) && number[r] != t->asked)
+            continue;
+        if (!may_take(t))
+            return;
         const struct data_line *row = &t->table->row[r];
         struct field field[TABLE_MOST_VALUES], mode = t->columns.key[0] >= 0 ? cell_of(row, t->columns.key[0]) : only;
         int count = values_of(t, row, field);
@@ -246,7 +286,7 @@ static void take_column(struct taking *t, int of_rows, int of_modes, int column,
     }
     struct field numbered = {pool_format(reader->pool, "%d", number), name->place, 0};
     reader->out_of_memory |= !numbered.text;
-    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && !t->table->bad; r++) {
+    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && !t->table->bad && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
         struct field of_row = cell_of(row, of_rows), value = cell_of(row, column), std = cell_of(row, std_column);
         value.in_si = std.in_si = in_si;
@@ -260,15 +300,20 @@ static void take_matrix(struct taking *t, int of_rows, int of_modes)
     const struct data_line *header = &t->table->row[0];
     struct table_numbered *column = POOL_ARRAY(t->reader->pool, struct table_numbered, header->count);
     t->reader->out_of_memory |= !column;
-    for (int i = 0; i < header->count && column; i++)
+    int any_std = 0;
+    for (int i = 0; i < header->count && column; i++) {
         if (!table_numbers(header->field[i].text, &column[i]) || (of_modes ? column[i].of_sensor : column[i].of_mode))
             column[i].number = -1;
+        any_std |= column[i].is_std;
+    }
     for (int i = 0; i < header->count && column; i++) {
+        if (column[i].number < 0 || column[i].is_std || i == of_rows ||
+            (of_modes && !isnan(t->asked) && column[i].number != t->asked))
+            continue;
         int std = -1;
-        for (int j = 0; j < header->count; j++)
+        for (int j = 0; j < header->count && any_std; j++)
             std = column[j].is_std && column[j].number == column[i].number ? j : std;
-        if (column[i].number >= 0 && !column[i].is_std && i != of_rows)
-            take_column(t, of_rows, of_modes, i, std, column[i].number);
+        take_column(t, of_rows, of_modes, i, std, column[i].number);
     }
 }
 
@@ -295,7 +340,9 @@ static void take_shapes(struct taking *t)
 
 static void take_table(struct deck_reader *reader, const struct card *card, const struct table_kind *kind, struct deck_text *to)
 {
+    const struct card_option *mode = card_option(card, "MODE");
     struct taking t = {.reader = reader, .card = card, .kind = kind, .to = to, .first = to->ncard};
+    t.asked = mode ? strtod(mode->value, NULL) : (double)NAN;
     if (card->nline) {
         deck_error(reader, card->line[0].place, "*%s has a FILE and data lines, expected one of them", card->name);
         return;

@@ -14,6 +14,7 @@ struct reader {
     struct message_list *messages;
     struct deck_text *text;
     long bytes_left;
+    int over; /* a limit of the whole deck is passed, which has been said: nothing more is read */
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
@@ -187,6 +188,12 @@ static void include(struct reader *reader, struct card card)
                     "files are included more than %d deep, expected fewer", DECK_MOST_INCLUDES);
         return;
     }
+    if (reader->text->nfile > DECK_MOST_FILES) {
+        message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
+                    "the deck includes more than %d files, expected fewer", DECK_MOST_FILES);
+        reader->over = 1;
+        return;
+    }
     (void)read_file(reader, path, file->value_place);
 }
 
@@ -281,7 +288,7 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
         if (reader->text->ncard == DECK_MOST_CARDS) {
             message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(first - line_text) + 1,
                         "the deck has more than %d cards, expected those of a rotor", DECK_MOST_CARDS);
-            reader->bytes_left = 0;
+            reader->over = 1;
             return 1;
         }
         read_keyword(reader, line_text, first, end, line);
@@ -299,6 +306,7 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
 
 static void too_large(struct reader *reader, const char *path)
 {
+    reader->over = 1;
     message_add(reader->messages, SEVERITY_ERROR, path, 1, 1, "the deck is larger than %ld MiB, expected cards of a rotor",
                 DECK_MOST_BYTES >> 20);
 }
@@ -317,7 +325,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
     char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
     size_t length = 0;
     int line = 1, c, stop = 0;
-    while (!stop && !reader->out_of_memory && (c = deck_source_next(source)) != DECK_SOURCE_END) {
+    while (!stop && !reader->over && !reader->out_of_memory && (c = deck_source_next(source)) != DECK_SOURCE_END) {
         if (--reader->bytes_left < 0) {
             too_large(reader, path);
             break;
@@ -339,7 +347,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
             }
         }
     }
-    if (!stop && length && length <= DECK_LINE_LENGTH)
+    if (!stop && !reader->over && length && length <= DECK_LINE_LENGTH)
         (void)read_line(reader, line_text, length, line);
     if (length)
         reader->text->end = (struct place){path, line, (int)length + 1};

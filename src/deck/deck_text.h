@@ -10,6 +10,7 @@
 #define DECK_LINE_LENGTH   1024
 #define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
 #define DECK_MOST_INCLUDES 16          /* depth */
+#define DECK_MOST_FILES    1000        /* included ones: few lines in each of them include thousands more */
 #define DECK_MOST_CARDS    5000        /* names are compared with each other */
 
 struct place {

@@ -6,6 +6,8 @@
 
 #define TABLE_MOST_BYTES   (16l << 20) /* of one file */
 #define TABLE_MOST_CELLS   500000      /* of one file: 10,000 sensors with fifty modes */
+#define TABLE_MOST_TAKEN   1000000     /* rows that all cards of a deck take of tables */
+#define TABLE_MOST_TABLES  100         /* of a deck */
 #define TABLE_MOST_COLUMNS 20100       /* 10,000 sensors with a standard deviation each, and what else a row says */
 #define TABLE_CELL_LENGTH  32          /* of the name of a cell */
 
@@ -15,6 +17,7 @@ struct table_text {
     int nrow;
     size_t row_room;
     struct data_line *row; /* rows that hold something; a place counts rows and columns from 1, text is NULL */
+    double *number;        /* [nrow] of the cells of a column, NaN where there is none; of the caller */
 };
 
 /* Splits `text` [length + 1, overwritten: the cells lie in it] into rows. Cells are separated by semicolons where the first row

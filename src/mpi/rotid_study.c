@@ -274,7 +274,8 @@ int main(int argc, char **argv)
 {
     struct command command = {0};
     MPI_Init(&argc, &argv);
-    command_watch_signals();
+    command_set_signals();
+    command_watch_signals(0);
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     char **words = POOL_ARRAY(&command.pool, char *, argc + 2); /* rotid-study PLAN is rotid study PLAN */

@@ -1,6 +1,7 @@
 #include "report/output.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,6 +10,13 @@
 #include "file/open.h"
 #include "report/terminal.h"
 #include "rotid.h"
+
+static volatile sig_atomic_t open_outputs;
+
+int output_is_open(void)
+{
+    return open_outputs > 0;
+}
 
 /* A device or a pipe is written to as it is: there is nothing to keep whole, and a rename would put a file in its place. */
 static int is_special(const char *path)
@@ -31,6 +39,18 @@ static FILE *open_beside(char *name)
     return stream;
 }
 
+/* Ends an output that has its final name, or removes what stands beside it; errno is kept. */
+static void forget(struct output *output, int remove)
+{
+    int reason = errno;
+    if (remove && output->beside)
+        (void)unlink(output->beside);
+    open_outputs -= output->beside != NULL;
+    free(output->beside);
+    *output = (struct output){0};
+    errno = reason;
+}
+
 int output_open(struct output *output, const char *path)
 {
     *output = (struct output){.path = path};
@@ -50,13 +70,11 @@ int output_open(struct output *output, const char *path)
         return ROTID_ERROR_MEMORY;
     (void)strcpy(output->beside, path);
     (void)strcat(output->beside, ".XXXXXX");
+    open_outputs++;
     output->stream = open_beside(output->beside);
     if (output->stream)
         return ROTID_OK;
-    int reason = errno;
-    free(output->beside);
-    output->beside = NULL;
-    errno = reason;
+    forget(output, 0);
     return ROTID_ERROR_IO;
 }
 
@@ -86,17 +104,6 @@ static int take_name(const struct output *output)
     int replaces = stat(output->path, &existing) == 0 && S_ISREG(existing.st_mode); /* which may be private on purpose */
     (void)chmod(output->beside, replaces ? existing.st_mode & 0777 : 0666 & ~mask);
     return rename(output->beside, output->path) != 0;
-}
-
-/* Ends an output that has its final name, or removes what stands beside it; errno is kept. */
-static void forget(struct output *output, int remove)
-{
-    int reason = errno;
-    if (remove && output->beside)
-        (void)unlink(output->beside);
-    free(output->beside);
-    *output = (struct output){0};
-    errno = reason;
 }
 
 int output_close(struct output *output, int status)
@@ -191,11 +198,8 @@ void output_abandon(struct output *output)
 {
     int reason = errno;
     (void)fclose(output->stream); /* what did not arrive is not wanted */
-    if (output->beside)
-        (void)unlink(output->beside);
-    free(output->beside);
-    *output = (struct output){0};
     errno = reason;
+    forget(output, 1);
 }
 
 const char *output_error(void)

@@ -22,6 +22,8 @@ int output_close(struct output *output, int status);
 /* The same for several files, all of them or none: those that had taken their names when one could not are put back as they were
  * (where the file system has hard links). *failed is the index of that one. */
 int output_close_all(int count, struct output *output, int *failed);
+/* Whether there is a file that is not closed yet, for the handler of a signal. */
+int output_is_open(void);
 /* Removes it; errno stays. */
 void output_abandon(struct output *output);
 /* Why one of these failed, by errno. */
