@@ -107,6 +107,33 @@ static void factors_are_means_of_the_compliance(void **state)
     }
 }
 
+/* A ring of holes within the reach of the cones: their share grows with the diameter that a cone leaves. */
+static void derivatives_by_the_angle_see_the_holes(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 0);
+    bars[1] = (struct group){
+        .layer_of = -1, .name = "b", .material = bars[0].material, .holes = 8, .hole_diameter = 0.02, .hole_pitch = 0.08};
+    int moved = 0;
+    for (int e = 60; e < 80; e++) {
+        const double step = 1e-4;
+        struct effect_span span = {1, 3, 0.01 * e, 0.01 * (e + 1)};
+        struct effect_section factors[2], d;
+        for (int side = 0; side < 2; side++) {
+            struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30 + (side ? step : -step)}};
+            factors[side] = (struct effect_section){1, 1};
+            effect.kind->section(&effect, &rotor, &span, -1, &factors[side]);
+        }
+        struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30}};
+        if (!effect.kind->section(&effect, &rotor, &span, 0, &d))
+            continue;
+        moved += d.ei != 0;
+        assert_close(d.ei, (factors[1].ei - factors[0].ei) / (2 * step), 1e-5, 1e-8);
+        assert_close(d.kgs, (factors[1].kgs - factors[0].kgs) / (2 * step), 1e-5, 1e-8);
+    }
+    assert_true(moved > 5);
+}
+
 /* A flange on a thin shaft whose bore is wider than that shaft: the cone begins inside the bore. */
 static void a_cone_inside_the_bore_leaves_a_little(void **state)
 {
@@ -326,6 +353,7 @@ int main(void)
         TEST(cones_reach_across_sections),
         TEST(rectangles_make_no_step_and_have_no_cone),
         TEST(factors_are_means_of_the_compliance),
+        TEST(derivatives_by_the_angle_see_the_holes),
         TEST(a_cone_inside_the_bore_leaves_a_little),
         TEST(a_narrow_zone_keeps_its_mean),
         TEST(entries_are_complete),

@@ -107,6 +107,8 @@ static void marks_and_ends_of_lines_of_all_systems_are_taken(void **state)
 {
     static const char *const table[] = {"\xef\xbb\xbfmode;frequency\r\n1;500,5\r\n2;1300\r\n",
                                         "sep=;\r\nmode;frequency\r\n1;500,5\r\n2;1300\r\n",
+                                        "sep=,\nmode,frequency\n1,500.5\n2,1300\n",
+                                        "sep=|\nmode|frequency|a;b\n1|500,5|;\n2|1300|,\n",
                                         "mode\tfrequency\r1\t500,5\r2\t1300",
                                         "\n\n\"mode\",\"frequency (kHz)\"\n\"1\",\"0.5005\"\n,,\n2 , 1.3 ,,\n",
                                         "1;500,5\n2;1300\n",
@@ -287,9 +289,9 @@ static void a_card_has_a_table_or_data_lines(void **state)
 static void tables_without_end_are_refused(void **state)
 {
     static const char *const unit[][2] = {
-        {",", "the row has more than 20100 cells"},  {"\n", "the table has more than 500000 cells"},
-        {"\"", "the text is longer than 1024 characters"},        {"a", "the text is longer than 1024 characters"},
-        {"1,", "the row has more than 20100 cells"}, {"1,\n", "the table has more than 500000 cells"}};
+        {",", "the row has more than 20100 cells"},        {"\n", "the table has more than 500000 cells"},
+        {"\"", "the text is longer than 1024 characters"}, {"a", "the text is longer than 1024 characters"},
+        {"1,", "the row has more than 20100 cells"},       {"1,\n", "the table has more than 500000 cells"}};
     size_t size = 3u << 20;
     char *bytes = malloc(size + 1);
     (void)state;

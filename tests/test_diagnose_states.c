@@ -355,6 +355,61 @@ static void data_are_corrected_by_what_the_first_state_shows(void **state)
     free(text);
 }
 
+/* What is missed counts as noise by how much the mode has moved, d^2 = (2 ln f_a/f_b)^2 without shapes. */
+static void what_a_mode_has_moved_widens_its_noise(void **state)
+{
+    (void)state;
+    enum { MODES = 4 };
+    static const char *const dense[] = {"density:group=left,factor=1.1"};
+    static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", DISC, 1, dense}};
+    const struct hide_request r = request(MODES, 0, 1400);
+    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+    struct message_list notes;
+    struct states read;
+    struct job out;
+    double widest = 0;
+    message_open(&notes, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
+    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    const struct job_measurement *before = &read.state[0].job.measurement, *after = &read.state[1].job.measurement;
+    assert_int_equal(out.measurement.nmode, MODES);
+    for (int k = 0; k < MODES; k++) {
+        double missed = log(out.measurement.frequency_hz[k] / after->frequency_hz[k]),
+               d = 2 * log(after->frequency_hz[k] / before->frequency_hz[k]),
+               noise = hypot(after->frequency_std[k], before->frequency_std[k]);
+        assert_close(out.measurement.frequency_std[k], hypot(noise, d * missed), 1e-9, 0);
+        widest = fmax(widest, fabs(d * missed) / noise);
+    }
+    assert_true(widest > 1e-3);
+    free(text);
+}
+
+/* Every fitted residual is one of a frequency or of a sensor, and those of modes that are held out are none: their squares sum up
+ * to chi2. */
+static void residuals_of_sensors_and_frequencies_are_all_of_chi2(void **state)
+{
+    (void)state;
+    static const struct hidden_state states[] = {{"one", "", 0, NULL}, {"two", DISC, 0, NULL}};
+    const struct hide_request r = request(4, 7, 1500);
+    rotid_diagnosis *d = diagnose(&r, states, "FIT.HOLDOUT=2", NULL, NULL);
+    double sum = 0;
+    int fitted[2] = {0, 0};
+    assert_int_equal(d->nsensors, 14);
+    assert_int_equal(d->nmodes_standardised, 8);
+    for (int k = 0; k < 8; k++) {
+        fitted[k / 4] += !d->base->modes[k].holdout;
+        sum += d->base->modes[k].holdout ? 0 : d->modes_standardised[k] * d->modes_standardised[k];
+    }
+    assert_in_range(fitted[0] + fitted[1], 4, 7);
+    for (int s = 0; s < 14; s++)
+        sum += d->sensors[s].rms * d->sensors[s].rms * fitted[s / 7];
+    assert_int_equal(d->nrounds, 1);
+    assert_close(sum, d->rounds[0].chi2, 1e-9, 0);
+    rotid_diagnosis_free(d);
+}
+
 /* What a disc adds that the deck states is no change. */
 static void what_the_deck_states_is_no_change(void **state)
 {
@@ -437,6 +492,8 @@ int main(void)
         cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
         cmocka_unit_test_setup_teardown(what_states_share_is_possible_in_each, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_a_mode_has_moved_widens_its_noise, open_test_pool, close_test_pool),
+        cmocka_unit_test(residuals_of_sensors_and_frequencies_are_all_of_chi2),
         cmocka_unit_test(what_the_deck_states_is_no_change),
         cmocka_unit_test(wrong_states_are_refused),
         cmocka_unit_test(failing_allocations_are_survived),

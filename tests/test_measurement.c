@@ -293,6 +293,47 @@ static void responses_find_their_force(void **state)
     check_records(&m);
 }
 
+/* y' = -decay y + force: of a block of a second the last tenth has about exp(-0.95 decay) sqrt(2 decay) of the rms, which is
+ * 0.142 for a decay of 3 and 0.012 for one of 6, on both sides of the tenth that is let pass. */
+static int warnings_of_a_decay(double decay)
+{
+    static const struct measurement_options options = {.transfer = {.block = 1}};
+    struct measurement m;
+    struct message_list messages;
+    int found = 0;
+    double force[2 * SAMPLES] = {0}, response[2 * SAMPLES] = {0};
+    for (int i = 0; i < 9; i++)
+        force[30 + i] = 100 * sin(3.141592653589793 * i / 8);
+    for (int i = 1; i < 2 * SAMPLES; i++)
+        response[i] = exp(-decay / RATE) * response[i - 1] + force[i - 1];
+    struct uff_function f = {.type = UFF_TIME,
+                             .response_node = 1,
+                             .response_direction = 3,
+                             .ordinate = UFF_REAL_DOUBLE,
+                             .count = 2 * SAMPLES,
+                             .is_even = 1,
+                             .step = 1 / RATE};
+    f.abscissa.specific_type = 17;
+    struct uff_function g = f;
+    f.numerator.specific_type = 13;
+    g.numerator.specific_type = 12;
+    g.response_node = 5;
+    begin();
+    write_real(&f, force);
+    write_real(&g, response);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    for (size_t i = 0; i < messages.count; i++)
+        found += strstr(messages.item[i].text, "end before the response has decayed") != NULL;
+    return found;
+}
+
+static void blocks_that_end_before_the_decay_are_warned_of(void **state)
+{
+    (void)state;
+    assert_int_equal(warnings_of_a_decay(3), 1);
+    assert_int_equal(warnings_of_a_decay(6), 0);
+}
+
 static void records_that_do_not_fit_are_named(void **state)
 {
     (void)state;
@@ -394,6 +435,7 @@ int main(void)
         TEST(band_reference_and_coherence_are_heeded),
         TEST(files_without_anything_usable_are_refused),
         TEST(responses_find_their_force),
+        TEST(blocks_that_end_before_the_decay_are_warned_of),
         TEST(records_that_do_not_fit_are_named),
         TEST(memory_may_run_out_anywhere),
     };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "deck/deck.h"
+#include "deck/deck_cards.h"
 #include "deck/deck_write.h"
 #include "folder.h"
 #include "run/compare.h"
@@ -207,6 +208,44 @@ static void right_decks_get_no_warning_of_units(void **state)
 
 /* ---- *UNITS */
 
+/* Every word, by what the unit is: of a length a micrometre is 1e-6 m, so a newton for each is 1e6 N/m. */
+static void every_unit_is_what_it_is_called(void **state)
+{
+    static const double inch = 0.0254, pound = 0.45359237, standard_g = 9.80665, turn = 6.283185307179586;
+    const struct {
+        const char *si, *word;
+        double factor;
+    } unit[] = {{"m", "m", 1},
+                {"m", "cm", 1e-2},
+                {"m", "mm", 1e-3},
+                {"m", "in", inch},
+                {"Pa", "MPa", 1e6},
+                {"Pa", "GPa", 1e9},
+                {"Pa", "N/mm2", 1 / (1e-3 * 1e-3)},
+                {"Pa", "psi", pound * standard_g / (inch * inch)},
+                {"kg/m3", "kg/dm3", 1 / (0.1 * 0.1 * 0.1)},
+                {"kg/m3", "g/cm3", 1e-3 / (1e-2 * 1e-2 * 1e-2)},
+                {"kg/m3", "kg/mm3", 1 / (1e-3 * 1e-3 * 1e-3)},
+                {"kg/m3", "t/mm3", 1e3 / (1e-3 * 1e-3 * 1e-3)},
+                {"kg", "g", 1e-3},
+                {"kg", "t", 1e3},
+                {"kg", "lb", pound},
+                {"kg.m2", "kg.cm2", 1e-2 * 1e-2},
+                {"kg.m2", "kg.mm2", 1e-3 * 1e-3},
+                {"N", "kN", 1e3},
+                {"N", "MN", 1e6},
+                {"N", "lbf", pound * standard_g},
+                {"N/m", "N/mm", 1 / 1e-3},
+                {"N/m", "N/um", 1 / 1e-6},
+                {"N/m", "kN/mm", 1e3 / 1e-3},
+                {"Hz", "kHz", 1e3},
+                {"Hz", "rpm", 1.0 / 60},
+                {"Hz", "rad/s", 1 / turn}};
+    (void)state;
+    for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
+        assert_close(deck_unit_factor(unit[i].si, unit[i].word), unit[i].factor, 1e-12, 0);
+}
+
 static void a_deck_in_other_units_is_the_same_rotor(void **state)
 {
     static const char *const mm[FIELDS] = {
@@ -331,6 +370,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_number_in_another_unit_is_noticed_with_its_cure),
         cmocka_unit_test(right_decks_get_no_warning_of_units),
+        cmocka_unit_test(every_unit_is_what_it_is_called),
         cmocka_unit_test(a_deck_in_other_units_is_the_same_rotor),
         cmocka_unit_test(units_that_cannot_be_are_refused),
         cmocka_unit_test(a_common_factor_of_all_frequencies_is_named),

@@ -286,6 +286,42 @@ static void a_mass_that_changes_is_checked_again(void **state)
     }
 }
 
+/* The block behind the basis is twice the pairs that are known, and no more, however often the search is extended. */
+static void a_search_refuses_more_vectors_than_it_has_room_for(void **state)
+{
+    enum { N = 120, COLUMNS = 4, BLOCK = 6 };
+    struct random_stream stream = {77};
+    struct pencil pencil;
+    struct factor f;
+    struct lanczos l;
+    rotid_matrix k, m;
+    int all[N], status = ROTID_OK, extended = 0;
+    double x[N * COLUMNS], tolerance[BLOCK] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+    assert_status(matrix_new(*state, N, 20, 0, NULL, &k), ROTID_OK);
+    assert_status(matrix_new(*state, N, 20, 0, NULL, &m), ROTID_OK);
+    for (int i = 0; i < N; i++) {
+        all[i] = i;
+        matrix_add(&k, i, i, 1 + i % 40);
+        matrix_add(&m, i, i, 1);
+    }
+    for (int i = 0; i < N * COLUMNS; i++)
+        x[i] = random_normal(&stream);
+    assert_status(pencil_new(*state, &k, &pencil), ROTID_OK);
+    (void)pencil_take(&pencil, &k, &m);
+    assert_status(factor_new(*state, FACTOR_CHOLESKY, &k, N, all, &f), ROTID_OK);
+    assert_int_equal(factor_compute_pencil(&f, &pencil, -1), 0);
+    assert_status(lanczos_new(*state, &pencil, &f, COLUMNS, BLOCK, &l), ROTID_OK);
+    lanczos_begin(&l, x);
+    for (; !status && extended < 10; extended++) {
+        assert_status(lanczos_iterate(&l, 1, tolerance), ROTID_OK);
+        int before = l.next;
+        status = lanczos_extend(&l, COLUMNS);
+        assert_true(l.next <= l.behind && l.next == before + (status ? 0 : COLUMNS));
+    }
+    assert_status(status, ROTID_ERROR_EIGEN);
+    assert_int_equal(extended, 1 + (2 * BLOCK - COLUMNS) / COLUMNS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -297,6 +333,7 @@ int main(void)
         WITH_POOL(pairs_agree_with_dense_ones),
         WITH_POOL(pairs_that_are_near_alone_have_the_eigenvalues),
         WITH_POOL(a_mass_that_changes_is_checked_again),
+        WITH_POOL(a_search_refuses_more_vectors_than_it_has_room_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
