@@ -17,7 +17,7 @@
 #   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
-#   make fuzz       the readers of decks, tables, universal files, plans and results on random input, FUZZ_SECONDS (600) each
+#   make fuzz       the readers of decks, tables, universal files, plans and results, and suggest, on random input, FUZZ_SECONDS (600) each
 #   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
 #   make frozen     outputs of every command on every deck beside those of another commit: REF=commit
@@ -331,7 +331,7 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
-FUZZERS := uff deck table plan results
+FUZZERS := uff deck table suggest plan results
 FUZZ_PROGRAMS := $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 $(FUZZ_PROGRAMS): %: %.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
 	$(call tell,LD,$@)

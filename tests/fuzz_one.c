@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "api/deck_handle.h"
 #include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "result/json_tree.h"
@@ -170,21 +171,79 @@ void fuzz_one_table(const uint8_t *bytes, size_t count)
                                        "*FREQUENCIES"};
     char path[32], text[512];
     int descriptor = hold(bytes, count, path);
-    for (size_t i = 0; i < sizeof card / sizeof *card; i++) {
+    for (size_t i = 0, cards = sizeof card / sizeof *card; i < 2 * cards; i++) {
+        const char *named = card[i % cards];
         struct pool pool;
         struct message_list messages;
         struct states states;
         pool_open(&pool, NULL);
         message_open(&messages, &pool);
-        (void)snprintf(text, sizeof text, "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n%s%s%s, FILE=%s\n",
-                       i > 2 ? "*SHAFT, NAME=first, MATERIAL=steel\n1, 0.1, 0, 20\n" : "",
-                       i > 4 ? "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n" : "", card[i], path);
+        (void)snprintf(text, sizeof text, "%s*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n%s%s%s, FILE=%s\n",
+                       i >= cards ? "*UNITS, LENGTH=IN, FREQUENCY=RPM\n" : "",
+                       i % cards > 2 ? "*SHAFT, NAME=first, MATERIAL=steel\n1, 0.1, 0, 20\n" : "",
+                       i % cards > 4 ? "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n" : "", named, path);
         struct deck_memory memory = {"deck", strlen(text), text, "/"};
         int status = deck_read_states(&pool, "deck", &memory, 0, NULL, &messages, &states);
         require((status != ROTID_OK) == (messages.errors > 0));
         pool_close(&pool);
     }
     (void)close(descriptor);
+}
+
+/* Ends what an input would take minutes for, at a point that the bytes choose. */
+static int ends_after(void *left)
+{
+    int *polls = left;
+    return --*polls < 0;
+}
+
+static int is_small(const rotid_deck *deck)
+{
+    const struct states *states = deck_states_of(deck);
+    int elements = 0, modes = 0;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        modes += job->measurement.nmode + job->rotor.nsensor;
+        elements += job->options.solid ? 1000 : 0;
+        for (int i = 0; i < job->rotor.nsegment; i++)
+            elements += job->rotor.segment[i].elements;
+        for (int i = 0; i < job->rotor.ntierod; i++)
+            elements += job->rotor.tierod[i].elements;
+        for (int i = 0; i < job->rotor.nbars; i++)
+            elements += job->rotor.bars[i].elements;
+    }
+    return elements < 100 && modes < 40;
+}
+
+void fuzz_one_suggest(const uint8_t *bytes, size_t count)
+{
+    enum { OPTIONS = 9 };
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck = NULL;
+    rotid_suggestion *found = NULL;
+    if (count < OPTIONS)
+        return;
+    const rotid_suggest_options options = {.size = sizeof options,
+                                           .wanted_percent = bytes[0] / 16.0,
+                                           .frequency_noise = bytes[1] * bytes[1] * 1e-6,
+                                           .shape_noise = bytes[2] * 1e-3,
+                                           .set_up_cost = bytes[3],
+                                           .sensors = bytes[4] % 40,
+                                           .modes = bytes[5] % 25,
+                                           .replicates = 1 + bytes[6] % 100,
+                                           .seed = bytes[7]};
+    int polls = bytes[8];
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = ends_after, .context = &polls};
+    int status =
+        rotid_deck_read_text(count - OPTIONS, (const char *)bytes + OPTIONS, "deck", NULL, 0, NULL, NULL, failure, &deck);
+    require(status == ROTID_OK || *failure || deck);
+    if (!status && is_small(deck)) {
+        status = rotid_suggest(deck, &options, &environment, failure, &found);
+        require((status == ROTID_OK) == (found != NULL));
+        require(status >= 0 || *failure);
+        rotid_suggestion_free(found);
+    }
+    rotid_deck_free(deck);
 }
 
 void fuzz_one_plan(const uint8_t *bytes, size_t count)

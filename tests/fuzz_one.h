@@ -9,6 +9,8 @@
 void fuzz_one_uff(const uint8_t *bytes, size_t count);     /* a universal file: by the streaming reader and by uff_read */
 void fuzz_one_deck(const uint8_t *bytes, size_t count);    /* a deck */
 void fuzz_one_table(const uint8_t *bytes, size_t count);   /* a table that cards of a deck name */
+/* what to measure next: options by the first bytes, the rest is a deck */
+void fuzz_one_suggest(const uint8_t *bytes, size_t count);
 void fuzz_one_plan(const uint8_t *bytes, size_t count);    /* a plan, without its decks */
 void fuzz_one_results(const uint8_t *bytes, size_t count); /* a file of results: its lines, and its summary */
 

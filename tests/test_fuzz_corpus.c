@@ -51,6 +51,12 @@ static void tables(void **state)
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/table", fuzz_one_table) > 3);
 }
 
+static void suggestions(void **state)
+{
+    (void)state;
+    assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/suggest", fuzz_one_suggest) > 2);
+}
+
 static void studies(void **state)
 {
     (void)state;
@@ -61,6 +67,6 @@ static void studies(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks), cmocka_unit_test(tables),
-                                       cmocka_unit_test(studies)};
+                                       cmocka_unit_test(suggestions), cmocka_unit_test(studies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
