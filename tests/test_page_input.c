@@ -54,7 +54,8 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
-         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, frf, ema or study"},
+         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, frf, ema "
+         "or study"},
         {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},
     };
@@ -73,10 +74,15 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
     assert_int_equal(page_run("%s report /dev/null -o %s", ROTID_PROGRAM, page_path("page")), 2);
     assert_non_null(strstr(page_err, "is no regular file"));
     /* larger than any result: sparse, so that it takes no room */
-    assert_int_equal(page_run("truncate -s 600M %s", page_path("huge.json")), 0);
+    assert_int_equal(page_run("truncate -s 65M %s", page_path("huge.json")), 0);
     assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("huge.json"), page_path("page")), 2);
-    assert_non_null(strstr(page_err, "is larger than 512 MiB"));
+    assert_non_null(strstr(page_err, "is larger than 64 MiB"));
     assert_int_equal(page_run("rm %s", page_path("huge.json")), 0);
+    /* two bytes a value: the tree of these 20 MB would take 800 MB */
+    assert_int_equal(page_run("yes 1, | head -c 20000000 | sed '1s/^/[/' > %s", page_path("dense.json")), 0);
+    assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("dense.json"), page_path("page")), 2);
+    assert_non_null(strstr(page_err, "the values up to here would take more memory than 10 times the size of the file"));
+    assert_int_equal(page_run("rm %s", page_path("dense.json")), 0);
     /* nested beyond measure, which must not exhaust the stack */
     assert_int_equal(page_run("head -c 200000 /dev/zero | tr '\\0' '[' > %s", page_path("deep.json")), 0);
     assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("deep.json"), page_path("page")), 2);

@@ -19,7 +19,7 @@ static int read_text(struct pool *pool, const char *file, struct message_list *m
               : errno == EINVAL ? "is no regular file, expected one of JSON"
                                 : strerror(errno);
     else if (is.st_size > JSON_FILE_MOST)
-        why = "is larger than 512 MiB, more than any result of rotid";
+        why = "is larger than 64 MiB, more than any result of rotid";
     if (!why) {
         *text = POOL_ARRAY(pool, char, is.st_size + 1);
         status = *text ? ROTID_OK : ROTID_ERROR_MEMORY;
@@ -34,6 +34,28 @@ static int read_text(struct pool *pool, const char *file, struct message_list *m
     if (stream)
         (void)fclose(stream);
     return status;
+}
+
+const char *json_text_too_dense(const char *text, size_t length)
+{
+    enum { VALUE = 80, STRING = 48 }; /* with what the allocator adds */
+    const size_t most = length > JSON_MEMORY_FREE / JSON_MEMORY_MOST ? JSON_MEMORY_MOST * length : (size_t)JSON_MEMORY_FREE;
+    size_t memory = VALUE;
+    int quoted = 0;
+    for (const char *c = text; c < text + length; c++) {
+        if (*c == '"') {
+            quoted = !quoted;
+            memory += quoted ? STRING : 0;
+        } else if (quoted) {
+            c += *c == '\\';
+            memory++;
+        } else {
+            memory += *c == ',' || *c == '[' || *c == '{' ? VALUE : 0;
+        }
+        if (memory > most)
+            return c;
+    }
+    return NULL;
 }
 
 static const char *skip_blanks(const char *c, const char *end)
@@ -54,6 +76,9 @@ static int is_cut_off(const char *begin, const char *at, const char *end)
     return skip_blanks(at, end) >= end || (at > skip_blanks(begin, end) && at + strcspn(at, ",]}:\n") >= end);
 }
 
+#define TOO_DENSE 2
+
+/* cut_off: the file ends here; TOO_DENSE: it has too many values. */
 static void say_where(const char *file, struct message_list *messages, const char *text, const char *at, int cut_off)
 {
     int line = 1, column = 1;
@@ -61,7 +86,11 @@ static void say_where(const char *file, struct message_list *messages, const cha
         column = *c == '\n' ? 1 : column + 1;
         line += *c == '\n';
     }
-    if (cut_off)
+    if (cut_off == TOO_DENSE)
+        message_add(messages, SEVERITY_ERROR, file, line, column,
+                    "the values up to here would take more memory than %d times the size of the file, expected a result of rotid",
+                    JSON_MEMORY_MOST);
+    else if (cut_off)
         message_add(messages, SEVERITY_ERROR, file, line, column, "the file ends within a value, expected the rest of it");
     else if (*at < 0x20 || *at > 0x7e)
         message_add(messages, SEVERITY_ERROR, file, line, column, "byte %d is no JSON, expected a value, a comma or a bracket",
@@ -111,6 +140,11 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
     end = text + length;
     if (skip_blanks(text, end) == end) {
         message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: is empty, expected JSON", file);
+        return ROTID_ERROR_SYNTAX;
+    }
+    const char *dense = json_text_too_dense(text, length);
+    if (dense) {
+        say_where(file, messages, text, dense, TOO_DENSE);
         return ROTID_ERROR_SYNTAX;
     }
     *json = cJSON_ParseWithLengthOpts(text, length, &rest, 0);

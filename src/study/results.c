@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "result/json_file.h"
 #include "result/records.h"
 
 #define BLOCK     ((size_t)1 << 18)
@@ -87,7 +88,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     int status = take_line(r, &text, &length);
     if (status)
         return status > 0 ? malformed(r, 1, expected) : status;
-    cJSON *json = cJSON_ParseWithLength(text, length);
+    cJSON *json = json_text_too_dense(text, length) ? NULL : cJSON_ParseWithLength(text, length);
     status = results_header_read(pool, json, &r->header);
     cJSON_Delete(json);
     if (status)
@@ -132,7 +133,7 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
 {
     struct message_list messages;
     struct reader reader = {.pool = pool, .messages = &messages, .file = "this line is no result"};
-    cJSON *json = cJSON_ParseWithLength(text, length);
+    cJSON *json = json_text_too_dense(text, length) ? NULL : cJSON_ParseWithLength(text, length);
     const struct json_place place = {.reader = &reader, .json = json};
     message_open(&messages, pool);
     *run = (struct study_run){.status = -1};
