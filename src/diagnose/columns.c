@@ -165,6 +165,8 @@ static void project_scale(const struct columns_mode *mode, double *part)
  * dr = a (I - P) du - u (du' r)/(u'u), where P projects on u. */
 static void shape_part(const struct columns *c, const struct columns_mode *mode, double *dphi, const double *r, double *part)
 {
+    if (!mode->sensors) /* then there is no shape_std either */
+        return;
     const double *std = c->measured.shape_std + (ptrdiff_t)mode->k * c->model.equations.nmaster;
     double along = 0;
     for (int i = 0; i < mode->sensors; i++) {
