@@ -56,6 +56,9 @@ void beam_set(struct beam *beam, const double *x);
 /* dK/dx_p and dM/dx_p at the values of the last beam_assemble. */
 void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm);
 
+/* u [2 ndof]: v = 1, theta = 0, and v = -z, theta = 1. */
+void beam_rigid_motions(const struct beam *beam, double *u);
+
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);
 

@@ -67,11 +67,11 @@ struct mesh_limit {
     double share;
     int counts;
 };
-struct mesh_limit discrete_mesh_limit(enum discretisation as);
+struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 
-/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements are
- * those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there is no
- * such way: to a beam's coarser mesh. */
+/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements
+ * are those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there
+ * is no such way: to a beam's coarser mesh. */
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v);
 
 #endif

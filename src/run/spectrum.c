@@ -179,7 +179,7 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
 {
     struct solution own = {0}, other = {0};
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models));
+    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models), rotor);
     int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
     int status = coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, NULL, &count, &other)
                               : ROTID_OK;
