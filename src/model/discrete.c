@@ -212,16 +212,19 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
 }
 
 #define OF_CORNER                                                                                                                \
-    0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28                 \
-            */
+    0.1656              /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28    \
+                         */
+#define OF_FINER  0.284 /* 1/(4^1.089 - 1) */
 #define OF_SMOOTH (1.0 / 15) /* 1/(2^4 - 1): a frequency by elements of the second order, all twice as large */
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
  * which no mesh of a reasonable size resolves; where there are none, from the elements. */
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor)
 {
-    return as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, solid_has_corners(rotor) ? OF_CORNER : OF_SMOOTH, 1}
-                          : (struct mesh_limit){2, -4.0 / 3, 0};
+    if (as == AS_BEAM)
+        return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0};
+    int corners = solid_has_corners(rotor);
+    return (struct mesh_limit){COARSE_MESH, corners ? OF_CORNER : OF_SMOOTH, 1, 4, corners ? OF_FINER : OF_SMOOTH};
 }
 
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)

@@ -60,12 +60,14 @@ int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
-/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the
- * frequency that counts, and f otherwise. */
+/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the frequency
+ * that counts, and f otherwise. finer, finer_share: the same the other way, from a mesh refined by `finer`, h, to
+ * h - finer_share (f - h). */
 struct mesh_limit {
     int refine;
     double share;
-    int counts;
+    int counts, finer;
+    double finer_share;
 };
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 
