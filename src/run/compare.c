@@ -115,16 +115,14 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
                              struct message_list *notes)
 {
     int worst = -1, solid = job->options.solid;
-    for (int j = 0; j < spectrum->count && solid; j++)
-        if (isnan(spectrum->mesh_error_percent[j]) && isfinite(spectrum->other_hz[j])) {
-            struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
-            message_add(
-                notes, SEVERITY_WARNING, place.file, place.line, place.column,
-                "the mesh of the solid is not fine enough for mode %d and those above: two meshes differ by more than 2 %% or "
-                "have other shapes there, so that %.6g Hz is of the mesh as it is; expected fewer modes, or *FIT, MODEL=BEAM",
-                j + 1, spectrum->full_hz[j]);
-            break;
-        }
+    if (spectrum->apart) {
+        struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
+        message_add(
+            notes, SEVERITY_WARNING, place.file, place.line, place.column,
+            "the mesh of the solid is not fine enough for mode %d: two meshes differ by more than 2 %% or have other shapes "
+            "there, so that %.6g Hz is of the mesh as it is; expected fewer modes, thicker parts, or *FIT, MODEL=BEAM",
+            spectrum->apart, spectrum->full_hz[spectrum->apart - 1]);
+    }
     double largest = solid ? SOLID_SHARE : 1;
     for (int k = 0; k < comparison->nmode && job_knows_frequency_noise(job); k++) {
         int mode = comparison->number[k] - 1;

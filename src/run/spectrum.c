@@ -325,6 +325,8 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s);
     if (status)
         return status;
+    for (int j = count - 1; j >= 0 && coarse_first; j--)
+        s->apart = isnan(s->mesh_error_percent[j]) ? j + 1 : s->apart;
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other.model->equations.n < equations->n;
     if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)
