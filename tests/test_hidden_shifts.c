@@ -113,6 +113,12 @@ static double value_of(const rotid_identification *fit, const char *name)
     return NAN;
 }
 
+/* Moduli that fall to a half somewhere: their compliance is not linear, nor is the shear stiffness of layers. */
+static int is_deep(const rotid_hidden *hidden)
+{
+    return (!strcmp(hidden->component, "depth") || !strcmp(hidden->component, "profile")) && fabs(hidden->size) > DEEP;
+}
+
 /* Every entry that is small enough to be judged, at least `least` of them. */
 static void judge(const struct rotor_case *c, int count, const rotid_hidden *hidden, const rotid_identification *sound, int least)
 {
@@ -124,7 +130,7 @@ static void judge(const struct rotor_case *c, int count, const rotid_hidden *hid
         assert_true(isfinite(shift) && shift != 0);
         if (i && !strcmp(hidden[i].parameter, hidden[i - 1].parameter))
             assert_true(fabs(shift) <= fabs(hidden[i - 1].shift));
-        if (100 * fabs(shift / value) > MOST || (!strcmp(hidden[i].component, "depth") && hidden[i].size > DEEP))
+        if (100 * fabs(shift / value) > MOST || is_deep(&hidden[i]))
             continue;
         card_of(&hidden[i], sizeof card, card);
         write_deck(c, card, sizeof text, text);

@@ -281,8 +281,7 @@ static void effects_are_what_other_cards_say(void **state)
     }
 }
 
-/* A pin in the bore of a shaft makes a solid one, but for the shear of its parts, which shear as if each stood alone: made stiff
- * in shear, both are the same beam. */
+/* A pin in the bore of a shaft makes a solid one, and made stiff in shear, both stay the same beam. */
 static void a_layer_is_a_part_of_the_section(void **state)
 {
     (void)state;
@@ -311,7 +310,7 @@ static void a_layer_is_a_part_of_the_section(void **state)
     struct result stated = make(&r);
     for (int k = 0; k < MODES; k++) {
         assert_close(hz(&both, "with", k), hz(&bar, "with", k), 3e-3, 0); /* a hundredth of what shear lowers mode 6 by */
-        assert_true(hz(&both, "without", k) < hz(&bar, "without", k));
+        assert_close(hz(&both, "without", k), hz(&bar, "without", k), 1e-7, 0);
         assert_close(hz(&factored, "with", k), hz(&stated, "without", k), 1e-10, 0);
     }
     char *deck, *truth, message[300];

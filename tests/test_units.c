@@ -330,6 +330,45 @@ static void units_that_cannot_be_are_refused(void **state)
     }
 }
 
+/* What sixteen digits cannot hold together has a place, in place of a solution that fails. */
+static void numbers_too_far_apart_are_refused_with_their_place(void **state)
+{
+    static const char shaft[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n%s, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=other\n*ELASTIC\n2e11, 0.3\n"
+        "*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 30\n%s";
+    static const struct {
+        const char *e, *cards, *says;
+        int line;
+    } cases[] = {{"2e11", "*SPRING\nstart, 1e29\n", "times as stiff as the shaft", 11},
+                 {"2e11", "*SPRING\nstart, 1e18\n", NULL, 0},
+                 {"2e11", "*DISK\nend, 1e25\n", "times as heavy as the shaft", 11},
+                 {"2e11", "*DISK\nend, 1e8\n", NULL, 0},
+                 {"2e11", "1e-9, 0.2, 0, 1\n", "1e-09 m long in a rotor", 11},
+                 {"2e11", "1e-6, 0.2, 0, 1\n", NULL, 0},
+                 {"150", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", "Young's modulus of steel is 150 Pa", 1},
+                 {"2e9", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", NULL, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600], failure[ROTID_FAILURE_LENGTH];
+        rotid_deck *deck = NULL;
+        rotid_spectrum *spectrum;
+        (void)snprintf(text, sizeof text, shaft, cases[i].e, cases[i].cards);
+        int status = rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, failure, &deck);
+        if (cases[i].says) {
+            char place[20];
+            (void)snprintf(place, sizeof place, ":%d:1", cases[i].line);
+            assert_status(status, ROTID_ERROR_SYNTAX);
+            assert_non_null(strstr(failure, cases[i].says));
+            assert_non_null(strstr(failure, place));
+            continue;
+        }
+        assert_status(status, ROTID_OK);
+        assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, failure, &spectrum), ROTID_OK);
+        rotid_spectrum_free(spectrum);
+        rotid_deck_free(deck);
+    }
+}
+
 /* ---- frequencies beside the model's */
 
 static void a_common_factor_of_all_frequencies_is_named(void **state)
@@ -373,6 +412,7 @@ int main(void)
         cmocka_unit_test(every_unit_is_what_it_is_called),
         cmocka_unit_test(a_deck_in_other_units_is_the_same_rotor),
         cmocka_unit_test(units_that_cannot_be_are_refused),
+        cmocka_unit_test(numbers_too_far_apart_are_refused_with_their_place),
         cmocka_unit_test(a_common_factor_of_all_frequencies_is_named),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -213,6 +213,34 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
     }
 }
 
+static void move_rigidly(const struct mesh *mesh, int node, double z, double *u)
+{
+    u[2 * node] = u[mesh->ndof + 2 * node + 1] = 1;
+    u[2 * node + 1] = 0;
+    u[mesh->ndof + 2 * node] = -z;
+}
+
+static void move_chain(const struct mesh *mesh, const struct chain *chain, double to, double *u)
+{
+    int n = chain_elements(chain);
+    double from = mesh->z[chain->first_end];
+    for (int i = 0; i <= n; i++)
+        move_rigidly(mesh, chain_node(chain, i), from + (to - from) * i / n, u);
+}
+
+void beam_rigid_motions(const struct beam *beam, double *u)
+{
+    const struct mesh *mesh = &beam->mesh;
+    for (int i = 0; i < beam->rotor.ntierod; i++)
+        move_chain(mesh, &mesh->tierod[i], mesh->z[mesh->tierod[i].last_end], u);
+    for (int i = 0; i < 2 * beam->rotor.nbars; i++) {
+        double half = beam->rotor.bars[i / 2].length / 2, center = mesh->z[mesh->bars[i].first_end];
+        move_chain(mesh, &mesh->bars[i], i % 2 ? center + half : center - half, u);
+    }
+    for (int i = 0; i < mesh->naxis; i++)
+        move_rigidly(mesh, i, mesh->z[i], u);
+}
+
 struct moments { /* of mass about the left end: zeroth, first and second */
     double m0, m1, m2;
 };

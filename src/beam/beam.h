@@ -4,6 +4,7 @@
 
 #include "base/pool.h"
 #include "beam/mesh.h"
+#include "beam/shear_coefficient.h"
 #include "rotid.h"
 #include "rotor/parameter.h"
 #include "rotor/section.h"
@@ -12,8 +13,8 @@ struct hinge { /* of a joint: see beam/hinge.h */
     int effect, element, end;
 };
 
-struct section_part { /* of a segment: its own section, or a ring of a layer. In bending all of them turn alike, so stiffness and
-                         mass add */
+struct section_part { /* of a segment: its own section, or a ring of a layer. In bending all of them turn alike, so EI and mass
+                         add; kGS: shear_stiffness */
     int group;
     struct section section;
 };
@@ -21,10 +22,12 @@ struct section_part { /* of a segment: its own section, or a ring of a layer. In
 struct beam {
     struct rotor rotor; /* own copy of everything a parameter can change */
     int most_parts;     /* of a segment */
-    int *first_part; /* [nsegment + 1] those of segment s are part[first_part[s]] to part[first_part[s + 1] - 1], its own first */
+    int *first_part;    /* [nsegment + 1] those of segment s are part[first_part[s]] to part[first_part[s + 1] - 1], from the axis
+                           outwards */
     struct section_part *part; /* [nsegment + nring] */
     struct section *tube;      /* [ntierod + nbars] equivalent cylinders where the model is TUBE */
     struct mesh mesh;
+    struct shear_layer *layer;   /* [most_parts + 1] workspace of the shear stiffness */
     struct effect_field *factor; /* [most_parts * nelement] of the parts of each element, on EI, kGS and mass: products over all
                                     effects, of the last beam_assemble; NULL without effects */
     int nhinge;
@@ -52,6 +55,9 @@ void beam_set(struct beam *beam, const double *x);
 
 /* dK/dx_p and dM/dx_p at the values of the last beam_assemble. */
 void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm);
+
+/* u [2 ndof]: v = 1, theta = 0, and v = -z, theta = 1. */
+void beam_rigid_motions(const struct beam *beam, double *u);
 
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);

@@ -8,17 +8,24 @@ static int build_sections(struct beam *beam, int *failed)
     const struct rotor *rotor = &beam->rotor;
     int count = 0;
     for (int s = 0, r = 0; s < rotor->nsegment; s++) {
-        struct section_part *part = &beam->part[count++];
-        beam->first_part[s] = count - 1;
-        *failed = part->group = rotor->segment[s].group;
-        if (section_of_segment(rotor, s, &part->section))
+        struct section own;
+        int own_is_in = 0;
+        beam->first_part[s] = count;
+        *failed = rotor->segment[s].group;
+        if (section_of_segment(rotor, s, &own))
             return ROTID_ERROR_SECTION;
         for (; r < rotor->nring && rotor->ring[r].segment == s; r++) {
-            part = &beam->part[count++];
+            if (!own_is_in && rotor->ring[r].inner > rotor->segment[s].inner) {
+                beam->part[count++] = (struct section_part){rotor->segment[s].group, own};
+                own_is_in = 1;
+            }
+            struct section_part *part = &beam->part[count++];
             *failed = part->group = rotor->ring[r].group;
             if (section_of_ring(rotor, r, &part->section))
                 return ROTID_ERROR_SECTION;
         }
+        if (!own_is_in)
+            beam->part[count++] = (struct section_part){rotor->segment[s].group, own};
         beam->first_part[s + 1] = count;
         beam->most_parts = count - beam->first_part[s] > beam->most_parts ? count - beam->first_part[s] : beam->most_parts;
     }
@@ -42,6 +49,9 @@ static int finish(struct pool *pool, struct beam *beam)
 {
     struct mass_properties own;
     int status = factors_open(pool, beam);
+    beam->layer = POOL_ARRAY(pool, struct shear_layer, beam->most_parts + 1);
+    if (!beam->layer)
+        return ROTID_ERROR_MEMORY;
     if (!status && beam->rotor.sling > 0) {
         beam_mass_properties(beam, &own);
         rotor_set_sling(&beam->rotor, own.mass, own.center);

@@ -38,6 +38,6 @@ int section_equivalent(double area, double inertia, struct section *section)
     double outer, inner;
     int status = equivalent_cylinder(area, inertia, NULL, &outer, &inner);
     if (!status)
-        *section = (struct section){area, inertia, area, inertia, 0, inner / outer};
+        *section = (struct section){area, inertia, area, inertia, 0, inner / outer, outer};
     return status;
 }

@@ -1,7 +1,6 @@
 #include "beam/quantities.h"
 
 #include "beam/factors.h"
-#include "beam/shear_coefficient.h"
 #include "rotor/effects.h"
 
 static double middle_of(const struct mesh *mesh, int e)
@@ -9,24 +8,29 @@ static double middle_of(const struct mesh *mesh, int e)
     return (mesh->z[e] + mesh->z[e + 1]) / 2;
 }
 
-/* what material and section give, of length 0 and without force */
-static struct element of_material(const struct material *material, const struct section *section)
+/* EI and mass of a part, with the factors of e, g and rho where there are any; kGS is not a sum */
+static void add_part(const struct material *material, const struct section *section, const struct effect_field *factor,
+                     struct element *sum)
 {
-    struct shear_resistance shear;
-    shear_resistance(section, material, &shear);
-    return (struct element){.ei = material->e * section->stiff_inertia,
-                            .kgs = shear.kg * section->stiff_area,
-                            .rhos = material->rho * section->mass_area,
-                            .rhoi = material->rho * section->mass_inertia};
+    sum->ei += material->e * section->stiff_inertia * (factor ? factor->e : 1);
+    sum->rhos += material->rho * section->mass_area * (factor ? factor->rho : 1);
+    sum->rhoi += material->rho * section->mass_inertia * (factor ? factor->rho : 1);
 }
 
-/* with the factors of e, g and rho, where there are any */
-static void add_part(struct element part, const struct effect_field *factor, struct element *sum)
+/* kGS of element e, whose derivatives stand in beam->layer then */
+static double axis_shear(const struct beam *beam, int e)
 {
-    sum->ei += factor ? part.ei * factor->e : part.ei;
-    sum->kgs += factor ? part.kgs * factor->g : part.kgs;
-    sum->rhos += factor ? part.rhos * factor->rho : part.rhos;
-    sum->rhoi += factor ? part.rhoi * factor->rho : part.rhoi;
+    const struct section_part *part;
+    struct effect_field *factor;
+    int count = factors_parts(beam, e, &part, &factor);
+    for (int i = 0; i < count; i++) {
+        struct shear_layer *layer = &beam->layer[i];
+        *layer = (struct shear_layer){.material = shear_material_of(&beam->rotor.group[part[i].group].material),
+                                      .section = &part[i].section};
+        layer->material.e *= factor ? factor[i].e : 1;
+        layer->material.g *= factor ? factor[i].g : 1;
+    }
+    return shear_stiffness(count, beam->layer);
 }
 
 void axis_quantities(const struct beam *beam, int e, struct element *element)
@@ -35,52 +39,43 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     const struct mesh *mesh = &beam->mesh;
     const struct section_part *part;
     struct effect_field *factor;
-    int count = factors_parts(beam, e, &part, &factor);
-    *element = (struct element){.force = beam->elastic_only ? 0 : rotor_axial_force(rotor, part->group, middle_of(mesh, e)),
+    int count = factors_parts(beam, e, &part, &factor), group = rotor->segment[mesh->segment[e]].group;
+    *element = (struct element){.kgs = axis_shear(beam, e),
+                                .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, group, middle_of(mesh, e)),
                                 .length = mesh->z[e + 1] - mesh->z[e]};
     for (int i = 0; i < count; i++)
-        add_part(of_material(&rotor->group[part[i].group].material, &part[i].section), factor ? &factor[i] : NULL, element);
+        add_part(&rotor->group[part[i].group].material, &part[i].section, factor ? &factor[i] : NULL, element);
 }
 
-static int material_direction(const struct material *material, const struct section *section, enum parameter_kind kind,
-                              struct element *d)
+/* of EI and mass alone */
+static int material_direction(const struct section *section, enum parameter_kind kind, struct element *d)
 {
-    struct shear_resistance shear;
-    shear_resistance(section, material, &shear);
-    switch (kind) {
-    case PARAMETER_E:
-    case PARAMETER_TIEROD_E:
+    *d = (struct element){0};
+    if (kind == PARAMETER_E || kind == PARAMETER_TIEROD_E)
         d->ei = section->stiff_inertia;
-        d->kgs = shear.by_e * section->stiff_area;
-        return 1;
-    case PARAMETER_G:
-        d->kgs = shear.by_g * section->stiff_area;
-        return 1;
-    case PARAMETER_NU:
-        d->kgs = shear.by_nu * section->stiff_area;
-        return 1;
-    case PARAMETER_RHO:
-        d->rhos = section->mass_area;
-        d->rhoi = section->mass_inertia;
-        return 1;
-    default:
-        return 0;
-    }
+    if (kind == PARAMETER_RHO)
+        *d = (struct element){.rhos = section->mass_area, .rhoi = section->mass_inertia};
+    return kind == PARAMETER_E || kind == PARAMETER_TIEROD_E || kind == PARAMETER_G || kind == PARAMETER_NU ||
+           kind == PARAMETER_RHO;
 }
 
 static int effect_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
     const struct section_part *part;
     struct effect_field *factor;
-    int moves = 0;
-    for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
+    int moves = 0, count = factors_parts(beam, e, &part, &factor);
+    for (int i = 0; i < count; i++) {
         struct effect_span span = factors_span(beam, e, &part[i]);
         struct effect_field rate = {0, 0, 0};
-        struct element now = {0};
         if (!effects_axis_rate(&beam->rotor, parameter, &span, 1, &rate))
             continue;
-        add_part(of_material(&beam->rotor.group[part[i].group].material, &part[i].section), factor ? &factor[i] : NULL, &now);
-        add_part(now, &rate, d);
+        if (!moves)
+            (void)axis_shear(beam, e);
+        if (factor)
+            rate = (struct effect_field){rate.e * factor[i].e, rate.g * factor[i].g, rate.rho * factor[i].rho};
+        add_part(&beam->rotor.group[part[i].group].material, &part[i].section, &rate, d);
+        struct shear_material own = shear_material_of(&beam->rotor.group[part[i].group].material), by = beam->layer[i].by;
+        d->kgs += by.e * own.e * rate.e + by.g * own.g * rate.g;
         moves = 1;
     }
     d->force = rotor_axial_force_derivative(&beam->rotor, parameter, middle_of(&beam->mesh, e));
@@ -101,11 +96,19 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
         return d->force != 0;
     }
     for (int i = 0; i < count && parameter.kind <= PARAMETER_RHO; i++) {
-        struct element own = {0};
+        struct element own;
+        const struct effect_field f = factor ? factor[i] : (struct effect_field){1, 1, 1};
         if (!parameter_is_of_group(&parameter, part[i].group))
             continue;
-        moves |= material_direction(&rotor->group[part[i].group].material, &part[i].section, parameter.kind, &own);
-        add_part(own, factor ? &factor[i] : NULL, d);
+        if (!moves)
+            (void)axis_shear(beam, e);
+        moves |= material_direction(&part[i].section, parameter.kind, &own);
+        struct shear_material v = shear_material_derivative(&rotor->group[part[i].group].material, parameter.kind),
+                              by = beam->layer[i].by;
+        d->ei += f.e * own.ei;
+        d->rhos += f.rho * own.rhos;
+        d->rhoi += f.rho * own.rhoi;
+        d->kgs += by.e * f.e * v.e + by.g * f.g * v.g + by.x * v.x;
     }
     return moves;
 }
@@ -117,13 +120,13 @@ static struct section bundle_section(enum bundle_model model, int number, double
     section_rods(number, diameter, pitch, &area, &own, pitch_inertia);
     if (model == BUNDLE_TUBE)
         return *tube;
-    return (struct section){area, own, area, own, 0, 0};
+    return (struct section){area, own, area, own, 0, 0, 0};
 }
 
 static struct element bundle_element(const struct material *material, const struct section *section, double length)
 {
-    struct element element = of_material(material, section);
-    element.length = length;
+    struct element element = {.kgs = shear_stiffness_plain(section, material), .length = length};
+    add_part(material, section, NULL, &element);
     return element;
 }
 
@@ -195,9 +198,10 @@ int tierod_direction(const struct beam *beam, struct parameter parameter, int ti
     double pitch;
     if (tierod_section(beam, tierod, &factor, &section, &pitch) == BUNDLE_RODS)
         dstretch->stiffness = factor.young * pitch / tierod_length(beam, tierod);
-    material_direction(&rod->material, &section, parameter.kind, d);
+    (void)material_direction(&section, parameter.kind, d);
     d->ei *= factor.young;
-    d->kgs *= factor.young;
+    if (rod->material.isotropic) /* kGS is proportional to E then */
+        d->kgs = shear_stiffness_plain(&section, &rod->material) / rod->material.e * factor.young;
     return 1;
 }
 

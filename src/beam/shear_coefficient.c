@@ -3,76 +3,170 @@
 #include "base/host.h"
 #include "rotid.h"
 
-/* N/D and its derivative for N = n0 + n1 nu, D = d0 + d1 nu */
-static double ratio_of_lines(double nu, double n0, double n1, double d0, double d1, double *derivative)
-{
-    double numerator = n0 + n1 * nu, denominator = d0 + d1 * nu;
-    *derivative = (n1 * denominator - d1 * numerator) / (denominator * denominator);
-    return numerator / denominator;
-}
+static const double pi = 3.14159265358979323846;
 
-struct cowper { /* k = n (1 + nu)/(d0 + d1 nu) */
-    double n, d0, d1;
+/* The flexure function of a bar with E along the axis, G between the axis and the plane, and the contraction nu_a of the plane
+ * solves a linear problem whose data are E/G and nu_a, and 1/k is G/E times an integral of the function: 1/k = c0 - c1 x with
+ * x = nu_a G/E, whatever the section. Cowper's k = n (1 + nu)/(d0 + d1 nu), where x = nu/(2 (1 + nu)), gives both constants. */
+struct coefficient {
+    double c0, c1;
 };
 
-static struct cowper annulus(double a)
+static struct coefficient of_cowper(double n, double d0, double d1)
+{
+    return (struct coefficient){d0 / n, 2 * (d0 - d1) / n};
+}
+
+static struct coefficient annulus(double a)
 {
     double p = (1 + a * a) * (1 + a * a), q = a * a;
-    return (struct cowper){6 * p, 7 * p + 20 * q, 6 * p + 12 * q};
+    return of_cowper(6 * p, 7 * p + 20 * q, 6 * p + 12 * q);
 }
 
-static const struct cowper rectangle = {10, 12, 11};
-
-static double isotropic(struct cowper c, double nu, double *derivative)
+static struct coefficient rectangle(void)
 {
-    return ratio_of_lines(nu, c.n, c.n, c.d0, c.d1, derivative);
+    return of_cowper(10, 12, 11);
 }
 
-/* The flexure function of a bar with E along the axis, G and nu between the axis and the plane solves a linear problem whose data
- * are E/G and nu, and 1/k is G/E times an integral of it: 1/k = c0 - c1 x with x = nu G/E, whatever the section. Cowper's k,
- * where x = nu/(2(1 + nu)), gives both: c0 = d0/n, c1 = 2 (d0 - d1)/n. */
-static double across_sheets(struct cowper c, double x, double *derivative)
+static double isotropic(double nu)
 {
-    return ratio_of_lines(x, c.n, 0, c.d0, -2 * (c.d0 - c.d1), derivative);
+    return nu / (2 * (1 + nu));
 }
 
-static struct cowper of_section(const struct section *section)
+struct shear_material shear_material_of(const struct material *m)
 {
-    return section->rectangular ? rectangle : annulus(section->ratio);
+    double g = material_shear_modulus(m);
+    return (struct shear_material){m->e, g, m->laminated ? m->nu * g / m->sheet_e : isotropic(m->nu)};
 }
 
-double shear_coefficient(const struct section *section, double nu, double *derivative)
+struct shear_material shear_material_derivative(const struct material *m, enum parameter_kind kind)
 {
-    return isotropic(of_section(section), nu, derivative);
-}
-
-/* Axial stress strains a sheet as it would strain steel: nu of the stack is nu of the sheet times E/E_sheet, so that
- * x = nu_sheet G/E_sheet, whatever E. */
-static void of_stack(const struct section *section, const struct material *material, struct shear_resistance *shear)
-{
-    double dk, x = material->nu * material->g / material->sheet_e, k = across_sheets(of_section(section), x, &dk);
-    *shear = (struct shear_resistance){
-        .kg = k * material->g, .by_g = k + dk * x, .by_nu = dk * material->g / material->sheet_e * material->g};
-}
-
-void shear_resistance(const struct section *section, const struct material *material, struct shear_resistance *shear)
-{
-    double dk, k, g = material_shear_modulus(material);
-    if (material->laminated) {
-        of_stack(section, material, shear);
-        return;
+    double g = material_shear_modulus(m), q = 1 + m->nu;
+    switch (kind) {
+    case PARAMETER_E:
+    case PARAMETER_TIEROD_E:
+        return (struct shear_material){1, m->isotropic ? g / m->e : 0, 0};
+    case PARAMETER_G:
+        return (struct shear_material){0, 1, m->laminated ? m->nu / m->sheet_e : 0};
+    case PARAMETER_NU:
+        return (struct shear_material){0, m->isotropic ? -g / q : 0, m->laminated ? g / m->sheet_e : 1 / (2 * q * q)};
+    default:
+        return (struct shear_material){0, 0, 0};
     }
-    k = shear_coefficient(section, material->nu, &dk);
-    *shear = (struct shear_resistance){.kg = k * g,
-                                       .by_e = material->isotropic ? k * g / material->e : 0,
-                                       .by_g = k,
-                                       .by_nu = dk * g - (material->isotropic ? k * g / (1 + material->nu) : 0)};
+}
+
+static double of_one(struct shear_layer *layer)
+{
+    const struct section *section = layer->section;
+    struct coefficient c = section->rectangular ? rectangle() : annulus(section->ratio);
+    double k = 1 / (c.c0 - c.c1 * layer->material.x), s = section->stiff_area, gs = layer->material.g * s;
+    layer->by = (struct shear_material){0, k * s, c.c1 * k * k * gs};
+    return k * gs;
+}
+
+/* A part between the radii p < q as the problem below sees it; holes thin E by second moment and G by area. */
+struct annulus {
+    double p, q, pp, qq, depth; /* depth: q^2 - p^2 */
+    double e, g, by_e, by_g;    /* by: for the material's own */
+};
+
+static struct annulus annulus_of(const struct shear_layer *layer)
+{
+    const struct section *section = layer->section;
+    double q = section->stiff_outer / 2, p = section->ratio * q, pp = p * p, qq = q * q, depth = qq - pp;
+    double by_e = section->stiff_inertia / (pi / 4 * depth * (qq + pp)), by_g = section->stiff_area / (pi * depth);
+    return (struct annulus){p, q, pp, qq, depth, layer->material.e * by_e, layer->material.g * by_g, by_e, by_g};
+}
+
+/* b of the basis below on the inner (0) and outer (1) surface of a part, and what x adds to l. */
+static double load(const struct annulus *a, int side)
+{
+    return a->e * (side ? a->q : a->p) * a->depth / 4;
+}
+
+static double load_by_x(const struct annulus *a, int side)
+{
+    return a->e / 2 * (side ? a->pp * a->q : -a->qq * a->p);
+}
+
+/* Axial displacement W(r) cos t of a section whose curvature grows as z. Contraction of each part gives it U = V = -nu_a r^2/2 in
+ * its plane, sigma_zz = E r, and axial equilibrium is, for every variation D of W,
+ *   int G (W' D' + W D/r^2) r dr = int E (r^2 D + x r^2 (r D' - D)/2) dr =: l(D).
+ * W is continuous, and on each part a sum of r, 1/r and r^3. The basis: the two sums of r and 1/r that are 1 at one of its
+ * surfaces and 0 at the other, and (r^2 - p^2)(r^2 - q^2)/r, which meets neither of these, so that its share follows part by part
+ * and a tridiagonal system in W at the surfaces is left. The mean rotation that bends with the moment EI is weighted by E, int E
+ * r^2 W dr =: b(W) over int E r^3 dr =: J, and the shear force is EI, so that kGS = pi J^2/b(W). Derivatives of b(W) follow from
+ * the adjoint Z with the load b: dA, db and dl are all that moves. */
+static double of_layers(int count, struct shear_layer *layer)
+{
+    double j = 0, mean = 0;
+    for (int i = 0; i <= count; i++)
+        layer[i].pivot = layer[i].w = layer[i].z = layer[i].off = 0;
+    for (int i = 0; i < count; i++) {
+        struct annulus a = annulus_of(&layer[i]);
+        double x = layer[i].material.x, stiffness = a.g * (a.qq + a.pp) / a.depth;
+        j += a.e * a.depth * (a.qq + a.pp) / 4;
+        if (a.g <= 0) /* a cause took all of it */
+            continue;
+        mean += (1 - 2 * x) * a.e * a.e * a.depth * a.depth * a.depth / (96 * a.g);
+        layer[i].off = 2 * a.g * a.p * a.q / a.depth;
+        for (int side = 0; side < 2; side++) {
+            layer[i + side].pivot += stiffness;
+            layer[i + side].w += load(&a, side) + x * load_by_x(&a, side);
+            layer[i + side].z += load(&a, side);
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        double ratio = layer[i].pivot > 0 ? layer[i].off / layer[i].pivot : 0;
+        layer[i + 1].pivot -= ratio * layer[i].off;
+        layer[i + 1].w += ratio * layer[i].w;
+        layer[i + 1].z += ratio * layer[i].z;
+    }
+    for (int i = count; i >= 0; i--) {
+        double above_w = i < count ? layer[i].off * layer[i + 1].w : 0, above_z = i < count ? layer[i].off * layer[i + 1].z : 0;
+        layer[i].w = layer[i].pivot > 0 ? (layer[i].w + above_w) / layer[i].pivot : 0;
+        layer[i].z = layer[i].pivot > 0 ? (layer[i].z + above_z) / layer[i].pivot : 0;
+    }
+    for (int i = 0; i < count; i++) {
+        struct annulus a = annulus_of(&layer[i]);
+        mean += a.g > 0 ? load(&a, 0) * layer[i].w + load(&a, 1) * layer[i + 1].w : 0;
+    }
+    double shear = pi * j * j / mean;
+    for (int i = 0; i < count; i++) {
+        const struct shear_layer *in = &layer[i], *out = &layer[i + 1];
+        struct annulus a = annulus_of(in);
+        double x = in->material.x, share = a.e * a.e * a.depth * a.depth * a.depth / (96 * a.g);
+        layer[i].by = (struct shear_material){0, 0, 0};
+        if (a.g <= 0)
+            continue;
+        double of_x = load_by_x(&a, 0) * in->z + load_by_x(&a, 1) * out->z;
+        double of_e = load(&a, 0) * (in->w + in->z) + load(&a, 1) * (out->w + out->z) + x * of_x + 2 * (1 - 2 * x) * share;
+        double of_g = (a.qq + a.pp) / a.depth * (in->w * in->z + out->w * out->z) -
+                      2 * a.p * a.q / a.depth * (in->w * out->z + out->w * in->z) + (1 - 2 * x) * share / a.g;
+        layer[i].by = (struct shear_material){
+            .e = a.by_e * shear * (a.depth * (a.qq + a.pp) / (2 * j) - of_e / (a.e * mean)),
+            .g = a.by_g * shear * of_g / mean,
+            .x = -shear * (of_x - 2 * share) / mean,
+        };
+    }
+    return shear;
+}
+
+double shear_stiffness(int count, struct shear_layer *layer)
+{
+    return count == 1 ? of_one(layer) : of_layers(count, layer);
+}
+
+double shear_stiffness_plain(const struct section *section, const struct material *material)
+{
+    struct shear_layer layer = {.material = shear_material_of(material), .section = section};
+    return of_one(&layer);
 }
 
 HOST_COMPUTES void compute(int rectangular, double nu, double a, double *coefficient)
 {
-    double unused;
-    *coefficient = isotropic(rectangular ? rectangle : annulus(a), nu, &unused);
+    struct coefficient c = rectangular ? rectangle() : annulus(a);
+    *coefficient = 1 / (c.c0 - c.c1 * isotropic(nu));
 }
 
 static double masked_shear_coefficient(int rectangular, double nu, double a)

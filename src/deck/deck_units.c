@@ -7,6 +7,14 @@
 
 #define UNITS_MOST 6
 
+/* Beside the whole rotor; ten times and more from where solutions fail. */
+#define SHORTEST 1e-7
+#define STIFFEST 1e13 /* times EI/L^3 */
+#define HEAVIEST 1e7
+#define SOFTEST  1e6 /* between the moduli of two materials */
+
+static const double pi = 3.14159265358979323846;
+
 /* What *UNITS can state: the unit that a value has inside, in the brackets of its description, and the words for others. */
 static const struct {
     const char *option, *si, *word[UNITS_MOST + 1];
@@ -135,10 +143,60 @@ void deck_doubt(struct deck_reader *reader, struct place place, const char *what
             quantity[q].option, quantity[q].word[unit]);
 }
 
+/* Numbers of a rotor so far apart that the sixteen digits of K and M lose the smaller ones: refused here, where each has a place,
+ * in place of an eigenvalue problem that has no solution. A support is rigid, a mass at rest, long before. */
+static void refuse_contrast(struct deck_reader *reader, struct place place, double mass, double length)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    double bending = 0;
+    int soft = -1, hard = -1;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        const struct segment *g = &rotor->segment[s];
+        double e = rotor->group[g->group].material.e, d = g->outer, b = g->inner;
+        bending = fmax(bending, g->rectangular ? e * g->width * pow(g->height, 3) / 12 : e * pi / 64 * (pow(d, 4) - pow(b, 4)));
+        if (g->length < SHORTEST * length)
+            deck_error(reader, reader->group_place[g->group],
+                       "a section of %s is %.3g m long in a rotor of %.4g m, expected at least %.1g of the length",
+                       rotor->group[g->group].name, g->length, length, SHORTEST);
+    }
+    bending /= length * length * length;
+    for (int i = 0; i < rotor->nspring; i++) {
+        const struct spring *spring = &rotor->spring[i];
+        double share = fmax(spring->lateral, spring->rotational / (length * length)) / bending;
+        if (share > STIFFEST)
+            deck_error(
+                reader, place,
+                "the spring at %.4g m is %.1g times as stiff as the shaft, whose EI/L^3 is %.3g N/m, expected at most %.1g "
+                "times, which is rigid: stiffness, E or diameters in another unit?",
+                spring->position, share, bending, STIFFEST);
+    }
+    for (int i = 0; i < rotor->ndisk; i++) {
+        const struct disk *disk = &rotor->disk[i];
+        double share = fmax(disk->mass, disk->diametral / (length * length)) / mass;
+        if (share > HEAVIEST)
+            deck_error(
+                reader, place,
+                "the disk at %.4g m is %.1g times as heavy as the shaft of %.4g kg, expected at most %.1g times, which is at "
+                "rest: mass or density in another unit?",
+                disk->position, share, mass, HEAVIEST);
+    }
+    for (int m = 0; m < reader->nmaterial; m++) {
+        double e = reader->material[m].e;
+        soft = e > 0 && (soft < 0 || e < reader->material[soft].e) ? m : soft;
+        hard = e > 0 && (hard < 0 || e > reader->material[hard].e) ? m : hard;
+    }
+    if (soft >= 0 && reader->material[hard].e > SOFTEST * reader->material[soft].e)
+        deck_error(
+            reader, reader->material_place[soft],
+            "Young's modulus of %s is %.4g Pa beside %.4g Pa of %s, expected at most a factor of %.1g between two materials: "
+            "one of them in another unit?",
+            reader->material[soft].name, reader->material[soft].e, reader->material[hard].e, reader->material[hard].name,
+            SOFTEST);
+}
+
 void deck_doubt_rotor(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    const double pi = 3.14159265358979323846;
     double mass = 0, length = rotor_length(rotor);
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *g = &rotor->segment[s];
@@ -146,6 +204,8 @@ void deck_doubt_rotor(struct deck_reader *reader)
         mass += area * g->length * rotor->group[g->group].material.rho;
     }
     struct place place = rotor->ngroup ? reader->group_place[0] : reader->text.end;
+    if (mass > 0 && length > 0)
+        refuse_contrast(reader, place, mass, length);
     if (!reader->doubted && (length > 30 || length < 0.01))
         deck_note(reader, place, "the rotor is %.4g m long, expected 0.01 to 30 m: lengths in another unit?", length);
     if (!reader->doubted && (mass > 3e5 || mass < 1e-3))

@@ -84,6 +84,25 @@ static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_ma
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
 }
 
+/* shape less the part of it that is a rigid motion: r [2 n] are both, mr M r, products m11, m12, m22 of them */
+static void take_rigid_part(int n, const double *r, const double *mr, const double *shape, double *elastic)
+{
+    double m[3] = {0, 0, 0}, right[2] = {0, 0};
+    for (int i = 0; i < n; i++) {
+        m[0] += r[i] * mr[i];
+        m[1] += r[i] * mr[n + i];
+        m[2] += r[n + i] * mr[n + i];
+        right[0] += mr[i] * shape[i];
+        right[1] += mr[n + i] * shape[i];
+    }
+    double det = m[0] * m[2] - m[1] * m[1];
+    double a = (m[2] * right[0] - m[1] * right[1]) / det, b = (m[0] * right[1] - m[1] * right[0]) / det;
+    for (int i = 0; i < n; i++)
+        elastic[i] = shape[i] - a * r[i] - b * r[n + i];
+}
+
+/* The elastic energy of a motion is that of what is left of it without the rigid motions, which are known exactly: those in K
+ * lose it in the rounding of its entries, where elements are small beside the rotor. */
 static int count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
                        int *nrigid)
 {
@@ -92,7 +111,7 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     int n = structure.n, wanted = n < 4 ? n : 4; /* plane bending has two rigid motions: the third mode is always elastic */
     int *elastic_only = discrete->as == AS_SOLID ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
     struct eigen_full eigen;
-    double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, n);
+    double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, 6 * (size_t)n);
     int status = phi && work ? new_matrix(pool, &structure, &k) : ROTID_ERROR_MEMORY;
     if (!status)
         status = new_matrix(pool, &structure, &m);
@@ -106,6 +125,12 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     status = eigen_full_solve(&eigen, &k, &m, lambda, phi);
     if (status)
         return status;
+    double *rigid = work + n, *mass_rigid = work + 3 * (ptrdiff_t)n, *elastic = work + 5 * (ptrdiff_t)n;
+    if (discrete->as == AS_SOLID)
+        solid_rigid_motions(&discrete->solid, rigid);
+    else
+        beam_rigid_motions(&discrete->beam, rigid);
+    matrix_multiply(&m, 2, rigid, mass_rigid);
     matrix_zero(&k);
     matrix_zero(&m);
     *elastic_only = 1;
@@ -113,9 +138,9 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     *elastic_only = 0;
     *nrigid = 0;
     for (int j = 0; j < 2; j++) {
-        const double *shape = phi + (ptrdiff_t)j * n;
-        double elastic = matrix_product(&k, shape, shape, work);
-        if (lambda[j] > 1e-6 * lambda[2] && elastic > 0.5 * lambda[j])
+        take_rigid_part(n, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
+        double energy = matrix_product(&k, elastic, elastic, work);
+        if (energy > 1e-6 * lambda[2] && energy > 0.5 * lambda[j])
             break;
         (*nrigid)++;
     }
@@ -186,14 +211,20 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
         bars_deflection(&discrete->beam, bars, u, npoint, z, v);
 }
 
-#define OF_COARSE 0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28   \
-                          */
+#define OF_CORNER                                                                                                                \
+    0.1656              /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28    \
+                         */
+#define OF_FINER  0.284 /* 1/(4^1.089 - 1) */
+#define OF_SMOOTH (1.0 / 15) /* 1/(2^4 - 1): a frequency by elements of the second order, all twice as large */
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
- * which no mesh of a reasonable size resolves. */
-struct mesh_limit discrete_mesh_limit(enum discretisation as)
+ * which no mesh of a reasonable size resolves; where there are none, from the elements. */
+struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor)
 {
-    return as == AS_SOLID ? (struct mesh_limit){COARSE_MESH, OF_COARSE, 1} : (struct mesh_limit){2, -4.0 / 3, 0};
+    if (as == AS_BEAM)
+        return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0};
+    int corners = solid_has_corners(rotor);
+    return (struct mesh_limit){COARSE_MESH, corners ? OF_CORNER : OF_SMOOTH, 1, 4, corners ? OF_FINER : OF_SMOOTH};
 }
 
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)

@@ -60,18 +60,20 @@ int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
-/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the
- * frequency that counts, and f otherwise. */
+/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the frequency
+ * that counts, and f otherwise. finer, finer_share: the same the other way, from a mesh refined by `finer`, h, to
+ * h - finer_share (f - h). */
 struct mesh_limit {
     int refine;
     double share;
-    int counts;
+    int counts, finer;
+    double finer_share;
 };
-struct mesh_limit discrete_mesh_limit(enum discretisation as);
+struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 
-/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements are
- * those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there is no
- * such way: to a beam's coarser mesh. */
+/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements
+ * are those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there
+ * is no such way: to a beam's coarser mesh. */
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v);
 
 #endif

@@ -20,13 +20,14 @@ void section_round(double outer, double inner, double stiff_outer, struct sectio
                                 .stiff_inertia = disc_inertia(stiff_outer) - disc_inertia(inner),
                                 .mass_area = disc_area(outer) - disc_area(inner),
                                 .mass_inertia = disc_inertia(outer) - disc_inertia(inner),
-                                .ratio = inner / stiff_outer};
+                                .ratio = inner / stiff_outer,
+                                .stiff_outer = stiff_outer};
 }
 
 void section_rectangular(double height, double width, struct section *section)
 {
     double area = height * width, inertia = width * height * height * height / 12;
-    *section = (struct section){area, inertia, area, inertia, 1, 0};
+    *section = (struct section){area, inertia, area, inertia, 1, 0, 0};
 }
 
 int section_perforate(int number, double d, double e, double stiff_outer, struct section *section)

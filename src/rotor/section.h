@@ -8,7 +8,7 @@ struct section {
     double stiff_area, stiff_inertia; /* m2, m4: what carries bending and shear */
     double mass_area, mass_inertia;   /* of the part that has mass */
     int rectangular;
-    double ratio; /* inner over outer diameter of a round section */
+    double ratio, stiff_outer; /* of a round section: inner over outer diameter of the stiff part, and that one [m] */
 };
 
 /* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass.

@@ -86,7 +86,8 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     double *work = POOL_ARRAY(pool, double, spectrum->nmaster), *correlation = NULL;
     if (!c->number || !c->basis || !c->mac || !c->nco || !used || !work)
         return ROTID_ERROR_MEMORY;
-    if (job->measurement.shape && !job->measurement.paired && !(correlation = correlations(pool, job, spectrum, candidates, work)))
+    if (job->measurement.shape && !job->measurement.paired &&
+        !(correlation = correlations(pool, job, spectrum, candidates, work)))
         return ROTID_ERROR_MEMORY;
     if (nmode)
         memcpy(c->number, job->measurement.number, (size_t)nmode * sizeof *c->number);
@@ -114,6 +115,14 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
                              struct message_list *notes)
 {
     int worst = -1, solid = job->options.solid;
+    if (spectrum->apart) {
+        struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */
+                    "%s:%d:%d: the mesh of the solid is not fine enough for mode %d: two meshes differ by more than 2 %% or have "
+                    "other shapes "
+                    "there, so that %.6g Hz is of the mesh as it is; expected fewer modes, thicker parts, or *FIT, MODEL=BEAM",
+                    place.file, place.line, place.column, spectrum->apart, spectrum->full_hz[spectrum->apart - 1]);
+    }
     double largest = solid ? SOLID_SHARE : 1;
     for (int k = 0; k < comparison->nmode && job_knows_frequency_noise(job); k++) {
         int mode = comparison->number[k] - 1;
@@ -128,10 +137,11 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
         return;
     double error = spectrum->mesh_error_percent[comparison->number[worst] - 1];
     if (solid)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the mesh of the solid leaves measured mode %d in doubt by %.4f %%, more than a third of its noise of %.4f %%: "
-                    "the intervals do not allow for it",
-                    job->measurement.number[worst], fabs(error), 100 * job->measurement.frequency_std[worst]);
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0,
+            "the mesh of the solid leaves measured mode %d in doubt by %.4f %%, more than a third of its noise of %.4f %%: "
+            "the intervals do not allow for it",
+            job->measurement.number[worst], fabs(error), 100 * job->measurement.frequency_std[worst]);
     else
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "

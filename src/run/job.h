@@ -64,8 +64,8 @@ struct job_measurement {
     double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
     double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
     double stated_frequency_noise, stated_shape_noise; /* of the NOISE card for all modes, relative; 0: not stated */
-    int has_noise_floor;   /* the user allows for more than the scatter of the test: that is not taken for overstated noise */
-    int *holdout;          /* [nmode] */
+    int has_noise_floor; /* the user allows for more than the scatter of the test: that is not taken for overstated noise */
+    int *holdout;        /* [nmode] */
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
      * none. frequency_hz of a mode that has any is then their mean over all sensors: see run/point_fit.h. */
     double *point_frequency_hz, *point_frequency_std;
@@ -119,8 +119,8 @@ struct job {
     struct job_options options;
 };
 
-/* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line of
- * the deck where nobody stated parts. */
+/* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line
+ * of the deck where nobody stated parts. */
 struct job_place job_part_place(const struct job *job, int failed);
 
 /* Whether the noise of every measured frequency, and of every shape component, is known. */

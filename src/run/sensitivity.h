@@ -20,8 +20,8 @@ struct sensitivity_parameter {
     const char *unit;                   /* of the reference; 1 for a pure number */
     double reference;                   /* value x0 that the relative changes refer to [unit] */
     int nfrequency_hz, nrelative_value; /* as in struct sensitivity */
-    double *sensitivity; /* per mode: E_k after one step, divided by the step [1]; E_k = 1 - R*_k/w_k(x0)^2: (29) */
-    double *derivative;  /* per mode: its limit for a step that vanishes, from the analytic derivatives [1] */
+    double *sensitivity;      /* per mode: E_k after one step, divided by the step [1]; E_k = 1 - R*_k/w_k(x0)^2: (29) */
+    double *derivative;       /* per mode: its limit for a step that vanishes, from the analytic derivatives [1] */
     double *frequency_change; /* per mode: relative change of the frequency for that of the parameter, d ln f/d ln x [1], per cent
                                  for a per cent; -derivative/2, since E_k = 1 - (f/f0)^2 */
     double *curves; /* per mode, Figure 5 of the paper: component E_k^2/2 of the objective of HYBRID at each relative_value [1];

@@ -3,12 +3,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "linalg/matrix.h"
+#include "linalg/product.h"
 #include "modal/prediction.h"
 #include "model/model.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */
-#define ROUGH        1e-4 /* the same of a trial */
-#define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
+#define ROUGH        1e-4  /* the same of a trial */
+#define APART        0.02  /* of a frequency: two meshes that differ by more lead nowhere */
+#define ALIKE        0.8   /* MAC of a mode on two meshes, weighted by the mass: of those of a crossing each has 0.5 */
+#define MOST_FINE    50000 /* unknowns of a mesh that may be refined once more */
+#define MOST_MASTERS 1000  /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
 /* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
  * parameter. Of a solid, a third of whose solution a factor of M would be. */
@@ -33,6 +38,8 @@ struct solution {
     struct rotor_model *model;
     int size, pairs;
     double *hz, *phi, *shape; /* [pairs] and [size * pairs], rigid ones first, [nmaster * count] without those */
+    int *same; /* [count] which elastic mode of the solution it was compared with has that shape, -1: none; NULL: as
+                  they are numbered */
 };
 
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. known: NULL, or the solution on another
@@ -93,6 +100,40 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
     return to;
 }
 
+/* same of a solution whose model stands at x, by the mass between its modes and the other ones on its mesh. */
+static int pair_modes(struct pool *pool, struct pool *scratch, const struct prediction *p, const struct solution *known,
+                      struct solution *out)
+{
+    int n = out->size, rigid = out->model->equations.nrigid, count = out->pairs - rigid;
+    int known_rigid = known->model->equations.nrigid, most = known->pairs - known_rigid;
+    double *there = POOL_ARRAY(scratch, double, n), *image = POOL_ARRAY(scratch, double, n),
+           *best = POOL_ARRAY(scratch, double, count);
+    out->same = POOL_ARRAY(pool, int, count);
+    if (!there || !image || !best || !out->same)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < count; i++) {
+        best[i] = ALIKE;
+        out->same[i] = -1;
+    }
+    for (int j = 0; j < most; j++) {
+        const double *mode = known->phi + (ptrdiff_t)(known_rigid + j) * known->model->equations.n;
+        if (!discrete_transfer(&known->model->discrete, mode, &out->model->discrete, there)) {
+            out->same = NULL;
+            return ROTID_OK;
+        }
+        matrix_multiply(&p->m, 1, there, image);
+        double square = product_dot(n, there, image);
+        for (int i = 0; i < count; i++) {
+            double c = product_dot(n, out->phi + (ptrdiff_t)(rigid + i) * n, image);
+            if (c * c > best[i] * square) {
+                best[i] = c * c / square;
+                out->same[i] = j;
+            }
+        }
+    }
+    return ROTID_OK;
+}
+
 /* The matrices and factors of a solution, ten times what is kept of it, go before the next one. */
 static int solve(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                  const struct parameter *parameter, const double *x, int refine, struct manner manner,
@@ -118,6 +159,8 @@ static int solve(struct pool *pool, struct models *models, const struct rotor *r
             out->hz[j] = prediction_hz(&p, j);
         if (!status)
             keep_shapes(out->model, &p, *count, out->shape);
+        if (!status && known)
+            status = pair_modes(pool, &scratch, &p, known, out);
     }
     pool_close(&scratch);
     return status;
@@ -173,13 +216,71 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
                                   SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS, spectrum);
 }
 
+/* Which mode of the solution that it was compared with mode j is, and which of a solution the mode j of the other one is; -1:
+ * none has its shape. */
+static int partner_of(const struct solution *s, int j)
+{
+    return s->same ? s->same[j] : j;
+}
+
+static int partner_from(const struct solution *s, int count, int j)
+{
+    for (int i = 0; i < count && s->same; i++)
+        if (s->same[i] == j)
+            return i;
+    return s->same ? -1 : j;
+}
+
+/* What hz and the frequency of a mode on another mesh lead to: the mesh error of mode j, and where the limit counts its
+ * frequency; 0 and neither where the meshes are too far apart for that. */
+static int lead(double hz, const struct solution *other, int partner, double share, int counts, struct spectrum *s, int j)
+{
+    double there = partner < 0 ? NAN : other->hz[other->model->equations.nrigid + partner], led_to = hz - share * (there - hz);
+    if (isnan(there) || (counts && !(fabs(there - hz) <= APART * fabs(hz))))
+        return 0;
+    s->full_hz[j] = counts ? led_to : hz;
+    s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
+    return 1;
+}
+
+/* Leads the modes whose meshes are apart by finer and finer ones, until two of these agree or the unknowns are too many. */
+static int refine_apart(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                        const struct parameter *parameter, const double *x, struct manner manner, const struct mesh_limit *limit,
+                        const struct solution *own, struct spectrum *s)
+{
+    struct solution before = *own;
+    int status = ROTID_OK, apart = 1, *at = POOL_ARRAY(pool, int, s->count);
+    if (!at)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < s->count; j++)
+        at[j] = j;
+    for (int refine = limit->finer; apart && !status && before.size <= MOST_FINE; refine *= limit->finer) {
+        struct solution finer = {0};
+        int count = s->count;
+        status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, &before, &count, &finer);
+        apart = 0;
+        for (int j = 0; j < s->count && !status; j++) {
+            int partner = at[j] < 0 ? -1 : partner_from(&finer, count, at[j]);
+            if (isnan(s->mesh_error_percent[j]) && at[j] >= 0) {
+                if (lead(before.hz[s->nrigid + at[j]], &finer, partner, -1 - limit->finer_share, 1, s, j))
+                    s->mesh_error_percent[j] = 100 * (own->hz[s->nrigid + j] / s->full_hz[j] - 1);
+                else
+                    apart++;
+            }
+            at[j] = partner;
+        }
+        before = finer;
+    }
+    return status;
+}
+
 static int compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct manner manner,
                    struct spectrum *s)
 {
     struct solution own = {0}, other = {0};
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models));
+    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models), rotor);
     int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
     int status = coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, NULL, &count, &other)
                               : ROTID_OK;
@@ -209,17 +310,23 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < s->nmaster; i++)
         s->master_z[i] = model_master_z(own.model, i);
+    int apart = 0;
     for (int j = 0; j < count; j++) {
         double hz = own.hz[s->nrigid + j];
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
         s->full_hz[j] = hz;
         if (!other.model)
             continue;
+        int partner = coarse_first ? partner_of(&own, j) : partner_from(&other, count, j);
         s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
-        double led_to = hz - limit.share * (s->other_hz[j] - hz);
-        s->full_hz[j] = limit.counts ? led_to : hz;
-        s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
+        apart += !lead(hz, &other, partner, limit.share, limit.counts, s, j);
     }
+    if (apart && limit.counts && coarse_first)
+        status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s);
+    if (status)
+        return status;
+    for (int j = count - 1; j >= 0 && coarse_first; j--)
+        s->apart = isnan(s->mesh_error_percent[j]) ? j + 1 : s->apart;
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other.model->equations.n < equations->n;
     if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)

@@ -14,7 +14,9 @@ struct spectrum {
     double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */
     double *other_hz;                /* [count] by a mesh that is refined, of a solid by the coarse one; NaN without */
-    double *mesh_error_percent; /* [count] of the mesh against that limit; a solid's full_hz may be off by as much, either way */
+    double *mesh_error_percent; /* [count] of the mesh against that limit; a solid's full_hz may be off by as much, either way;
+                                  NaN where the meshes differ too much for a limit */
+    int apart;                  /* of a solid: the first mode, from 1, without a limit for that reason; 0: none */
     double *shape;              /* [nmaster * count] full model at the masters, largest component 1 */
     double *other_shape;        /* the same of the mesh of other_hz; NULL without, and where that has other masters */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */

@@ -30,7 +30,7 @@ int stops_merge(int nstop, struct stop *stop, double tolerance)
 
 /* Lines between two stops, both excluded, into x, or counted only where x is NULL: from each graded end elements that double as
  * long as both sides leave room for them, and even ones between. */
-static int between(const struct stop *a, const struct stop *b, double *x)
+static int between(const struct stop *a, const struct stop *b, int multiple, double *x)
 {
     double from[MOST_HALVINGS], to[MOST_HALVINGS], left = a->at, right = b->at;
     double l = a->fine > 0 ? fmin(a->fine, a->upto) : a->upto, r = b->fine > 0 ? fmin(b->fine, a->upto) : a->upto;
@@ -44,8 +44,8 @@ static int between(const struct stop *a, const struct stop *b, double *x)
             r = fmin(2 * r, a->upto);
         }
     }
-    int even = (int)ceil((right - left) / fmin(l, r) - 0.3);
-    even = even < 1 ? 1 : even;
+    int even = (int)ceil((right - left) / (multiple * fmin(l, r)) - 0.3);
+    even = multiple * (even < 1 ? 1 : even);
     for (int i = 0; i < nleft; i++, count++)
         if (x)
             x[count] = from[i];
@@ -58,11 +58,11 @@ static int between(const struct stop *a, const struct stop *b, double *x)
     return count;
 }
 
-int lines_graded(struct pool *pool, int nstop, const struct stop *stop, int *count, double **x)
+int lines_graded(struct pool *pool, int nstop, const struct stop *stop, int multiple, int *count, double **x)
 {
     int total = nstop;
     for (int i = 0; i + 1 < nstop; i++)
-        total += between(&stop[i], &stop[i + 1], NULL);
+        total += between(&stop[i], &stop[i + 1], multiple, NULL);
     *x = POOL_ARRAY(pool, double, total);
     if (!*x)
         return ROTID_ERROR_MEMORY;
@@ -70,7 +70,7 @@ int lines_graded(struct pool *pool, int nstop, const struct stop *stop, int *cou
     for (int i = 0; i < nstop; i++) {
         (*x)[(*count)++] = stop[i].at;
         if (i + 1 < nstop)
-            *count += between(&stop[i], &stop[i + 1], *x + *count);
+            *count += between(&stop[i], &stop[i + 1], multiple, *x + *count);
     }
     return ROTID_OK;
 }

@@ -26,7 +26,7 @@ static struct member member_of(const struct solid *solid, int i)
         .number = rod ? rod->number : bars->number, .material = rod ? &rod->material : &bars->material, .young = 1};
     double area, own;
     section_rods(member.number, rod ? rod->diameter : bars->diameter, rod ? rod->pitch : bars->pitch, &area, &own, &member.pitch);
-    member.section = (struct section){area, own, area, own, 0, 0};
+    member.section = (struct section){area, own, area, own, 0, 0, 0};
     if (rod) {
         struct effect_bundle factor = effects_on_tierod(rotor, i);
         member.young = factor.young;
@@ -38,10 +38,8 @@ static struct member member_of(const struct solid *solid, int i)
 static struct element element_of(const struct solid *solid, const struct member *member, double length)
 {
     const struct material *material = member->material;
-    double unused;
     return (struct element){.ei = material->e * member->young * member->section.stiff_inertia,
-                            .kgs = shear_coefficient(&member->section, material->nu, &unused) * material_shear_modulus(material) *
-                                   member->young * member->section.stiff_area,
+                            .kgs = shear_stiffness_plain(&member->section, material) * member->young,
                             .rhos = material->rho * member->section.mass_area,
                             .rhoi = material->rho * member->section.mass_inertia,
                             .force = solid->elastic_only ? 0 : member->force,

@@ -273,12 +273,14 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
         if (rotor->segment[s].rectangular || (s > 0 && !outline_touch(rotor, s)))
             return ROTID_ERROR_SECTION;
     }
+    *failed = rotor->ngroup + rotor->ntierod + rotor->nbars;
+    if (outline_slenderness(rotor) > SOLID_MOST_SLENDER)
+        return ROTID_ERROR_SECTION;
     int status = outline_lines(pool, rotor, rule, refine, &nr, &grid.r, &nz, &mesh->z, &mesh->segment);
     if (status)
         return status;
     mesh->nslice = nz - 1;
     grid.nr = nr - 1;
-    *failed = rotor->ngroup + rotor->ntierod + rotor->nbars;
     if (refine == 1 && UNKNOWNS * (double)count_elements(rotor, mesh, &grid) > SOLID_MOST_UNKNOWNS)
         return ROTID_ERROR_SECTION;
     grid.places = 2 * nr - 1;

@@ -6,9 +6,10 @@
 
 #define SAME      1e-9 /* of the largest radius: radii that are one */
 #define CORNER    0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
-#define LARGEST   4    /* a quarter of the largest radius */
+#define LARGEST   4    /* a quarter of the radius, or of the length of a disc */
 #define COARSE    6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
-#define SLICES    50   /* or the length over this, the larger */
+#define SLICES    50   /* or the longer of length and radius over this */
+#define LONGEST   2    /* times the shorter one: elements that are longer lock in bending */
 #define AT_LINE   0.01 /* of a slice: a sensor is taken to be at the line */
 #define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
 #define INTERFACE 0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
@@ -64,12 +65,22 @@ double outline_share(const struct rotor *rotor, int group, double r)
     return 1 - g->holes * g->hole_diameter * g->hole_diameter / (4 * (to * to - from * from));
 }
 
+static double largest_radius(const struct rotor *rotor)
+{
+    double radius = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        radius = fmax(radius, outline_outer(rotor, s));
+    return radius;
+}
+
+double outline_slenderness(const struct rotor *rotor)
+{
+    return rotor_length(rotor) / (2 * largest_radius(rotor));
+}
+
 static int differ(const struct rotor *rotor, double a, double b)
 {
-    double scale = 0;
-    for (int s = 0; s < rotor->nsegment; s++)
-        scale = fmax(scale, outline_outer(rotor, s));
-    return fabs(a - b) > SAME * scale;
+    return fabs(a - b) > SAME * largest_radius(rotor);
 }
 
 int outline_touch(const struct rotor *rotor, int s)
@@ -93,14 +104,32 @@ static double corner_size(const struct rotor *rotor, const struct solid_rule *ru
     return refine ? size / refine : COARSE * size;
 }
 
+int outline_has_corners(const struct rotor *rotor)
+{
+    for (int s = 0; s + 1 < rotor->nsegment; s++)
+        if (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
+            differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1)))
+            return 1;
+    return 0;
+}
+
+/* A quarter of the shorter of length and radius, and a fiftieth of the longer one, in both directions; across the shorter one of
+ * a body that is much longer than wide, or wider than long, up to a quarter of the elements along the other: thinner ones add
+ * nothing to the accuracy and rounding to K. */
 static double largest_size(const struct rotor *rotor, const struct solid_rule *rule, int refine, int along)
 {
-    double radius = 0;
-    for (int s = 0; s < rotor->nsegment; s++)
-        radius = fmax(radius, outline_outer(rotor, s));
-    double size = along ? fmax(radius / LARGEST, rotor_length(rotor) / SLICES) : radius / LARGEST;
-    size = rule->largest > 0 ? rule->largest : size;
-    return refine ? size / sqrt(refine) : along ? size : 2 * size;
+    double extent[2] = {largest_radius(rotor), rotor_length(rotor)}, size[2];
+    for (int i = 0; i < 2; i++)
+        size[i] = fmax(fmin(extent[0], extent[1]) / LARGEST, fmin(extent[i] / SLICES, LONGEST * fmin(extent[0], extent[1])));
+    double largest = rule->largest > 0 ? rule->largest : fmax(size[along], fmin(extent[along], size[!along] / LARGEST));
+    int halved = !along || !outline_has_corners(rotor);
+    return refine ? largest / sqrt(refine) : halved ? 2 * largest : largest;
+}
+
+/* Without corners every element of the coarse mesh is cut into two, by which the errors of both have one ratio. */
+static int multiple_of(const struct rotor *rotor, int refine)
+{
+    return refine && !outline_has_corners(rotor) ? 2 : 1;
 }
 
 static int radial(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r)
@@ -134,7 +163,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
         stop[n++] = (struct stop){rotor->ring[i].inner / 2, 0, largest};
         stop[n++] = (struct stop){rotor->ring[i].outer / 2, 0, largest};
     }
-    return lines_graded(pool, stops_merge(n, stop, SAME * largest), stop, nr, r);
+    return lines_graded(pool, stops_merge(n, stop, SAME * largest), stop, multiple_of(rotor, refine), nr, r);
 }
 
 static int axial_stops(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nstop,
@@ -242,7 +271,7 @@ int outline_lines(struct pool *pool, const struct rotor *rotor, const struct sol
     if (!status)
         status = axial_stops(pool, rotor, rule, refine, &nstop, &stop);
     if (!status)
-        status = lines_graded(pool, nstop, stop, nz, z);
+        status = lines_graded(pool, nstop, stop, multiple_of(rotor, refine), nz, z);
     if (status)
         return status;
     int *fixed = fixed_lines(pool, nstop, stop, *nz, *z);

@@ -22,6 +22,12 @@ double outline_share(const struct rotor *rotor, int group, double r);
 /* Whether the end z of segment s < nsegment - 1 has a re-entrant corner at radius r. */
 int outline_corner(const struct rotor *rotor, int s, double r);
 
+/* Length over the largest diameter. */
+double outline_slenderness(const struct rotor *rotor);
+
+/* Whether any end of a segment has one. */
+int outline_has_corners(const struct rotor *rotor);
+
 /* Lines of constant r, x [*nr], and of constant z, z [*nz] with the segment [*nz - 1] of each slice. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
 int outline_lines(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r,

@@ -67,6 +67,9 @@ static int refuse_tubes(const struct rotor *rotor, int *failed)
 const char *solid_refusal(const struct rotor *rotor, int failed)
 {
     int rod = failed - rotor->ngroup, bars = rod - rotor->ntierod;
+    if (bars >= rotor->nbars && outline_slenderness(rotor) > SOLID_MOST_SLENDER)
+        return "the rotor is more than 1000 times as long as its largest diameter, which a solid loses in rounding, expected a "
+               "thicker one, or *FIT, MODEL=BEAM";
     if (bars >= rotor->nbars)
         return "a solid of this rotor has too many unknowns, expected fewer steps of the diameter, or *FIT, MODEL=BEAM";
     if (bars >= 0 || (rod >= 0 && rotor->tierod[rod].model == BUNDLE_TUBE))
@@ -86,6 +89,11 @@ const char *solid_refusal(const struct rotor *rotor, int failed)
                    "overlap, or *FIT, MODEL=BEAM";
     }
     return "the holes leave nothing of the annulus that they lie in, expected fewer or smaller ones";
+}
+
+int solid_has_corners(const struct rotor *rotor)
+{
+    return outline_has_corners(rotor);
 }
 
 static void hang(struct solid *solid)
@@ -277,6 +285,31 @@ void solid_element_motion(const struct solid *solid, const struct solid_element 
     }
     if (element->sensor >= 0)
         local[15] = (local[15] - element->at_sensor[0] * local[3] - element->at_sensor[2] * local[6]) / element->at_sensor[1];
+}
+
+void solid_rigid_motions(const struct solid *solid, double *u)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double *turn = u + mesh->ndof;
+    for (int i = 0; i < mesh->nnode; i++) {
+        const struct solid_node *node = &mesh->node[i];
+        for (int c = 2; c >= 0; c--) /* U last: on the axis V has its degree of freedom */
+            if (node->dof[c] >= 0) {
+                u[node->dof[c]] = c == 0 ? 1 : c == 1 ? -1 : 0;
+                turn[node->dof[c]] = c == 0 ? -node->z : c == 1 ? node->z : node->r;
+            }
+    }
+    for (int l = 0; l <= 2 * mesh->nslice; l++) /* a sensor is at a place of its own */
+        turn[mesh->node[mesh->surface[l]].dof[0]] = -mesh->surface_z[l];
+    for (int i = 0; i < solid->rotor.ntierod + solid->rotor.nbars; i++)
+        for (int l = 0; l <= mesh->nslice; l++) {
+            int dof = *solid_mesh_member_dof(mesh, i, l);
+            if (dof < 0)
+                continue;
+            u[dof] = turn[dof + 1] = 1;
+            u[dof + 1] = 0;
+            turn[dof] = -mesh->z[l];
+        }
 }
 
 void solid_strain_energy(const struct solid *solid, const double *u, double *energy)

@@ -28,13 +28,16 @@ struct solid {
 };
 
 /* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows
- * from the rotor; refine as for solid_mesh_build. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or bars in *failed
- * (groups, then tie rods, then bars, then the mesh as a whole). */
+ * from the rotor; refine as for solid_mesh_build. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or
+ * bars in *failed (groups, then tie rods, then bars, then the mesh as a whole). */
 int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                 const struct solid_rule *rule, int refine, struct solid *solid, int *failed);
 
 /* Why solid_build refused a rotor with ROTID_ERROR_SECTION and this *failed, and what was expected; to follow the place. */
 const char *solid_refusal(const struct rotor *rotor, int failed);
+
+/* Whether the outline has a re-entrant corner, where errors fall slower than elsewhere. */
+int solid_has_corners(const struct rotor *rotor);
 
 /* The same for a rotor of the same shape (rotor_same_shape) as that of `built`, whose mesh it shares. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
@@ -55,6 +58,9 @@ void solid_mass_properties(const struct solid *solid, struct mass_properties *pr
 
 /* U, V, W [24] of the nodes of an element in the motion u [ndof]. */
 void solid_element_motion(const struct solid *solid, const struct solid_element *element, const double *u, double *local);
+
+/* u [2 ndof]: U = 1, V = -1, W = 0, and U = -z, V = z, W = r. */
+void solid_rigid_motions(const struct solid *solid, double *u);
 
 /* Strain energy [J] of each element in the motion u [ndof], for the amplitude u: energy [nelement]. */
 void solid_strain_energy(const struct solid *solid, const double *u, double *energy);

@@ -4,6 +4,8 @@
 
 #include "hide_model.h"
 
+#define MOST_ELEMENTS 200 /* over a wall: kGS within 1e-7 */
+
 static const double pi = 3.14159265358979323846;
 
 struct moments {
@@ -104,12 +106,19 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     return (struct hide_section){bending * stiffness, shear * stiffness, mass, mass};
 }
 
-/* A part of the section with the effects on its group: parts turn and deflect alike, so theirs are sums. */
+struct wall { /* of a layered section, between two radii, with the effects on its group and thinned by holes */
+    double in, out, e, g, contraction; /* contraction: of the plane by axial strain */
+};
+
+/* A part of the section with the effects on its group: parts turn and deflect alike, so EI and mass are sums. */
 static void add_part(const struct hide_physics *physics, int group, const struct hide_segment *s, double stiff, double z,
-                     struct hide_section *section)
+                     struct hide_section *section, struct wall *wall)
 {
+    const struct hide_material *m = &physics->rotor->group[group].material;
     struct hide_section part;
+    struct moments whole = ring(stiff, s->inner);
     section_of(&physics->rotor->group[group], s, stiff, &part);
+    double g = hide_shear_modulus(m);
     for (int i = 0; i < physics->effects; i++) {
         struct hide_section f = factors(physics->rotor, &physics->effect[i], group, z);
         part.bending *= f.bending;
@@ -121,6 +130,61 @@ static void add_part(const struct hide_physics *physics, int group, const struct
     section->shear += part.shear;
     section->mass += part.mass;
     section->inertia += part.inertia;
+    double k = m->sheet_e > 0 ? of_sheets(m, s->inner / stiff) : oracle_cowper(m->nu, s->inner / stiff);
+    *wall = (struct wall){s->inner / 2, stiff / 2, part.bending / whole.second, part.shear / (k * whole.area), 0};
+    /* x = contraction G/E of the material itself: of what states E, G and nu that of the isotropic material of this nu */
+    double x = m->sheet_e > 0 ? m->nu * g / m->sheet_e : m->nu / (2 * (1 + m->nu));
+    wall->contraction = wall->g > 0 ? x * wall->e / wall->g : 0;
+}
+
+/* kGS of walls that touch, from the axis outwards: the axial displacement of a section in flexure by `each` linear elements a
+ * wall, its mean rotation weighted by E. */
+static double flexure(int walls, const struct wall *wall, int each)
+{
+    static double diagonal[(1 + HIDE_MOST_RINGS) * MOST_ELEMENTS + 1], off[sizeof diagonal / sizeof *diagonal],
+        load[sizeof diagonal / sizeof *diagonal], weight[sizeof diagonal / sizeof *diagonal];
+    double bending = 0, rotation = 0;
+    int n = walls * each;
+    for (int i = 0; i <= n; i++)
+        diagonal[i] = off[i] = load[i] = weight[i] = 0;
+    for (int i = 0; i < n; i++) {
+        const struct wall *w = &wall[i / each];
+        double h = (w->out - w->in) / each, from = w->in + h * (i % each);
+        for (int side = -1; side <= 1; side += 2) {
+            double t = 0.5 + side / sqrt(12), r = from + h * t, n0 = 1 - t, n1 = t, wide = h / 2, axial = w->e * r * r;
+            double poisson = w->g * w->contraction * r * r / 2;
+            bending += axial * r * wide;
+            weight[i] += axial * n0 * wide;
+            weight[i + 1] += axial * n1 * wide;
+            load[i] += (axial * n0 - poisson * (r / h + n0)) * wide;
+            load[i + 1] += (axial * n1 + poisson * (r / h - n1)) * wide;
+            diagonal[i] += w->g * (r / (h * h) + n0 * n0 / r) * wide;
+            diagonal[i + 1] += w->g * (r / (h * h) + n1 * n1 / r) * wide;
+            off[i] += w->g * (n0 * n1 / r - r / (h * h)) * wide;
+        }
+    }
+    for (int i = wall[0].in > 0 ? 0 : 1; i < n; i++) { /* on the axis there is none */
+        diagonal[i + 1] -= off[i] * off[i] / diagonal[i];
+        load[i + 1] -= off[i] / diagonal[i] * load[i];
+    }
+    for (int i = n; i >= (wall[0].in > 0 ? 0 : 1); i--) {
+        load[i] = (load[i] - (i < n ? off[i] * load[i + 1] : 0)) / diagonal[i];
+        rotation += weight[i] * load[i];
+    }
+    return pi * bending * bending / rotation;
+}
+
+/* Of a section with layers, its own part first; the limit of two meshes, whose errors fall as the square. */
+static double layered_shear(int walls, struct wall *wall)
+{
+    for (int i = 1; i < walls; i++)
+        for (int j = i; j > 0 && wall[j].in < wall[j - 1].in; j--) {
+            struct wall held = wall[j];
+            wall[j] = wall[j - 1];
+            wall[j - 1] = held;
+        }
+    double coarse = flexure(walls, wall, MOST_ELEMENTS / 2), fine = flexure(walls, wall, MOST_ELEMENTS);
+    return fine + (fine - coarse) / 3;
 }
 
 /* Of the length of every hub the middle part `share` is one piece with the shaft, which is that much thicker there. */
@@ -155,11 +219,14 @@ void hide_section_at(const struct hide_physics *physics, int segment, double z, 
     /* A cone from a solid end into a wide bore would leave nothing at all; a sleeve of 2 % of the wall keeps it one piece. */
     stiff = fmax(stiff, s->inner + 0.02 * (s->stiff - s->inner));
     *section = (struct hide_section){0, 0, 0, 0};
-    add_part(physics, s->group, s, stiff, z, section);
+    struct wall wall[1 + HIDE_MOST_RINGS];
+    add_part(physics, s->group, s, stiff, z, section, &wall[0]);
     for (int i = 0; i < s->rings; i++) {
         struct hide_segment ring = {.outer = s->ring[i].outer, .inner = s->ring[i].inner};
-        add_part(physics, s->ring[i].group, &ring, ring.outer, z, section);
+        add_part(physics, s->ring[i].group, &ring, ring.outer, z, section, &wall[1 + i]);
     }
+    if (s->rings)
+        section->shear = layered_shear(1 + s->rings, wall);
     for (int i = 0; i < physics->effects; i++) {
         const struct hide_effect *e = &physics->effect[i];
         if (hide_is(e, "hub_stiffness"))
