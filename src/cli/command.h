@@ -143,7 +143,6 @@ int command_ema(struct command *command);
 int command_uff(struct command *command);
 int command_report(struct command *command);
 int command_export(struct command *command);
-int command_import(struct command *command);
 int command_study(struct command *command);
 
 /* Of the build. */

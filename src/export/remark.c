@@ -1,4 +1,4 @@
-#include "export/remark.h"
+#include "export/export.h"
 
 #include <math.h>
 #include <stdarg.h>
