@@ -64,8 +64,6 @@ _rotid_options=(
     '--format:export:words:matrix-market dmig'
     '--start:export::'
     '--condensed:export::'
-    '-o --output:uff:files:unv|uff|uf'
-    '--format:uff:words:ascii binary'
     '-o --output:report:files:/'
     '-o --output:study:files:jsonl'
     '--shard:study:value:'

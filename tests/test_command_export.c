@@ -254,8 +254,8 @@ static void test_wrong_arguments(void **state)
     refuses("export plain.inp --format matrix-market --condensed -o x", 2, "--condensed is an option of --format dmig");
     refuses("modes plain.inp --start", 2, "--start is an option of export alone");
     refuses("identify plain.inp --condensed", 2, "--condensed is an option of export alone");
-    refuses("modes plain.inp --format dmig", 2, "--format is no option of modes");
-    refuses("uff plain.inp --format dmig -o x", 2, "expected ascii or binary");
+    refuses("modes plain.inp --format dmig", 2, "--format is an option of export alone");
+    refuses("uff plain.inp --format dmig", 2, "--format is an option of export alone");
     refuses("export plain.inp --format dmig -o ./plain.inp", 2, "is the file that is read");
     refuses("export plain.inp --format dmig -o x --json x", 2, "is the file of --json as well");
     refuses("export plain.inp --format matrix-market -o x --json x.mass.mtx", 2, "would write x.mass.mtx, the file of --json");

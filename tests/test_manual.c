@@ -169,7 +169,6 @@ static const char *value_of(const char *command, const char *option)
                                             {"--set-up-cost", "20"},
                                             {"--output", "/x/y"},
                                             {"-o", "/x/y"},
-                                            {"--format", "ascii -o /x/y"},
                                             {"--band", "1,2"},
                                             {"--method", "lscf"},
                                             {"--order", "4"},

@@ -119,7 +119,5 @@ int arguments_refuse(const struct command *command, const struct command_entry *
     else if (command->changed && command->extended)
         return arguments_wrong("--extended %s does not go with --changed, which holds the model that it says nothing of",
                                command->extended);
-    else if (arguments_given(command, "format") && !command->output)
-        return arguments_wrong("--format %s: expected --output as well", arguments_given(command, "format"));
     return refused >= 0 ? refused : refuse_files(command);
 }

@@ -38,10 +38,9 @@ const struct command_entry command_table[] = {
      "rotid export rotor.inp --format matrix-market -o rotor\n"
      "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",
      "inp", command_export, READS_DECK},
-    {"uff", "what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back",
+    {"uff", "what a universal file holds, and what is doubtful in it",
      "rotid uff records.unv --verbose\n"
-     "rotid uff modes.unv --csv modes\n"
-     "rotid uff records.unv --format binary -o records.uff",
+     "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},
     {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page",
      "json|jsonl", command_report, SEVERAL_FILES},

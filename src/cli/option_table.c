@@ -12,7 +12,7 @@
 #define FROM(A, B)  .least = (A), .most = (B)
 #define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
 
-static const char *const formats[] = {"ascii", "binary", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
+static const char *const estimators[] = {"H1", "H2", "HV", NULL};
 
 /* clang-format off */
 const struct option_row option_table[] = {
@@ -126,10 +126,6 @@ const struct option_row option_table[] = {
      .help = "the model as the deck states it, not at identified parameters"},
     {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
      .help = "dmig: the model condensed onto the sensors"},
-
-    {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
-    {.name = "format", .commands = "uff", .kind = OPTION_WORD, AT(format), .words = formats,
-     .help = "with --output: of the functions in it"},
 
     {OUTPUT(.commands = "report", .value = "FOLDER", .files = "/",
             .help = "for the page, index.html, and for scripts and pictures of its figures",

@@ -57,7 +57,7 @@ static void check_sets(struct search *search)
             seen = listing->set[j].set.number == set->set.number;
         if (set->is_faulty)
             add(search, "malformed", set->set.line, "set %d is malformed and was read over", set->set.number);
-        else if (!set->is_read && !seen)
+        else if (!set->is_read && !seen && !name_of_set(set->set.number))
             add(search, "unknown_set", set->set.line, "sets %d are not known here and were read over", set->set.number);
     }
     if (!listing->units && (listing->function_count || listing->node_count))

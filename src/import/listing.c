@@ -104,38 +104,19 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     return ROTID_OK;
 }
 
-static int read_rest(struct listing_work *job, struct listing_set *set)
+static int read_header(struct listing_work *job)
 {
-    struct listing *listing = job->listing;
-    int count = 0, status;
-    if (set->set.number == 151) {
-        struct uff_header *header = POOL_NEW(job->pool, struct uff_header);
-        status = header ? uff_read_header(job->reader, header) : ROTID_ERROR_MEMORY;
-        listing->header = status ? listing->header : header;
-    } else if (set->set.number == 164) {
-        struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
-        status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
-        listing->units = status ? listing->units : units;
-    } else if (set->set.number == 82) {
-        struct uff_trace trace = {0};
-        status = uff_read_trace(job->reader, &job->scratch, &trace);
-        count = trace.node_count;
-        listing->trace_count += !status;
-    } else if (set->set.number == 2412) {
-        struct uff_element *element;
-        status = uff_read_elements(job->reader, &job->scratch, &count, &element);
-        listing->element_count += status ? 0 : count;
-    } else if (set->set.number == 2414) {
-        struct uff_analysis analysis = {0};
-        status = uff_read_analysis(job->reader, &job->scratch, &analysis);
-        count = analysis.item_count;
-        listing->analysis_count += !status;
-    } else {
-        struct uff_system *system;
-        status = uff_read_systems(job->reader, &job->scratch, &count, &system);
-        listing->system_count += status ? 0 : count;
-    }
-    set->size = count;
+    struct uff_header *header = POOL_NEW(job->pool, struct uff_header);
+    int status = header ? uff_read_header(job->reader, header) : ROTID_ERROR_MEMORY;
+    job->listing->header = status ? job->listing->header : header;
+    return status;
+}
+
+static int read_units(struct listing_work *job)
+{
+    struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
+    int status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
+    job->listing->units = status ? job->listing->units : units;
     return status;
 }
 
@@ -150,14 +131,10 @@ static int read_set(struct listing_work *job, struct listing_set *set)
         return read_shape(job, set);
     case 58:
         return read_function(job, set);
-    case 18:
-    case 82:
     case 151:
+        return read_header(job);
     case 164:
-    case 2412:
-    case 2414:
-    case 2420:
-        return read_rest(job, set);
+        return read_units(job);
     default:
         return UFF_END; /* read over */
     }

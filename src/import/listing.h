@@ -22,9 +22,9 @@ struct listing_shape {
 
 struct listing_set {
     struct uff_set set;
-    int is_read;    /* it was malformed otherwise, or its type is not known */
+    int is_read;    /* else it is malformed or was read over */
     int is_faulty;  /* malformed */
-    long long size; /* nodes, elements, values, ... that it holds */
+    long long size; /* nodes or values that it holds */
     int item;       /* number of the function or the shape, from 0; -1 */
 };
 
@@ -35,8 +35,7 @@ struct listing_doubt {
 };
 
 struct listing {
-    int set_count, function_count, shape_count, node_count, trace_count, system_count, group_count;
-    long long element_count, analysis_count;
+    int set_count, function_count, shape_count, node_count, group_count;
     int faulty_count;
     struct listing_set *set;
     struct listing_function *function;

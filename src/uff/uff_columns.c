@@ -41,21 +41,6 @@ int uff_read_integers(struct uff_lines *lines, int count, const char *what, int 
     return ROTID_OK;
 }
 
-int uff_parse_integers(struct uff_lines *lines, int left, const char *what, int *integer, int *taken)
-{
-    struct uff_field field[UFF_VALUE_LIMIT + 1];
-    int found = uff_split_blanks(lines, field, UFF_VALUE_LIMIT + 1);
-    *taken = left < 8 ? left : 8;
-    if (found > *taken && found <= left && found <= UFF_VALUE_LIMIT)
-        *taken = found;
-    struct uff_form form = {.integers = found > left && found <= 8 ? found : *taken, .integer_width = 10};
-    int status = uff_parse_line(lines, &form, what, integer, NULL);
-    for (int i = *taken; i < form.integers && status == ROTID_OK; ++i)
-        if (integer[i])
-            status = uff_fail(lines, (int)field[i].start + 1, "%s: found one more; expected %d in this line", what, *taken);
-    return status;
-}
-
 int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,
                       long long *value)
 {

@@ -26,27 +26,6 @@ struct uff_node { /* sets 15, 781, 2411 */
     double x[3];
 };
 
-struct uff_system { /* coordinate systems, sets 18 and 2420 */
-    int id, type;   /* 0 cartesian, 1 cylindrical, 2 spherical */
-    int color, reference;
-    char name[41];
-    double origin[3];
-    double matrix[9]; /* [3 * 3] rows: the axes x, y, z of the system in the reference system */
-};
-
-struct uff_element {    /* set 2412 */
-    int id, descriptor; /* 11, 21 to 24: rods and beams, which have one record more */
-    int property, material, color;
-    int beam[3]; /* orientation node, fore-end and aft-end cross section; of beams */
-    int node_count, *node;
-};
-
-struct uff_trace { /* lines, set 82 */
-    int number, color;
-    char name[UFF_TEXT + 1];
-    int node_count, *node; /* 0 lifts the pen */
-};
-
 struct uff_shape { /* one set 55 */
     int line;      /* of the '-1' that opens the set, from 1 */
     char id[UFF_ID_LINES][UFF_TEXT + 1];
@@ -114,21 +93,6 @@ struct uff_function { /* sets 58 and 58b without their values */
     double start, step; /* of an even abscissa */
     double z;
     struct uff_axis abscissa, numerator, denominator, z_axis;
-};
-
-/* Set 2414, analysis data at nodes or elements. Values are kept as the file orders them. */
-struct uff_analysis {
-    int line, label;
-    char name[UFF_TEXT + 1];
-    int location; /* 1 at nodes, 2 on elements, 3 at nodes on elements, 5 at points; others are not read */
-    char id[UFF_ID_LINES][UFF_TEXT + 1];
-    int model_type, analysis_type, data_characteristic, result_type, data_type, value_count; /* record 9 */
-    int integer[18];                                                                         /* records 10 and 11 */
-    double real[12];                                                                         /* records 12 and 13 */
-    int item_count;                                                                          /* nodes or elements */
-    int *item;                                                                               /* [item_count] labels */
-    int *item_offset; /* [item_count + 1] into value, in doubles */
-    double *value;    /* complex: real and imaginary part in turn */
 };
 
 #endif

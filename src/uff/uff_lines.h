@@ -87,10 +87,6 @@ int uff_read_integers(struct uff_lines *lines, int count, const char *what, int 
 int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
                      int *taken);
 
-/* The integers of the current line, 8 columns of 10, of which `left` > 0 are still due: 8 or what is left, or in free format
- * more. To integer [UFF_VALUE_LIMIT]. */
-int uff_parse_integers(struct uff_lines *lines, int left, const char *what, int *integer, int *taken);
-
 /* Some integers of the current line whose other contents are not known yet: value[i] from column start[i] (from 0) of
  * width[i], or, unless every one of them is there, blank-separated field number field[i] (from 0). Nonzero when found. */
 int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,

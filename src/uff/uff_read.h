@@ -39,11 +39,7 @@ int uff_return_to(struct uff_reader *reader, const struct uff_set *set);
 int uff_read_header(struct uff_reader *reader, struct uff_header *header);                                     /* 151 */
 int uff_read_units(struct uff_reader *reader, struct uff_units *units);                                        /* 164 */
 int uff_read_nodes(struct uff_reader *reader, struct pool *pool, int *count, struct uff_node **node);          /* 15, 781, 2411 */
-int uff_read_systems(struct uff_reader *reader, struct pool *pool, int *count, struct uff_system **system);    /* 18, 2420 */
-int uff_read_elements(struct uff_reader *reader, struct pool *pool, int *count, struct uff_element **element); /* 2412 */
-int uff_read_trace(struct uff_reader *reader, struct pool *pool, struct uff_trace *trace);                     /* 82 */
 int uff_read_shape_set(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape);                 /* 55 */
-int uff_read_analysis(struct uff_reader *reader, struct pool *pool, struct uff_analysis *analysis);            /* 2414 */
 
 /* The records 1 to 11 of a set 58 or 58b, then, in pieces of any length, its values in turn: `*got` <= most of them, x (of an
  * uneven abscissa as in the file, else start + i step; or NULL), real, imag (0 for real data; or NULL). ROTID_OK with *got = 0 at

@@ -57,13 +57,6 @@ const struct uff_record uff_kind_55 = {
     WHOLE(uff_shape, specific_type, 30, 10),
     WHOLE(uff_shape, data_type, 40, 10),
     WHOLE(uff_shape, component_count, 50, 10)}};
-const struct uff_record uff_kind_2414 = {"record 9 (model, analysis, characteristic, result, data type, values)", 1, 6, {
-    WHOLE(uff_analysis, model_type, 0, 10),
-    WHOLE(uff_analysis, analysis_type, 10, 10),
-    WHOLE(uff_analysis, data_characteristic, 20, 10),
-    WHOLE(uff_analysis, result_type, 30, 10),
-    WHOLE(uff_analysis, data_type, 40, 10),
-    WHOLE(uff_analysis, value_count, 50, 10)}};
 
 const struct uff_record uff_location_58 = {
     "record 6 (function type, number, version, load case, response, reference)", 0, 10, {
@@ -97,25 +90,7 @@ AXIS(uff_abscissa_58, "record 8 (abscissa)", abscissa);
 AXIS(uff_ordinate_58, "record 9 (ordinate)", numerator);
 AXIS(uff_denominator_58, "record 10 (ordinate denominator)", denominator);
 AXIS(uff_z_axis_58, "record 11 (z axis)", z_axis);
-
-const struct uff_record uff_element_2412 = {
-    "an element (label, descriptor, property, material, color, number of nodes)", 1, 6, {
-    WHOLE(uff_element, id, 0, 10),
-    WHOLE(uff_element, descriptor, 10, 10),
-    WHOLE(uff_element, property, 20, 10),
-    WHOLE(uff_element, material, 30, 10),
-    WHOLE(uff_element, color, 40, 10),
-    WHOLE(uff_element, node_count, 50, 10)}};
-const struct uff_record uff_beam_2412 = {"orientation node and cross sections of a beam", 1, 3, {
-    WHOLE(uff_element, beam[0], 0, 10),
-    WHOLE(uff_element, beam[1], 10, 10),
-    WHOLE(uff_element, beam[2], 20, 10)}};
 /* clang-format on */
-
-int uff_is_beam(int descriptor)
-{
-    return descriptor == 11 || (descriptor >= 21 && descriptor <= 24);
-}
 
 /* ---- reading */
 

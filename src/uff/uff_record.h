@@ -1,6 +1,5 @@
 /* Lines of universal files with what stands in them, for both directions: which columns, and which member of the struct. From one
- * layout follow uff_read_record and uff_put_record. Sets whose lines hold something else than a struct of uff_data.h, such as the
- * points of set 18, are code. Internal to uff_*.c. */
+ * layout follow uff_read_record and uff_put_record. Internal to uff_*.c. */
 #ifndef ROTID_UFF_UFF_RECORD_H
 #define ROTID_UFF_UFF_RECORD_H
 
@@ -25,12 +24,8 @@ struct uff_record {
 };
 
 /* By set and record. */
-extern const struct uff_record uff_units_164, uff_node_15, uff_node_2411, uff_place_2411, uff_kind_55, uff_kind_2414,
-    uff_location_58, uff_form_58, uff_abscissa_58, uff_ordinate_58, uff_denominator_58, uff_z_axis_58, uff_element_2412,
-    uff_beam_2412;
-
-/* Rods and beams have a record for orientation and cross sections before their nodes. */
-int uff_is_beam(int descriptor);
+extern const struct uff_record uff_units_164, uff_node_15, uff_node_2411, uff_place_2411, uff_kind_55,
+    uff_location_58, uff_form_58, uff_abscissa_58, uff_ordinate_58, uff_denominator_58, uff_z_axis_58;
 
 /* The next line, or the one at hand, to the members of the struct `to`. */
 int uff_read_record(struct uff_lines *lines, const struct uff_record *record, void *to);

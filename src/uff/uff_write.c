@@ -53,34 +53,3 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
     }
     return uff_put_close(&put);
 }
-
-int uff_write_elements(FILE *stream, int count, const struct uff_element *element)
-{
-    struct uff_put put;
-    if (count < 0)
-        return ROTID_ERROR_ARGUMENT;
-    uff_put_open(&put, stream, 2412);
-    for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
-        const struct uff_element *e = &element[i];
-        if (e->node_count < 1)
-            return ROTID_ERROR_ARGUMENT;
-        uff_put_record(&put, &uff_element_2412, e);
-        if (uff_is_beam(e->descriptor))
-            uff_put_record(&put, &uff_beam_2412, e);
-        uff_put_integers(&put, 10, 8, e->node_count, e->node);
-    }
-    return uff_put_close(&put);
-}
-
-int uff_write_trace(FILE *stream, const struct uff_trace *trace)
-{
-    const int record[] = {trace->number, trace->node_count, trace->color};
-    struct uff_put put;
-    if (trace->node_count < 0)
-        return ROTID_ERROR_ARGUMENT;
-    uff_put_open(&put, stream, 82);
-    uff_put_integers(&put, 10, 3, 3, record);
-    uff_put_text_line(&put, trace->name);
-    uff_put_integers(&put, 10, 8, trace->node_count, trace->node);
-    return uff_put_close(&put);
-}

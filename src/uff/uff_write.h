@@ -13,15 +13,11 @@
 int uff_write_header(FILE *stream, const struct uff_header *header);                /* 151 */
 int uff_write_units(FILE *stream, const struct uff_units *units);                   /* 164 */
 int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node); /* 15 or 2411 */
-int uff_write_elements(FILE *stream, int count, const struct uff_element *element); /* 2412 */
-int uff_write_trace(FILE *stream, const struct uff_trace *trace);                   /* 82 */
 int uff_write_shape(FILE *stream, const struct uff_shape *shape);                   /* 55 */
-int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis);          /* 2414, at nodes or on elements */
 
-/* Set 58, or 58b in the byte order of function->binary.order with IEEE numbers when function->binary.is_binary. The values come
- * in pieces: uff_write_function writes the records before them, uff_write_values any number of values (x only of an uneven
- * abscissa, imag only of complex ones), until function->count are there; uff_end_function closes the set. The bytes of a 58b that
- * are missing at its end are ROTID_ERROR_ARGUMENT. */
+/* Set 58, as text; function->binary.is_binary is ROTID_ERROR_ARGUMENT. The values come in pieces: uff_write_function writes the
+ * records before them, uff_write_values any number of values (x only of an uneven abscissa, imag only of complex ones), until
+ * function->count are there; uff_end_function closes the set. */
 struct uff_function_writer {
     FILE *stream;
     const struct uff_function *function;

@@ -64,35 +64,3 @@ int uff_write_shape(FILE *stream, const struct uff_shape *shape)
     }
     return uff_put_close(&put);
 }
-
-/* Record 14 at nodes and on elements; the other locations have more in it than the struct holds. */
-static void put_item(struct uff_put *put, const struct uff_analysis *analysis, int i)
-{
-    int first = analysis->item_offset[i], count = analysis->item_offset[i + 1] - first;
-    int is_complex = analysis->data_type >= 5;
-    uff_put_integer(put, 10, analysis->item[i]);
-    if (analysis->location == 2)
-        uff_put_integer(put, 10, is_complex ? count / 2 : count);
-    uff_put_line(put);
-    uff_put_reals(put, 13, 5, 6, count, analysis->value + first);
-}
-
-int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis)
-{
-    if ((analysis->location != 1 && analysis->location != 2) || analysis->item_count < 0)
-        return ROTID_ERROR_ARGUMENT;
-    struct uff_put put;
-    uff_put_open(&put, stream, 2414);
-    uff_put_integer(&put, 10, analysis->label);
-    uff_put_line(&put);
-    uff_put_text_line(&put, analysis->name);
-    uff_put_integer(&put, 10, analysis->location);
-    uff_put_line(&put);
-    put_ids(&put, analysis->id);
-    uff_put_record(&put, &uff_kind_2414, analysis);
-    uff_put_integers(&put, 10, 8, 16, analysis->integer);
-    uff_put_reals(&put, 13, 5, 6, 12, analysis->real);
-    for (int i = 0; i < analysis->item_count && put.status == ROTID_OK; ++i)
-        put_item(&put, analysis, i);
-    return uff_put_close(&put);
-}

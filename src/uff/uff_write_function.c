@@ -1,14 +1,11 @@
-/* Sets 58 and 58b. */
+/* Set 58. */
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "rotid.h"
 #include "uff/uff_record.h"
 #include "uff/uff_write.h"
 
-#define TEXT_LINES 11         /* records 1 to 11 */
-#define COUNT_MOST 9999999999 /* I10; the bytes fit into I12 then */
+#define COUNT_MOST 9999999999 /* I10 */
 
 static int is_complex(const struct uff_function *function)
 {
@@ -18,12 +15,6 @@ static int is_complex(const struct uff_function *function)
 static int is_double(const struct uff_function *function)
 {
     return function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-}
-
-/* Numbers per value, the abscissa among them. */
-static int numbers_of(const struct uff_function *function)
-{
-    return (function->is_even ? 0 : 1) + (is_complex(function) ? 2 : 1);
 }
 
 static void put_records(struct uff_put *put, const struct uff_function *function)
@@ -47,18 +38,9 @@ int uff_write_function(FILE *stream, const struct uff_function *function, struct
     struct uff_put put = {.stream = stream};
     *writer = (struct uff_function_writer){.stream = stream, .function = function};
     int known = function->ordinate == UFF_REAL_SINGLE || is_complex(function) || is_double(function);
-    if (!known || function->count < 0 || function->count > COUNT_MOST)
+    if (!known || function->binary.is_binary || function->count < 0 || function->count > COUNT_MOST)
         return ROTID_ERROR_ARGUMENT;
-    if (!function->binary.is_binary) {
-        uff_put_open(&put, stream, 58);
-    } else {
-        int order = function->binary.order;
-        long long bytes = function->count * numbers_of(function) * (is_double(function) ? 8 : 4);
-        if (order != 1 && order != 2)
-            return ROTID_ERROR_ARGUMENT;
-        if (fprintf(stream, "    -1\n%6db%6d%6d%12d%12lld%6d%6d%12d%12d\n", 58, order, 2, TEXT_LINES, bytes, 0, 0, 0, 0) < 0)
-            put.status = ROTID_ERROR_IO;
-    }
+    uff_put_open(&put, stream, 58);
     put_records(&put, function);
     return put.status;
 }
@@ -84,29 +66,6 @@ static int write_text(struct uff_function_writer *writer, int count, const doubl
     return ROTID_OK;
 }
 
-static int write_bytes(struct uff_function_writer *writer, int count, const double *number)
-{
-    unsigned char byte[3 * 8];
-    int wide = is_double(writer->function), size = wide ? 8 : 4;
-    for (int i = 0; i < count; ++i) {
-        uint64_t bits = 0;
-        if (wide) {
-            memcpy(&bits, &number[i], sizeof bits);
-        } else {
-            float single = (float)number[i];
-            uint32_t word;
-            if (isfinite(number[i]) && !isfinite(single))
-                return ROTID_ERROR_ARGUMENT;
-            memcpy(&word, &single, sizeof word);
-            bits = word;
-        }
-        for (int b = 0; b < size; ++b)
-            byte[size * i + (writer->function->binary.order == 1 ? b : size - 1 - b)] = (unsigned char)(bits >> (8 * b));
-    }
-    size_t bytes = (size_t)size * (size_t)count;
-    return fwrite(byte, 1, bytes, writer->stream) == bytes ? ROTID_OK : ROTID_ERROR_IO;
-}
-
 int uff_write_values(struct uff_function_writer *writer, long long count, const double *x, const double *real, const double *imag)
 {
     const struct uff_function *function = writer->function;
@@ -121,7 +80,7 @@ int uff_write_values(struct uff_function_writer *writer, long long count, const 
         number[n++] = real[i];
         if (pair)
             number[n++] = imag[i];
-        status = function->binary.is_binary ? write_bytes(writer, n, number) : write_text(writer, n, number, is_abscissa);
+        status = write_text(writer, n, number, is_abscissa);
     }
     if (status == ROTID_OK)
         writer->written += count;
