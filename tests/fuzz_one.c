@@ -15,7 +15,6 @@
 #include "study/stamp.h"
 #include "study/summary.h"
 #include "uff/uff.h"
-#include "uff/uff_read.h"
 
 static void require(int condition)
 {

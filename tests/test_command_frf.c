@@ -10,10 +10,10 @@
 
 #include "exact_receptance.h"
 #include "folder.h"
-#include "import/measurement.h"
+#include "import/import.h"
 #include "json_value.h"
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 #define TWO_PI 6.28318530717958647692
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"

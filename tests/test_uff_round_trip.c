@@ -6,8 +6,7 @@
 #include <unistd.h>
 
 #include "support.h"
-#include "uff/uff_read.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 static char path[] = "/tmp/test_uff_round_trip_XXXXXX";
 static struct message_list messages;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 static char *text;
 static size_t length;

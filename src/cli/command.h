@@ -4,7 +4,7 @@
 
 #include "deck/deck_text.h"
 #include "ema/ema.h"
-#include "import/measurement.h"
+#include "import/import.h"
 #include "report/csv.h"
 #include "report/terminal.h"
 #include "result/result.h"

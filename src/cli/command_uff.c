@@ -3,7 +3,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "import/listing.h"
+#include "import/import.h"
 #include "report/report_uff.h"
 
 /* The modes of the file as the tables of --csv. */

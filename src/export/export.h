@@ -103,9 +103,6 @@ void remark_condensed(const struct remark *remark, const struct export_model *mo
 /* A name as one word: other characters than letters, digits and _ . - become '_'. */
 void remark_word(FILE *stream, const char *name);
 
-/* The shortest decimal number that is read back as the same double; text [32]. */
-const char *remark_number(double value, char *text);
-
 /* K and M as Matrix Market files (Boisvert, Pozo, Remington 1996), which SciPy, MATLAB and Julia read: coordinate format with the
  * lower triangle for the full model, array format for the condensed one, 17 digits; and a table of the nodes. */
 

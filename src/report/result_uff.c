@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "import/names.h"
+#include "import/import.h"
 #include "result/uff.h"
 
 static const char *text_or_null(const char *text)

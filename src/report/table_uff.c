@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "import/names.h"
+#include "import/import.h"
 #include "report/layout.h"
 
 #define ROWS_MOST 40

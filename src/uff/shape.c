@@ -1,10 +1,10 @@
-/* Set 55, data at nodes: five lines of text, 6: what the data are, 7 and 8: integers and reals of the analysis, then for each
- * node its number and its values. */
+#include "uff/reader.h"
+
 #include <limits.h>
 #include <math.h>
 
-#include "uff/uff_reader.h"
-#include "uff/uff_record.h"
+/* Set 55, data at nodes: five lines of text, 6: what the data are, 7 and 8: integers and reals of the analysis, then for each
+ * node its number and its values. */
 
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
 enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */
