@@ -44,8 +44,6 @@ def cards_of(source):
         if not line or line.startswith("**"):
             continue
         if line.startswith("*"):
-            if cards and cards[-1].pending:
-                cards[-1].wrong("goes on in the next line, which is a card", number - 1)
             cards.append(Card(source, number, line.rstrip(",")))
             cards[-1].pending = False
         elif not cards:

@@ -1,4 +1,6 @@
 """Nastran bulk data by pyNastran: CBAR and CBEAM along a line as a Rotor."""
+import contextlib
+import io
 import math
 
 import numpy as np
@@ -15,12 +17,14 @@ LEFT_OUT = {"SPC", "SPC1", "SPCADD", "MPC", "FORCE", "MOMENT", "GRAV", "EIGRL", 
 def from_nastran(source, units="SI"):
     """A bulk data file as a Rotor. units: SI, or MM for mm, t, N, MPa. CBAR with PBAR or PBARL, CBEAM with PBEAM or PBEAML, round sections;
     CONM2 as disks. RotidError with file and card for all that has no deck; constraints and loads are left out, with a warning."""
+    from cpylog import SimpleLogger
     from pyNastran.bdf.bdf import BDF
 
     scale = units_of(units)
-    model = BDF(debug=None)
+    model = BDF(debug=None, log=SimpleLogger("critical", log_func=lambda *_: None))
     try:
-        model.read_bdf(str(source), xref=False, punch=None if has_bulk(source) else True)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # pyNastran prints cards that it cannot read
+            model.read_bdf(str(source), xref=False, punch=None if has_bulk(source) else True)
     except OSError as error:
         refuse(source, None, f"cannot be read: {error.strerror or error}")
     except Exception as error:  # pyNastran raises RuntimeError, KeyError, SyntaxError, its own and bare ones for what is no bulk data
