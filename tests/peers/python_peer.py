@@ -181,9 +181,23 @@ def from_ross_means(checks, folder):
     path.write_text(json.dumps({"ross_version": "2.3.0", "parameters": {}, **many}))
     begin = time.process_time()
     rotor = rotid.from_ross(path)
-    rotid.rotor.deck_of(rotor)
+    text, _ = rotid.rotor.deck_of(rotor)
     spent = time.process_time() - begin
-    checks.true("from ROSS: 5,000 elements of one material name in a second", spent < 1 and len(rotor.stations) == 5000, f"{spent:.2f} s")
+    checks.true("from ROSS: 5,000 elements of two materials of one name in a second", spent < 1 and text.count("*SHAFT") == 5000
+                and text.count("*MATERIAL") == 2, f"{spent:.2f} s")
+    refused(checks, "from ROSS: more groups than a deck has cards", "more than 5000 cards", rotid.write_deck, rotor, deck, place=path)
+    path.write_text(json.dumps({"ross_version": "2.3.0", "parameters": {}, **dict(list(many.items())[:2000])}))
+    begin = time.monotonic()
+    written(rotid.from_ross(path), deck)
+    checks.true("from ROSS: 2,000 of them as a deck, read back", time.monotonic() - begin < 20 and rotid.run("check", deck)["elements"] == 2000,
+                f"{time.monotonic() - begin:.1f} s")
+    for n in range(5000):
+        many[f"ShaftElement_{n}"]["material"]["rho"] = 7850
+    path.write_text(json.dumps({"ross_version": "2.3.0", "parameters": {}, **many}))
+    begin = time.monotonic()
+    written(rotid.from_ross(path), deck)
+    checks.true("from ROSS: 5,000 sections of one material as a deck, read back", rotid.run("check", deck)["elements"] == 5000, "")
+    print(f"   5,000 elements: {spent:.2f} s of processor time for the text; of one material {time.monotonic() - begin:.2f} s to a deck that was read back")
     hostile = {"ShaftElement_\x1b[2J": element(2, L=None)}
     try:
         rotid.from_ross(saved(path, **hostile))

@@ -167,20 +167,22 @@ def deck_of(rotor):
     """The text, and what rotid check is to find in it."""
     names, cards, meant = Names(), [], {"groups": [], "disks": [], "springs": []}
     cards.append(f"*HEADING\n{heading_of(rotor.heading)}\n")
-    layers = []
+    layers, of_materials, known = [], Names(), {}
     for (materials, force), sections in groups_of(rotor):
         own = None
         for i, material in enumerate(materials):
             name = names(material.name)
             own = own or name
-            cards.append(material_cards(name, material))
+            if material not in known:
+                known[material] = of_materials(material.name)
+                cards.append(material_cards(known[material], material))
             if i:
                 rows = "".join(row(rings[i][0], rings[i][1]) for _, _, rings in sections)
-                cards.append(f"*LAYER, NAME={name}, GROUP={own}, MATERIAL={name}\n{rows}")
+                cards.append(f"*LAYER, NAME={name}, GROUP={own}, MATERIAL={known[material]}\n{rows}")
                 layers.append(group_meant(name, own, material, sections, i, 0.0))
                 continue
             rows = "".join(row(length, rings[0][0], rings[0][1], str(elements)) for length, elements, rings in sections)
-            cards.append(f"*SHAFT, NAME={name}, MATERIAL={name}\n{rows}")
+            cards.append(f"*SHAFT, NAME={name}, MATERIAL={known[material]}\n{rows}")
             meant["groups"].append(group_meant(name, None, material, sections, 0, force))
         if force:
             cards.append(f"*PRELOAD, GROUP={own}\n{row(force)}")
