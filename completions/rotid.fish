@@ -3,7 +3,7 @@
 set -l overrides 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY= NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
 complete -c rotid -f
 # what follows is written by make tables
-set -l commands check modes sensitivity identify diagnose suggest frf ema export import uff report study
+set -l commands check modes sensitivity identify diagnose suggest frf ema export uff report study
 set -l none "not __fish_seen_subcommand_from $commands"
 complete -c rotid -n $none -a check -d 'parse a deck; mass, centre of mass, length, mesh, sensors, warnings'
 complete -c rotid -n '__fish_seen_subcommand_from check' -k -a '(__fish_complete_suffix .inp; )'
@@ -21,11 +21,9 @@ complete -c rotid -n $none -a frf -d 'synthesised transfer functions with measur
 complete -c rotid -n '__fish_seen_subcommand_from frf' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a ema -d 'time records or transfer functions (58, 58b) to modes for *MEASURED'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -k -a '(__fish_complete_suffix .unv; __fish_complete_suffix .uff; __fish_complete_suffix .uf; )'
-complete -c rotid -n $none -a export -d 'the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script'
+complete -c rotid -n $none -a export -d 'the identified model for other programs: Matrix Market, Nastran DMIG'
 complete -c rotid -n '__fish_seen_subcommand_from export' -k -a '(__fish_complete_suffix .inp; )'
-complete -c rotid -n $none -a import -d 'a rotor that ROSS has saved (Rotor.save, JSON) as a deck'
-complete -c rotid -n '__fish_seen_subcommand_from import' -k -a '(__fish_complete_suffix .json; )'
-complete -c rotid -n $none -a uff -d 'what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back'
+complete -c rotid -n $none -a uff -d 'what a universal file holds, and what is doubtful in it'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -k -a '(__fish_complete_suffix .unv; __fish_complete_suffix .uff; __fish_complete_suffix .uf; )'
 complete -c rotid -n $none -a report -d 'results that were written with --json as a page with figures'
 complete -c rotid -n '__fish_seen_subcommand_from report' -k -a '(__fish_complete_suffix .json; __fish_complete_suffix .jsonl; )'
@@ -75,12 +73,9 @@ complete -c rotid -n '__fish_seen_subcommand_from ema' -l trigger-level -x -d 't
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l keep-double-hits -d 'time records: uses double hits too'
 complete -c rotid -n '__fish_seen_subcommand_from frf export' -l state -x -d 'that state of a deck with several, at values identified over all of them'
 complete -c rotid -n '__fish_seen_subcommand_from export' -s o -l output -r -F -d 'the model; of matrix-market the beginning of the names'
-complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig ross' -d 'for SciPy and others, for Nastran, for ROSS'
+complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig' -d 'for SciPy and others, for Nastran'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'the model as the deck states it, not at identified parameters'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l condensed -d 'dmig: the model condensed onto the sensors'
-complete -c rotid -n '__fish_seen_subcommand_from import' -s o -l output -r -F -d 'the deck'
-complete -c rotid -n '__fish_seen_subcommand_from uff' -s o -l output -r -F -d 'the file anew, its functions in the other format'
-complete -c rotid -n '__fish_seen_subcommand_from uff' -l format -x -a 'ascii binary' -d 'with --output: of the functions in it'
 complete -c rotid -n '__fish_seen_subcommand_from report' -s o -l output -r -F -d 'for the page, index.html, and for scripts and pictures of its figures'
 complete -c rotid -n '__fish_seen_subcommand_from study' -s o -l output -r -F -d 'the results, a line of JSON a run; where the file exists, what is missing in it is computed'
 complete -c rotid -n '__fish_seen_subcommand_from study' -l shard -x -d 'each N-th run from the I-th on, for an array of jobs'

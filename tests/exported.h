@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_EXPORTED_H
 #define ROTID_TESTS_EXPORTED_H
 
-#include "export/model.h"
+#include "export/export.h"
 #include "export_readers.h"
 #include "support.h"
 

@@ -16,7 +16,6 @@
 #include "study/stamp.h"
 #include "study/summary.h"
 #include "uff/uff.h"
-#include "uff/uff_read.h"
 
 static void require(int condition)
 {
@@ -61,34 +60,21 @@ static int read_set(struct uff_reader *reader, struct pool *pool, int number)
     struct uff_header header;
     struct uff_units units;
     struct uff_node *node;
-    struct uff_system *system;
-    struct uff_element *element;
-    struct uff_trace trace;
     struct uff_shape shape;
-    struct uff_analysis analysis;
     int count;
     switch (number) {
     case 15:
     case 781:
     case 2411:
         return uff_read_nodes(reader, pool, &count, &node);
-    case 18:
-    case 2420:
-        return uff_read_systems(reader, pool, &count, &system);
     case 55:
         return uff_read_shape_set(reader, pool, &shape);
     case 58:
         return read_values(reader);
-    case 82:
-        return uff_read_trace(reader, pool, &trace);
     case 151:
         return uff_read_header(reader, &header);
     case 164:
         return uff_read_units(reader, &units);
-    case 2412:
-        return uff_read_elements(reader, pool, &count, &element);
-    case 2414:
-        return uff_read_analysis(reader, pool, &analysis);
     default:
         return ROTID_OK;
     }

@@ -11,7 +11,7 @@
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "hammer_bench.h"
-#include "import/modes.h"
+#include "import/import.h"
 #include "run/identify.h"
 
 #define RUNS  3 /* of the coverage in the suite, which make chain counts */

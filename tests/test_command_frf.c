@@ -10,10 +10,10 @@
 
 #include "exact_receptance.h"
 #include "folder.h"
-#include "import/measurement.h"
+#include "import/import.h"
 #include "json_value.h"
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 #define TWO_PI 6.28318530717958647692
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -315,7 +315,7 @@ static void what_cannot_be_synthesised_is_refused(void **state)
     }
     assert_int_equal(frf(""), 2);
     assert_int_equal(frf_of(PAPER, "--extended x"), 2);
-    assert_int_equal(frf_of(PAPER, "--format binary -o x"), 2);
+    assert_int_equal(frf_of(PAPER, "--format dmig -o x"), 2);
     assert_int_equal(frf_of(PAPER, "-o /nowhere/at/all.uff"), 3);
     assert_non_null(strstr(errors, "cannot write /nowhere/at/all.uff"));
     assert_int_equal(frf_of(PAPER, "--json /nowhere/at/all.json"), 3);

@@ -1,7 +1,8 @@
-/* rotid uff as its users see it: the listing and the doubtful places. */
+/* rotid uff as its users see it: the listing, the doubtful places, refusals. */
 #include <cJSON.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "support.h"
 #include "uff_program.h"
@@ -102,12 +103,72 @@ static void a_long_table_is_cut(void **state)
     assert_null(strstr(uff_output, "more sets"));
 }
 
+/* Sets of geometry that rotid uses nothing of are named and read over, whatever they hold. */
+static void sets_that_are_not_used_are_read_over(void **state)
+{
+    (void)state;
+    static const int sets[] = {18, 82, 2412, 2414, 2420};
+    FILE *stream = create("over.uff");
+    for (int i = 0; i < 5; i++)
+        (void)fprintf(stream, "    -1\n%6d\nno numbers at all\n    -1\n", sets[i]);
+    assert_status(uff_write_units(stream, &uff_si), ROTID_OK);
+    assert_int_equal(fclose(stream), 0);
+    doubts_are("over.uff", ",");
+    says("over.uff", 0, "elements                 read over");
+    assert_int_equal(run("over.uff --json -"), 0);
+    cJSON *json = cJSON_Parse(uff_output);
+    for (int i = 0; i < 6; i++) {
+        const cJSON *set = cJSON_GetArrayItem(cJSON_GetObjectItem(json, "sets"), i);
+        assert_string_equal(cJSON_GetObjectItem(set, "state")->valuestring, i < 5 ? "read_over" : "read");
+    }
+    cJSON_Delete(json);
+}
+
+static void wrong_usage_is_told(void **state)
+{
+    (void)state;
+    make_sound("sound.uff");
+    says("", 2, "uff: no file given");
+    says("missing.uff", 2, "missing.uff:1:1: cannot be opened");
+    says("sound.uff -o out.uff", 2, "is no option of uff");
+    says("sound.uff --json sound.uff", 2, "is the file that is read");
+    says("sound.uff --extended out.inp", 2, "--extended is no option of uff, but of diagnose suggest");
+    assert_false(is_there("out.uff"));
+    FILE *stream = create("notes.txt");
+    (void)fputs("no universal file at all\n", stream);
+    assert_int_equal(fclose(stream), 0);
+    says("notes.txt", 2, "no universal file");
+}
+
+static void a_truncated_file_is_listed_and_has_no_tables(void **state)
+{
+    (void)state;
+    make_sound("cut.uff");
+    assert_int_equal(truncate(path_of("cut.uff"), 60000), 0);
+    says("cut.uff", 1, "2 transfer functions");
+    assert_non_null(strstr(uff_output, "MALFORMED"));
+    says("cut.uff --csv out", 2, "out is not written");
+    assert_int_equal(count_files("out"), 0);
+}
+
+static void a_full_disk_is_told(void **state)
+{
+    (void)state;
+    make_sound("sound.uff");
+    says("sound.uff 3>&1 > /dev/full 2>&3 #", 3, "cannot write to standard output");
+    says("sound.uff --quiet --json /dev/full", 3, "cannot write /dev/full");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_listing_begins_with_what_there_is),
         cmocka_unit_test(doubtful_places_are_found),
         cmocka_unit_test(a_long_table_is_cut),
+        cmocka_unit_test(sets_that_are_not_used_are_read_over),
+        cmocka_unit_test(wrong_usage_is_told),
+        cmocka_unit_test(a_truncated_file_is_listed_and_has_no_tables),
+        cmocka_unit_test(a_full_disk_is_told),
     };
     return cmocka_run_group_tests(tests, make_directory, remove_directory);
 }

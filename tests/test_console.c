@@ -20,7 +20,7 @@ static void help_has_examples_that_the_command_takes(void **state)
 {
     (void)state;
     for (const char *const *c = (const char *const[]){"check", "modes", "sensitivity", "identify", "diagnose", "frf", "ema",
-                                                      "export", "import", "uff", "report", "study", NULL};
+                                                      "export", "uff", "report", "study", NULL};
          *c; c++) {
         const char *help = shell(&test_pool, ROTID_PROGRAM " %s -h", *c), *line = strstr(help, "examples:\n"), *output;
         assert_string_equal(help, shell(&test_pool, ROTID_PROGRAM " %s --help", *c));

@@ -10,7 +10,7 @@
 #include "folder.h"
 #include "report/csv.h"
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 #define TABLES   ROTID_SOURCE_DIR "/tests/data/tables/"
 #define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"

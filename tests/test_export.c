@@ -3,9 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "export/dmig.h"
-#include "export/matrix_market.h"
-#include "export/remark.h"
+#include "export/export.h"
 #include "exported.h"
 #include "linalg/matrix.h"
 

@@ -17,6 +17,7 @@
 
 #define DECK    ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define UFF     ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff"
+#define MODES   ROTID_SOURCE_DIR "/tests/data/uff/real_modes.uff"
 #define LIMITED "timeout -s KILL 120 " ROTID_PROGRAM " "
 
 static char folder[] = "/tmp/test_limits_XXXXXX";
@@ -155,10 +156,10 @@ static void what_is_read_twice_is_no_pipe(void **state)
     const char *output;
     assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "ema /dev/stdin 2>&1"), 2);
     assert_non_null(strstr(output, "/dev/stdin:1:1: this is no regular file, expected one"));
-    assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "uff /dev/stdin -o %s/copy 2>&1", folder), 2);
+    assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "uff /dev/stdin --csv %s/copy 2>&1", folder), 2);
     assert_non_null(strstr(output, "/dev/stdin is a pipe, expected a regular file"));
-    (void)shell_code(&test_pool, NULL, LIMITED "uff /dev/stdin -o %s/copy --quiet < " UFF, folder);
-    (void)shell(&test_pool, "cd %s && rm copy", folder);
+    (void)shell_code(&test_pool, NULL, LIMITED "uff /dev/stdin --csv %s/copy --quiet < " MODES, folder);
+    (void)shell(&test_pool, "cd %s && rm copy.modes.csv copy.shapes.csv", folder);
 }
 
 /* ---- signals */

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "import/listing.h"
+#include "import/import.h"
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 static char path[] = "/tmp/test_listing_XXXXXX";
 

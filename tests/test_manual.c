@@ -148,7 +148,7 @@ static void bash_offers_every_command_and_option(void **state)
  * in order. */
 static const char *value_of(const char *command, const char *option)
 {
-    static const char *const values[][2] = {{"export --format", "ross"},
+    static const char *const values[][2] = {{"export --format", "dmig"},
                                             {"--json", "-"},
                                             {"--threads", "1"},
                                             {"--seed", "1"},
@@ -169,7 +169,6 @@ static const char *value_of(const char *command, const char *option)
                                             {"--set-up-cost", "20"},
                                             {"--output", "/x/y"},
                                             {"-o", "/x/y"},
-                                            {"--format", "ascii -o /x/y"},
                                             {"--band", "1,2"},
                                             {"--method", "lscf"},
                                             {"--order", "4"},
@@ -198,7 +197,7 @@ static const char *needs_of(const char *command, const char *option)
 {
     if (strcmp(command, "export") == 0)
         return "--format dmig -o /x/y";
-    if (strcmp(command, "report") == 0 || strcmp(command, "import") == 0)
+    if (strcmp(command, "report") == 0)
         return "-o /x/y";
     return strcmp(command, "study") == 0 && strcmp(option, "--summary") != 0 ? "-o /x/y" : "";
 }

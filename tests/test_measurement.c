@@ -7,9 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "import/measurement.h"
+#include "import/import.h"
 #include "support.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 #define LINES 200
 #define STEP  0.5

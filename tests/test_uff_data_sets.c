@@ -1,4 +1,4 @@
-/* Sets 2414 and 55: data at nodes and on elements. */
+/* Set 55: data at nodes. */
 #include <stdio.h>
 
 #include "uff/uff.h"
@@ -6,172 +6,6 @@
 
 #define SET(number) UFF_EDGE #number "\n"
 #define TEXTS       "one\ntwo\nthree\nfour\nNONE\n"
-
-#define RECORDS(location, kind)                                                                                                  \
-    SET(2414)                                                                                                                    \
-    "         9\nname\n" location "\n" TEXTS kind "\n"                                                                           \
-    "         1         0         1         0         1        17         0         0\n         5         6\n"                   \
-    "  0.00000E+00  1.25000E+01  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00\n"                                           \
-    "  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  7.00000E+00\n"
-
-static void analysis(void **state)
-{
-    (void)state;
-    struct uff_fixture fixture;
-    struct uff_analysis a;
-    uff_fixture_text(
-        &fixture,
-        RECORDS(
-            "         1",
-            "         1         2         2         8         2         3") "        11\n "
-                                                                            "-1.00000e+00-2.00000e+00-3.00000e+00\n    "
-                                                                            "    12\n"
-                                                                            "  4.00000E+00  5.00000E+00  "
-                                                                            "6.00000E+00\n" UFF_EDGE RECORDS(
-                                                                                "         "
-                                                                                "1",
-                                                                                "         "
-                                                                                "1        "
-                                                                                " 5       "
-                                                                                "  2      "
-                                                                                "   8     "
-                                                                                "    5    "
-                                                                                "     2") "        11\n  1.00000E+00  "
-                                                                                          "2.00000E+00  3.00000E+00  "
-                                                                                          "4.00000E+00\n" UFF_EDGE RECORDS(
-                                                                                              "     "
-                                                                                              "    "
-                                                                                              "2",
-                                                                                              "     "
-                                                                                              "    "
-                                                                                              "1    "
-                                                                                              "  "
-                                                                                              "   2 "
-                                                                                              "     "
-                                                                                              "   4 "
-                                                                                              " "
-                                                                                              "     "
-                                                                                              "  2  "
-                                                                                              "     "
-                                                                                              " "
-                                                                                              " 2   "
-                                                                                              "     "
-                                                                                              " 6") "         3         7\n 1 2 "
-                                                                                                    "3 4 5 6\n 7\n         4     "
-                                                                                                    "    1\n-1\n" UFF_EDGE RECORDS(
-                                                                                                        "         3",
-                                                                                                        "         1         "
-                                                                                                        "2         "
-                                                                                                        "1         2         "
-                                                                                                        "4         "
-                                                                                                        "1") "         3     "
-                                                                                                             "    1     "
-                                                                                                             "    2         "
-                                                                                                             "1\n  "
-                                                                                                             "1.00000000000E+"
-                                                                                                             "00\n  "
-                                                                                                             "2.00000000000E+"
-                                                                                                             "00\n"
-                                                                                                             "         4     "
-                                                                                                             "    2     "
-                                                                                                             "    8         "
-                                                                                                             "1\n  "
-                                                                                                             "3.00000000000E+"
-                                                                                                             "00\n" UFF_EDGE RECORDS(
-                                                                                                                 "         6",
-                                                                                                                 "         1 "
-                                                                                                                 "        2 "
-                                                                                                                 "        1  "
-                                                                                                                 "       2  "
-                                                                                                                 "       2   "
-                                                                                                                 "      1")
-                                                                                                                 UFF_EDGE RECORDS(
-                                                                                                                     "       "
-                                                                                                                     "  1",
-                                                                                                                     "       "
-                                                                                                                     "  1    "
-                                                                                                                     "   "
-                                                                                                                     "  2    "
-                                                                                                                     "     1 "
-                                                                                                                     "   "
-                                                                                                                     "     2 "
-                                                                                                                     "       "
-                                                                                                                     " 3 "
-                                                                                                                     "       "
-                                                                                                                     " 1") UFF_EDGE
-                                                                                                                     RECORDS(
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         "1",
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         "1  "
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         " 2 "
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         "  "
-                                                                                                                         "1  "
-                                                                                                                         "   "
-                                                                                                                         " "
-                                                                                                                         "   "
-                                                                                                                         "2  "
-                                                                                                                         "   "
-                                                                                                                         "   "
-                                                                                                                         " 2 "
-                                                                                                                         "999"
-                                                                                                                         "999"
-                                                                                                                         "99"
-                                                                                                                         "9") "  "
-                                                                                                                              "  "
-                                                                                                                              "  "
-                                                                                                                              "  "
-                                                                                                                              " 1"
-                                                                                                                              "\n"
-                                                                                                                              " 1"
-                                                                                                                              "."
-                                                                                                                              "\n" UFF_EDGE);
-    static const struct {
-        int location, items, offset[3];
-        double value[8];
-    } expected[] = {{1, 2, {0, 3, 6}, {-1, -2, -3, 4, 5, 6}},
-                    {1, 1, {0, 4}, {1, 2, 3, 4}},
-                    {2, 2, {0, 7, 8}, {1, 2, 3, 4, 5, 6, 7, -1}},
-                    {3, 2, {0, 2, 3}, {1, 2, 3}}};
-    for (int k = 0; k < 4; ++k) {
-        (void)uff_fixture_next(&fixture, 2414);
-        int status = uff_read_analysis(fixture.reader, &fixture.pool, &a);
-        if (status != ROTID_OK)
-            print_message("%d: %s\n", fixture.messages.item[0].line, fixture.messages.item[0].text);
-        assert_int_equal(status, ROTID_OK);
-        assert_int_equal(a.label, 9);
-        assert_string_equal(a.name, "name");
-        assert_string_equal(a.id[3], "four");
-        assert_string_equal(a.id[4], "");
-        assert_int_equal(a.location, expected[k].location);
-        assert_int_equal(a.integer[5], 17);
-        assert_int_equal(a.integer[9], 6);
-        assert_close(a.real[1], 12.5, 0, 0);
-        assert_close(a.real[11], 7, 0, 0);
-        assert_int_equal(a.item_count, expected[k].items);
-        for (int i = 0; i <= a.item_count; ++i)
-            assert_int_equal(a.item_offset[i], expected[k].offset[i]);
-        for (int i = 0; i < a.item_offset[a.item_count]; ++i)
-            assert_close(a.value[i], expected[k].value[i], 0, 0);
-    }
-    uff_fixture_is_quiet(&fixture);
-    static const char *const wrong[] = {"location 6; expected 1", "record 9: data type 3",
-                                        "the set ends where 999999998 more values"};
-    for (int k = 0; k < 3; ++k) {
-        struct uff_set set = uff_fixture_next(&fixture, 2414);
-        int status = uff_read_analysis(fixture.reader, &fixture.pool, &a);
-        uff_fixture_refuses(&fixture, status, set.line + (int[]){14, 10, 17}[k], 0, wrong[k]);
-    }
-    uff_fixture_close(&fixture);
-}
 
 #define SHAPE(text, analysis, numbers)                                                                                           \
     SET(55) text "\ntwo\nthree\nfour\nfive\n" analysis "\n" numbers "         1\n  1.00000E+00\n" UFF_EDGE
@@ -234,6 +68,6 @@ static void shapes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(analysis), cmocka_unit_test(shapes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shapes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

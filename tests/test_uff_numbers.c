@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "support.h"
-#include "uff/uff_numbers.h"
+#include "uff/reader.h"
 
 static void check_as_strtod(const char *text)
 {

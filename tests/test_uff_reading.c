@@ -198,11 +198,7 @@ static int sweep_once(const char *path, const rotid_allocator *allocator)
     struct message_list messages;
     struct uff_reader *reader;
     struct uff_set set;
-    struct uff_system *system;
-    struct uff_element *element;
     struct uff_node *node;
-    struct uff_trace trace;
-    struct uff_analysis a;
     struct uff_shape shape;
     int count;
     pool_open(&pool, allocator);
@@ -211,15 +207,7 @@ static int sweep_once(const char *path, const rotid_allocator *allocator)
     while (status == ROTID_OK && (status = uff_next(reader, &set)) == ROTID_OK) {
         if (set.number == 15)
             status = uff_read_nodes(reader, &pool, &count, &node);
-        else if (set.number == 18)
-            status = uff_read_systems(reader, &pool, &count, &system);
-        else if (set.number == 2412)
-            status = uff_read_elements(reader, &pool, &count, &element);
-        else if (set.number == 82)
-            status = uff_read_trace(reader, &pool, &trace);
-        else if (set.number == 2414)
-            status = uff_read_analysis(reader, &pool, &a);
-        else
+        else if (set.number == 55)
             status = uff_read_shape_set(reader, &pool, &shape);
     }
     uff_close(reader);
@@ -230,11 +218,9 @@ static int sweep_once(const char *path, const rotid_allocator *allocator)
 static void memory_runs_out(void **state)
 {
     (void)state;
-    static const char text[] = SET(15) "1 0 0 8 1. 2. 3.\n" UFF_EDGE SET(18) "1 0 0 8 1\nCS\n0 0 0 1 0 0\n0 0 1\n" UFF_EDGE
-        SET(2412) "5 94 2 3 7 2\n11 12\n" UFF_EDGE SET(82) "3 3 8\nshaft\n1 2 3\n" UFF_EDGE SET(
-            2414) "9\nname\n1\n" TEXTS
-                  "1 2 2 8 2 3\n1 0 1 0 1 17 0 0\n0 0 0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 0\n11\n1. 2. 3.\n" UFF_EDGE SET(55)
-                      TEXTS "1 2 1 8 2 1\n2 1 3 4\n1.25\n1\n1.0\n" UFF_EDGE;
+    static const char text[] =
+        SET(15) "1 0 0 8 1. 2. 3.\n" UFF_EDGE SET(18) "1 0 0 8 1\nCS\n0 0 0 1 0 0\n0 0 1\n" UFF_EDGE SET(55) TEXTS
+        "1 2 1 8 2 1\n2 1 3 4\n1.25\n1\n1.0\n" UFF_EDGE;
     char path[512];
     uff_write_bytes(path, text, sizeof text - 1);
     int failures = 0;
@@ -246,7 +232,8 @@ static void memory_runs_out(void **state)
         assert_int_equal(failing.in_use, 0);
         assert_true(failures < 1000);
     }
-    assert_true(failures > 15);
+    print_message("%d allocations\n", failures);
+    assert_true(failures > 5);
     (void)unlink(path);
 }
 

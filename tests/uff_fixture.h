@@ -3,7 +3,7 @@
 #define ROTID_TESTS_UFF_FIXTURE_H
 
 #include "support.h"
-#include "uff/uff_read.h"
+#include "uff/uff.h"
 
 #define UFF_EDGE "    -1\n"
 

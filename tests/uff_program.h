@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 #define UFF_OUTPUT_LIMIT 65536
 extern char uff_folder[], uff_output[UFF_OUTPUT_LIMIT]; /* output: both streams of the last run */

@@ -179,12 +179,6 @@ static int is_spring(const struct beam *beam, const struct lumped *lumped)
     return lumped->effect >= beam->rotor.neffect;
 }
 
-const char *lumped_name(const struct beam *beam, const struct lumped *lumped)
-{
-    const struct rotor *rotor = &beam->rotor;
-    return is_spring(beam, lumped) ? rotor->spring[lumped->spring - 1].name : rotor->effect[lumped->effect].name;
-}
-
 static double place_in(const struct mesh *mesh, const struct lumped *lumped)
 {
     int e = lumped->element;

@@ -31,9 +31,6 @@ struct lumped { /* one of them; start with i = -1 and the rest 0 */
 /* The next one; 0 when there are no more. */
 int lumped_next(const struct beam *beam, struct lumped *lumped);
 
-/* Its name in the deck; may be NULL for a spring. */
-const char *lumped_name(const struct beam *beam, const struct lumped *lumped);
-
 /* Adds to k [16] of its element B' (S^-1 + G)^-1 B, B = [v; theta], S = diag(lateral, rotational), unless the beam is to be
  * elastic_only, and to m [16] mass v v' + inertia theta theta'. */
 void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *k, double *m);

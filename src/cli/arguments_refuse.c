@@ -5,7 +5,7 @@
 
 #include "cli/arguments.h"
 #include "cli/options.h"
-#include "export/files.h"
+#include "export/export.h"
 #include "result/export.h"
 
 int arguments_same_file(const char *a, const char *b)
@@ -70,7 +70,7 @@ static int refuse_files(const struct command *command)
 static int refuse_export(const struct command *command)
 {
     if (!arguments_given(command, "format"))
-        return arguments_wrong("%s: expected --format matrix-market, dmig or ross", command->name);
+        return arguments_wrong("%s: expected --format matrix-market or dmig", command->name);
     if (!command->output)
         return arguments_wrong("%s: expected --output FILE as well", command->name);
     if (command->condensed && command->format != EXPORT_DMIG)
@@ -119,9 +119,5 @@ int arguments_refuse(const struct command *command, const struct command_entry *
     else if (command->changed && command->extended)
         return arguments_wrong("--extended %s does not go with --changed, which holds the model that it says nothing of",
                                command->extended);
-    else if (!strcmp(command->name, "import") && !command->output)
-        return arguments_wrong("%s: expected -o FILE", command->name);
-    else if (arguments_given(command, "format") && !command->output)
-        return arguments_wrong("--format %s: expected --output as well", arguments_given(command, "format"));
     return refused >= 0 ? refused : refuse_files(command);
 }

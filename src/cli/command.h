@@ -4,7 +4,7 @@
 
 #include "deck/deck_text.h"
 #include "ema/ema.h"
-#include "import/measurement.h"
+#include "import/import.h"
 #include "report/csv.h"
 #include "report/terminal.h"
 #include "result/result.h"
@@ -147,7 +147,6 @@ int command_ema(struct command *command);
 int command_uff(struct command *command);
 int command_report(struct command *command);
 int command_export(struct command *command);
-int command_import(struct command *command);
 int command_study(struct command *command);
 
 /* Of the build. */

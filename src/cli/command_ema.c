@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/clock.h"
-#include "import/modes.h"
+#include "import/import.h"
 #include "report/output.h"
 #include "report/report_ema.h"
 

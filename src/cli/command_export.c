@@ -4,9 +4,7 @@
 #include "api/deck_handle.h"
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "export/dmig.h"
-#include "export/files.h"
-#include "export/summary.h"
+#include "export/export.h"
 #include "report/output.h"
 #include "report/table.h"
 
@@ -58,11 +56,10 @@ static int refuse_files(const struct command *command, const struct export_files
     return 0;
 }
 
-static int write_files(struct command *command, const struct export_files *files, const struct export_model *model,
-                       const struct ross_model *ross, int code)
+static int write_files(struct command *command, const struct export_files *files, const struct export_model *model, int code)
 {
     const char *failed;
-    int status = export_files_write(&command->pool, files, model, ross, &failed);
+    int status = export_files_write(files, model, &failed);
     if (status == ROTID_ERROR_IO) {
         terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, output_error());
         return EXIT_INTERNAL;
@@ -70,11 +67,11 @@ static int write_files(struct command *command, const struct export_files *files
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(terminal_out(), &command->head, files, model, ross);
+        table_export(terminal_out(), &command->head, files, model);
         table_notes(terminal_out(), &command->messages);
     }
     struct result result = {.head = command->head,
-                            .export = command->json ? export_result_of(&command->pool, files, model, ross) : NULL};
+                            .export = command->json ? export_result_of(&command->pool, files, model) : NULL};
     return command_write_result(command, &result, code);
 }
 
@@ -82,21 +79,18 @@ static int export(struct command *command, const struct fitted_state *state, int
 {
     struct export_model model;
     struct export_files files;
-    struct ross_model ross;
     enum export_format format = (enum export_format)command->format;
-    int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
+    int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed;
     const struct identification *identified = state->identified.fit ? &state->identified : NULL;
     int status = export_model_open(&command->pool, state->job, identified, command->head.rotid, wants_condensed, &model);
     if (!status && wants_condensed && judge_condensed(command, state->job, &model, format))
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
         status = export_files_name(&command->pool, format, command->condensed, command->output, &model, &files);
-    if (!status && is_ross)
-        status = ross_open(&command->pool, &model, &command->messages, &ross);
     if (status)
         return command_fail(command, status);
     int refused = refuse_files(command, &files);
-    return refused ? refused : write_files(command, &files, &model, is_ross ? &ross : NULL, code);
+    return refused ? refused : write_files(command, &files, &model, code);
 }
 
 /* 0, or an exit code after saying why there is no one model, or no such form of a solid. */
@@ -108,11 +102,10 @@ static int refuse_model(struct command *command)
         message_add(&command->messages, SEVERITY_ERROR, deck, 1, 1,
                     "the deck has %d states and a file holds the model of one, expected --state %s or another one",
                     command->read->nstate, command->read->state_name[0]);
-    else if (command->job->options.solid && format != EXPORT_MATRIX_MARKET && !(format == EXPORT_DMIG && command->condensed))
+    else if (command->job->options.solid && format == EXPORT_DMIG && !command->condensed)
         message_add(&command->messages, SEVERITY_ERROR, deck, 1, 1,
-                    "%s has beam elements and this rotor is a solid, expected --format matrix-market%s, or --set FIT.MODEL=BEAM",
-                    format == EXPORT_ROSS ? "a ROSS script" : "a Nastran deck of rotid",
-                    format == EXPORT_DMIG ? ", --condensed (onto the sensors)" : "");
+                    "a Nastran deck of rotid has beam elements and this rotor is a solid, expected --format matrix-market, "
+                    "--condensed (onto the sensors), or --set FIT.MODEL=BEAM");
     else
         return 0;
     return command_fail(command, ROTID_ERROR_ARGUMENT);

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "import/measurement.h"
+#include "import/import.h"
 #include "report/output.h"
 #include "report/report_frf.h"
 #include "report/table.h"

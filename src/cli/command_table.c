@@ -34,16 +34,13 @@ const struct command_entry command_table[] = {
      "rotid ema records.unv --band 200,3200 -o modes.unv\n"
      "rotid ema records.unv --pick 415,722 --per-point",
      "unv|uff|uf", command_ema, PARALLEL},
-    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script",
-     "rotid export rotor.inp --format ross -o rotor.py\n"
+    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG",
+     "rotid export rotor.inp --format matrix-market -o rotor\n"
      "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",
      "inp", command_export, READS_DECK},
-    {"import", "a rotor that ROSS has saved (Rotor.save, JSON) as a deck", "rotid import rotor.json -o rotor.inp", "json",
-     command_import, 0},
-    {"uff", "what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back",
+    {"uff", "what a universal file holds, and what is doubtful in it",
      "rotid uff records.unv --verbose\n"
-     "rotid uff modes.unv --csv modes\n"
-     "rotid uff records.unv --format binary -o records.uff",
+     "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},
     {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page",
      "json|jsonl", command_report, SEVERAL_FILES},

@@ -12,7 +12,7 @@
 #define FROM(A, B)  .least = (A), .most = (B)
 #define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
 
-static const char *const formats[] = {"ascii", "binary", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
+static const char *const estimators[] = {"H1", "H2", "HV", NULL};
 
 /* clang-format off */
 const struct option_row option_table[] = {
@@ -118,20 +118,14 @@ const struct option_row option_table[] = {
      .help = "that state of a deck with several, at values identified over all of them",
      .more = "With --set FIT.STATE=NAME its own modes alone are fitted. A file, but for JSON, holds one state."},
 
-    {OUTPUT(.commands = "export", .value = "FILE", .files = "mtx|dmig|bdf|py",
+    {OUTPUT(.commands = "export", .value = "FILE", .files = "mtx|dmig|bdf",
             .help = "the model; of matrix-market the beginning of the names")},
     {.name = "format", .commands = "export", .kind = OPTION_WORD, AT(format), .words = export_format_words,
-     .help = "for SciPy and others, for Nastran, for ROSS"},
+     .help = "for SciPy and others, for Nastran"},
     {.name = "start", .commands = "export", .kind = OPTION_SWITCH, AT(start),
      .help = "the model as the deck states it, not at identified parameters"},
     {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
      .help = "dmig: the model condensed onto the sensors"},
-
-    {OUTPUT(.commands = "import", .value = "FILE", .files = "inp", .help = "the deck")},
-
-    {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
-    {.name = "format", .commands = "uff", .kind = OPTION_WORD, AT(format), .words = formats,
-     .help = "with --output: of the functions in it"},
 
     {OUTPUT(.commands = "report", .value = "FOLDER", .files = "/",
             .help = "for the page, index.html, and for scripts and pictures of its figures",

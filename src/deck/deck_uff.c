@@ -7,7 +7,7 @@
 #include "deck/deck_cards.h"
 #include "deck/deck_uff_std.h"
 #include "rotid.h"
-#include "uff/uff_modes.h"
+#include "uff/uff.h"
 
 struct import {
     struct deck_reader *reader;

@@ -7,7 +7,7 @@
 
 #include "deck/deck_frequencies.h"
 #include "diagnose/causes/sensor.h"
-#include "uff/uff_modes.h"
+#include "uff/uff.h"
 
 struct extra {
     struct deck_reader *reader;

@@ -1,10 +1,7 @@
-#include "export/dmig.h"
+#include "export/export.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "export/remark.h"
-#include "export/triplets.h"
 
 #define LINE_WIDTH 72 /* Nastran reads comments as far as column 80 */
 

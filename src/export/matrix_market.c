@@ -1,9 +1,6 @@
-#include "export/matrix_market.h"
+#include "export/export.h"
 
 #include <math.h>
-
-#include "export/remark.h"
-#include "export/triplets.h"
 
 #define LINE_WIDTH 120 /* the format allows 1,024 */
 

@@ -1,4 +1,4 @@
-#include "export/remark.h"
+#include "export/export.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -51,7 +51,8 @@ void remark_word(FILE *stream, const char *name)
         (void)fputc(strchr(plain, *name) ? *name : '_', stream);
 }
 
-const char *remark_number(double value, char *text)
+/* The shortest decimal number that is read back as the same double; text [32]. */
+static const char *remark_number(double value, char *text)
 {
     for (int digits = 6; digits <= 17; digits++) { /* from 6, so that 7850 is not 7.85e+03 */
         (void)snprintf(text, 32, "%.*g", digits, value);

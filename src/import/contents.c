@@ -1,11 +1,10 @@
-#include "import/contents.h"
+#include "import/import.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "signal/frf.h"
 
 #define PIECE 4096
 

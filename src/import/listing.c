@@ -1,7 +1,349 @@
-#include "import/listing.h"
+#include "import/import.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define HASH_START  0xcbf29ce484222325u /* FNV-1a */
+#define HASH_FACTOR 0x100000001b3u
+/* Near a crest the values of a wave fall off as the square of the distance: three of them are equal only where a step of the
+ * converter is larger than the first difference, and the next value is then no farther than five such steps. */
+#define CLIPPED_RUN 3
+#define CLIPPED_JUMP                                                                                                             \
+    0.02 /* of the span: a converter of which at least eight bits are in use has smaller steps than a fifth of that */
+
+void values_open(struct values *values)
+{
+    *values = (struct values){.hash = HASH_START, .is_constant = 1};
+}
+
+static void add_hash(struct values *values, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int b = 0; b < 64; b += 8)
+        values->hash = (values->hash ^ ((bits >> b) & 0xff)) * HASH_FACTOR;
+}
+
+static void add_square(struct values *values, double size)
+{
+    if (size == 0)
+        return;
+    if (size > values->scale) {
+        double ratio = values->scale / size;
+        values->squares = 1 + values->squares * ratio * ratio;
+        values->scale = size;
+    } else {
+        double ratio = size / values->scale;
+        values->squares += ratio * ratio;
+    }
+}
+
+/* Rows of values at the least (0) and the greatest (1) of all so far. */
+static void follow_plateau(struct values *values, int which, double value)
+{
+    double extreme = which ? values->max : values->min;
+    int beyond = !values->count || (which ? value > extreme : value < extreme);
+    values->run[which] = beyond ? 1 : value == extreme ? values->run[which] + 1 : 0;
+    if (!beyond && values->run[which] <= values->plateau[which])
+        return;
+    values->plateau[which] = values->run[which];
+    if (values->run[which] == 1)
+        values->plateau_jump[which] = values->count ? fabs(value - values->before) : 0;
+}
+
+static void add_abscissa(struct values *values, double x)
+{
+    double step = x - values->x_last;
+    if (!values->count)
+        values->x_first = x;
+    if (values->count == 1 || (values->count && step < values->x_least_step))
+        values->x_least_step = step;
+    if (values->count == 1 || (values->count && step > values->x_most_step))
+        values->x_most_step = step;
+    values->x_last = x;
+}
+
+void values_add(struct values *values, long long count, const double *x, const double *real, const double *imag, int is_complex)
+{
+    for (long long i = 0; i < count; ++i) {
+        double im = is_complex ? imag[i] : 0, size = is_complex ? hypot(real[i], im) : real[i];
+        add_abscissa(values, x[i]);
+        add_hash(values, real[i]);
+        add_hash(values, im);
+        add_square(values, fabs(size));
+        for (int which = 0; which < 2 && !is_complex; ++which)
+            follow_plateau(values, which, size);
+        values->min = values->count && values->min < size ? values->min : size;
+        values->max = values->count && values->max > size ? values->max : size;
+        values->last[0] = real[i];
+        values->last[1] = im;
+        if (!values->count)
+            memcpy(values->first, values->last, sizeof values->first);
+        values->is_constant = values->is_constant && real[i] == values->first[0] && im == values->first[1];
+        values->sum[0] += real[i];
+        values->sum[1] += im;
+        values->before = size;
+        ++values->count;
+    }
+}
+
+void values_close(struct values *values)
+{
+    values->is_constant = values->is_constant && values->count > 1;
+    if (values->count)
+        values->rms = values->scale * sqrt(values->squares / (double)values->count);
+}
+
+int values_are_clipped(const struct values *values)
+{
+    double span = values->max - values->min;
+    const double extreme[] = {values->min, values->max};
+    for (int which = 0; which < 2 && span > 0; ++which)
+        if (extreme[which] != 0 && /* zeros are a window, or padding */
+            values->plateau[which] >= CLIPPED_RUN && values->plateau_jump[which] > CLIPPED_JUMP * span)
+            return 1;
+    return 0;
+}
+
+int values_are_same(const struct values *a, const struct values *b)
+{
+    return a->count == b->count && a->hash == b->hash && a->min == b->min && a->max == b->max && a->rms == b->rms;
+}
+
+/* ---- doubtful places of a file */
+
+/* A thousand equal sentences help nobody: past this many of a kind they are counted. */
+#define DOUBTS_OF_A_KIND 12
+#define COHERENCE_MOST   1.000001 /* single precision and six digits go a little beyond 1 */
+#define STEP_TOLERANCE   1e-4     /* of the mean step: abscissae have six digits, 64000 lines need five for themselves */
+
+struct search {
+    struct pool *pool;
+    struct listing *listing;
+    int out_of_memory;
+};
+
+static void add(struct search *search, const char *kind, int line, const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+static void add(struct search *search, const char *kind, int line, const char *format, ...)
+{
+    struct listing *listing = search->listing;
+    char text[512];
+    int same = 0;
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    for (size_t i = 0; i < listing->doubt_count; ++i)
+        same += !strcmp(listing->doubt[i].kind, kind);
+    if (same > DOUBTS_OF_A_KIND)
+        return;
+    if (same == DOUBTS_OF_A_KIND)
+        (void)snprintf(text, sizeof text, "... and more of that kind");
+    struct listing_doubt *grown =
+        pool_grow(search->pool, listing->doubt, listing->doubt_count, &listing->doubt_room, sizeof *grown);
+    char *copy = pool_copy_text(search->pool, text);
+    if (!grown || !copy) {
+        search->out_of_memory = 1;
+        return;
+    }
+    listing->doubt = grown;
+    grown[listing->doubt_count++] = (struct listing_doubt){kind, copy, line};
+}
+
+static void check_sets(struct search *search)
+{
+    const struct listing *listing = search->listing;
+    for (int i = 0; i < listing->set_count; ++i) {
+        const struct listing_set *set = &listing->set[i];
+        int seen = 0;
+        for (int j = 0; j < i && !seen; ++j)
+            seen = listing->set[j].set.number == set->set.number;
+        if (set->is_faulty)
+            add(search, "malformed", set->set.line, "set %d is malformed and was read over", set->set.number);
+        else if (!set->is_read && !seen && !name_of_set(set->set.number))
+            add(search, "unknown_set", set->set.line, "sets %d are not known here and were read over", set->set.number);
+    }
+    if (!listing->units && (listing->function_count || listing->node_count))
+        add(search, "no_units", 0, "no set 164 tells the units: values are taken as they are, as if in SI");
+}
+
+struct place {
+    int id, order;
+};
+
+static int by_id(const void *a, const void *b)
+{
+    const struct place *p = a, *q = b;
+    return p->id != q->id ? (p->id < q->id ? -1 : 1) : (p->order > q->order) - (p->order < q->order);
+}
+
+static int has_place(const struct place *place, int count, int id)
+{
+    const struct place *found = NULL;
+    int low = 0, high = count;
+    while (low < high && !found) {
+        int middle = low + (high - low) / 2;
+        if (place[middle].id == id)
+            found = &place[middle];
+        else if (place[middle].id < id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return found != NULL;
+}
+
+/* Nodes twice with other coordinates; functions at nodes without any. */
+static void check_nodes(struct search *search)
+{
+    const struct listing *listing = search->listing;
+    int count = listing->node_count;
+    struct place *place = POOL_ARRAY(search->pool, struct place, count);
+    if (!place) {
+        search->out_of_memory = 1;
+        return;
+    }
+    for (int i = 0; i < count; ++i)
+        place[i] = (struct place){listing->node[i].id, i};
+    if (count)
+        qsort(place, (size_t)count, sizeof *place, by_id);
+    for (int i = 1; i < count; ++i) {
+        const struct uff_node *a = &listing->node[place[i - 1].order], *b = &listing->node[place[i].order];
+        if (a->id == b->id && (a->x[0] != b->x[0] || a->x[1] != b->x[1] || a->x[2] != b->x[2]))
+            add(search, "node_twice", listing->node_line[place[i].order],
+                "node %d stands at (%g, %g, %g) and again at (%g, %g, %g)", a->id, a->x[0], a->x[1], a->x[2], b->x[0], b->x[1],
+                b->x[2]);
+    }
+    for (int i = 0; i < listing->set_count; ++i) {
+        const struct listing_set *set = &listing->set[i];
+        if (set->set.number != 58 || set->item < 0 || !count)
+            continue;
+        const struct uff_function *f = &listing->function[set->item].function;
+        if (f->response_node && !has_place(place, count, f->response_node))
+            add(search, "no_coordinates", set->set.line, "function %d: response node %d has no coordinates", set->item + 1,
+                f->response_node);
+        if (f->reference_node && f->reference_node != f->response_node && !has_place(place, count, f->reference_node))
+            add(search, "no_coordinates", set->set.line, "function %d: reference node %d has no coordinates", set->item + 1,
+                f->reference_node);
+    }
+    if (!count && (listing->function_count || listing->shape_count))
+        add(search, "no_coordinates", 0, "no set 15 or 2411 tells where the nodes are");
+}
+
+/* Functions are named by their number and place. */
+static const char *named(int item, const struct uff_function *f, char buffer[96])
+{
+    char place[PLACE_MOST];
+    (void)snprintf(buffer, 96, "function %d (%s at %s)", item + 1, name_of_function(f->type, 0),
+                   place_text(f->response_node, f->response_direction, place));
+    return buffer;
+}
+
+static void check_abscissa(struct search *search, int line, const char *name, const struct listing_function *entry)
+{
+    const struct values *v = &entry->values;
+    double mean = v->count > 1 ? (v->x_last - v->x_first) / (double)(v->count - 1) : 0;
+    if (v->count > 1 && !(v->x_least_step > 0))
+        add(search, "abscissa_order", line, "%s: the %s does not increase", name,
+            has_time_axis(&entry->function) ? "time" : "abscissa");
+    else if (!entry->function.is_even && v->count > 2 && v->x_most_step - v->x_least_step > STEP_TOLERANCE * mean)
+        add(search, "uneven", line, "%s: uneven abscissa, steps from %g to %g", name, v->x_least_step, v->x_most_step);
+}
+
+/* The unit of an axis by its text, and by what counts: set 164 or, where there is none, SI but for an acceleration in g. */
+static void check_unit(struct search *search, int line, const char *name, const struct uff_axis *axis)
+{
+    const struct uff_units *units = search->listing->units;
+    struct uff_axis bare = *axis;
+    bare.unit[0] = '\0';
+    double by_text = unit_text_factor(axis->specific_type, axis->unit), counts = uff_si_factor(units, units ? &bare : axis);
+    if (by_text > 0 && fabs(by_text - counts) > 1e-3 * fabs(counts))
+        add(search, "unit", line, "%s: unit text '%s', which is %.6g %s, where %s %.6g", name, axis->unit, by_text,
+            si_unit(axis->specific_type), units ? "set 164 says" : "no set 164 does and it is taken as", counts);
+}
+
+static void check_function(struct search *search, const struct listing_set *set)
+{
+    const struct listing_function *entry = &search->listing->function[set->item];
+    const struct uff_function *f = &entry->function;
+    const struct values *v = &entry->values;
+    int line = set->set.line;
+    char name[96];
+    (void)named(set->item, f, name);
+    if (v->is_constant)
+        add(search, "dead", line, v->max == 0 ? "%s: dead, all values are zero" : "%s: dead, all values are the same", name);
+    if (f->type == UFF_TIME && values_are_clipped(v))
+        add(search, "clipped", line, "%s: clipped, up to %lld values in a row at %g or %g", name,
+            v->plateau[0] > v->plateau[1] ? v->plateau[0] : v->plateau[1], v->min, v->max);
+    if (f->type == UFF_COHERENCE && v->max > COHERENCE_MOST)
+        add(search, "coherence", line, "%s: the coherence goes up to %g, above 1", name, v->max);
+    check_abscissa(search, line, name, entry);
+    check_unit(search, line, name, &f->numerator);
+    if (f->denominator.specific_type)
+        check_unit(search, line, name, &f->denominator);
+}
+
+static void check_functions(struct search *search)
+{
+    const struct listing *listing = search->listing;
+    const struct listing_function *f = listing->function;
+    for (int i = 0; i < listing->set_count; ++i)
+        if (listing->set[i].set.number == 58 && listing->set[i].item >= 0)
+            check_function(search, &listing->set[i]);
+    for (int i = 0; i < listing->function_count; ++i)
+        for (int j = 0; j < i; ++j)
+            if (f[i].function.type == f[j].function.type && f[i].values.count > 1 && !f[i].values.is_constant &&
+                values_are_same(&f[i].values, &f[j].values)) {
+                add(search, "identical", f[i].function.line, "functions %d and %d have the same values, all %lld of them", j + 1,
+                    i + 1, f[i].values.count);
+                break;
+            }
+    for (int i = 1; i < listing->function_count; ++i) {
+        int j = 0; /* the first one of this type */
+        while (f[j].function.type != f[i].function.type)
+            ++j;
+        if (f[j].function.count != f[i].function.count)
+            add(search, "length", f[i].function.line, "functions %d and %d, both %s, have %lld and %lld values", j + 1, i + 1,
+                name_of_function(f[i].function.type, 1), f[j].function.count, f[i].function.count);
+        else if (f[j].function.is_even && f[i].function.is_even &&
+                 (f[j].function.step != f[i].function.step || f[j].function.start != f[i].function.start))
+            add(search, "resolution", f[i].function.line, "functions %d and %d, both %s, have steps %g and %g from %g and %g",
+                j + 1, i + 1, name_of_function(f[i].function.type, 1), f[j].function.step, f[i].function.step,
+                f[j].function.start, f[i].function.start);
+    }
+}
+
+static void check_shapes(struct search *search)
+{
+    const struct listing *listing = search->listing;
+    for (int i = 0; i < listing->shape_count; ++i) {
+        const struct listing_shape *entry = &listing->shape[i];
+        if (entry->rms == 0)
+            add(search, "dead", entry->shape.line, "shape %d: all values are zero", i + 1);
+        if (i && entry->shape.analysis_type == entry[-1].shape.analysis_type &&
+            entry->shape.frequency_hz < entry[-1].shape.frequency_hz)
+            add(search, "frequency_order", entry->shape.line, "shape %d, %g Hz, follows %g Hz: frequencies do not increase",
+                i + 1, entry->shape.frequency_hz, entry[-1].shape.frequency_hz);
+        if (entry->shape.node_count != listing->shape[0].shape.node_count)
+            add(search, "length", entry->shape.line, "shapes 1 and %d have %d and %d nodes", i + 1,
+                listing->shape[0].shape.node_count, entry->shape.node_count);
+    }
+}
+
+/* The doubtful places, of a listing that is complete otherwise. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int listing_find_doubts(struct pool *pool, struct listing *listing)
+{
+    struct search search = {.pool = pool, .listing = listing};
+    check_sets(&search);
+    check_nodes(&search);
+    check_functions(&search);
+    check_shapes(&search);
+    return search.out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
 
 #define PIECE 4096 /* values at a time */
 
@@ -104,38 +446,19 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     return ROTID_OK;
 }
 
-static int read_rest(struct listing_work *job, struct listing_set *set)
+static int read_header(struct listing_work *job)
 {
-    struct listing *listing = job->listing;
-    int count = 0, status;
-    if (set->set.number == 151) {
-        struct uff_header *header = POOL_NEW(job->pool, struct uff_header);
-        status = header ? uff_read_header(job->reader, header) : ROTID_ERROR_MEMORY;
-        listing->header = status ? listing->header : header;
-    } else if (set->set.number == 164) {
-        struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
-        status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
-        listing->units = status ? listing->units : units;
-    } else if (set->set.number == 82) {
-        struct uff_trace trace = {0};
-        status = uff_read_trace(job->reader, &job->scratch, &trace);
-        count = trace.node_count;
-        listing->trace_count += !status;
-    } else if (set->set.number == 2412) {
-        struct uff_element *element;
-        status = uff_read_elements(job->reader, &job->scratch, &count, &element);
-        listing->element_count += status ? 0 : count;
-    } else if (set->set.number == 2414) {
-        struct uff_analysis analysis = {0};
-        status = uff_read_analysis(job->reader, &job->scratch, &analysis);
-        count = analysis.item_count;
-        listing->analysis_count += !status;
-    } else {
-        struct uff_system *system;
-        status = uff_read_systems(job->reader, &job->scratch, &count, &system);
-        listing->system_count += status ? 0 : count;
-    }
-    set->size = count;
+    struct uff_header *header = POOL_NEW(job->pool, struct uff_header);
+    int status = header ? uff_read_header(job->reader, header) : ROTID_ERROR_MEMORY;
+    job->listing->header = status ? job->listing->header : header;
+    return status;
+}
+
+static int read_units(struct listing_work *job)
+{
+    struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
+    int status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
+    job->listing->units = status ? job->listing->units : units;
     return status;
 }
 
@@ -150,14 +473,10 @@ static int read_set(struct listing_work *job, struct listing_set *set)
         return read_shape(job, set);
     case 58:
         return read_function(job, set);
-    case 18:
-    case 82:
     case 151:
+        return read_header(job);
     case 164:
-    case 2412:
-    case 2414:
-    case 2420:
-        return read_rest(job, set);
+        return read_units(job);
     default:
         return UFF_END; /* read over */
     }
@@ -255,4 +574,130 @@ int listing_read(struct pool *pool, const char *path, const struct listing_optio
     apply_units(listing);
     find_groups(listing);
     return listing_find_doubts(pool, listing);
+}
+
+/* ---- the sentences a listing begins with */
+
+#define RANGES_SHOWN 6
+
+static int ascending(const void *a, const void *b)
+{
+    int p = *(const int *)a, q = *(const int *)b;
+    return (p > q) - (p < q);
+}
+
+/* "1 to 3, 7": numbers in order, neighbours joined; what does not fit as a count. */
+static const char *range_text(struct pool *pool, int count, int *number)
+{
+    const char *text = "";
+    int ranges = 0;
+    qsort(number, (size_t)count, sizeof *number, ascending);
+    for (int i = 0; i < count && text;) {
+        int last = i;
+        while (last + 1 < count && number[last + 1] - number[last] <= 1)
+            ++last;
+        if (ranges++ == RANGES_SHOWN)
+            return pool_format(pool, "%s, ... up to %d", text, number[count - 1]);
+        const char *separator = i ? ", " : "";
+        if (number[last] == number[i])
+            text = pool_format(pool, "%s%s%d", text, separator, number[i]);
+        else
+            text = pool_format(pool, "%s%s%d to %d", text, separator, number[i], number[last]);
+        i = last + 1;
+    }
+    return text;
+}
+
+static const char *describe_group(struct pool *pool, const struct listing *listing, int group)
+{
+    const struct listing_function *first = NULL;
+    int *response = POOL_ARRAY(pool, int, listing->function_count), count = 0, several = 0, references = 0;
+    for (int i = 0; response && i < listing->function_count; ++i) {
+        const struct listing_function *f = &listing->function[i];
+        if (f->group != group)
+            continue;
+        first = first ? first : f;
+        response[count++] = f->function.response_node;
+        references |= f->function.reference_node != first->function.reference_node;
+    }
+    if (!first) /* memory is out: a group has a function */
+        return NULL;
+    for (int i = 1; i < count; ++i)
+        several |= response[i] != response[0];
+    const struct uff_function *f = &first->function;
+    const struct values *v = &first->values;
+    const char *places = range_text(pool, count, response);
+    if (!places)
+        return NULL;
+    int time = has_time_axis(f);
+    const char *unit = time ? "s" : f->abscissa.specific_type == 18 || !f->abscissa.specific_type ? "Hz" : f->abscissa.unit;
+    const char *rate =
+        time && f->is_even && f->step > 0 ? pool_format(pool, " at %.6g Hz", 1 / (f->step * first->x_si_factor)) : "";
+    const char *reference = f->reference_node && !references ? pool_format(pool, ", reference %d", f->reference_node) : "";
+    const char *responses = pool_format(pool, ", response%s %s", several ? "s" : "", places);
+    if (!rate || !reference || !responses)
+        return NULL;
+    return pool_format(pool, "%d %s, %lld %s%s%s, %.6g to %.6g %s%s%s", count, name_of_function(f->type, count > 1), f->count,
+                       time ? "samples" : "lines", count > 1 ? " each" : "", rate, v->x_first * first->x_si_factor,
+                       v->x_last * first->x_si_factor, unit, several || response[0] ? responses : "", reference);
+}
+
+static const char *describe_shapes(struct pool *pool, const struct listing *listing)
+{
+    int complex_count = 0, points = listing->shape[0].shape.node_count, count = 0;
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < listing->shape_count; ++i) {
+        const struct uff_shape *shape = &listing->shape[i].shape;
+        if (!shape->analysis_type) /* no mode: standard deviations, frequencies of points */
+            continue;
+        count++;
+        complex_count += shape->is_complex;
+        least = fmin(least, shape->frequency_hz);
+        most = fmax(most, shape->frequency_hz);
+    }
+    const char *kind = !complex_count ? "real" : complex_count == count ? "complex" : "real and complex";
+    const char *rest =
+        count < listing->shape_count ? pool_format(pool, ", %d more sets of data at nodes", listing->shape_count - count) : "";
+    if (!count)
+        return pool_format(pool, "%d sets of data at nodes, none of them a mode", listing->shape_count);
+    return rest ? pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s%s", count, count == 1 ? "" : "s", kind, least,
+                              most, points, points == 1 ? "" : "s", rest)
+                : NULL;
+}
+
+static const char *describe_nodes(struct pool *pool, const struct listing *listing)
+{
+    double least[3], most[3];
+    for (int c = 0; c < 3; ++c) {
+        least[c] = most[c] = listing->node[0].x[c];
+        for (int i = 1; i < listing->node_count; ++i) {
+            least[c] = fmin(least[c], listing->node[i].x[c]);
+            most[c] = fmax(most[c], listing->node[i].x[c]);
+        }
+    }
+    double scale = listing->units && listing->units->length > 0 ? 1 / listing->units->length : 1;
+    return pool_format(pool, "%d node%s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m%s", listing->node_count,
+                       listing->node_count == 1 ? "" : "s", scale * least[0], scale * most[0], scale * least[1], scale * most[1],
+                       scale * least[2], scale * most[2], listing->units ? "" : ", if the file is in SI");
+}
+
+int listing_summarise(struct pool *pool, const struct listing *listing, int *count, const char ***what)
+{
+    int lines = listing->group_count + 2, n = 0;
+    const char **text = POOL_ARRAY(pool, const char *, lines);
+    *count = 0;
+    *what = text;
+    if (!text)
+        return ROTID_ERROR_MEMORY;
+    for (int g = 0; g < listing->group_count; ++g)
+        text[n++] = describe_group(pool, listing, g);
+    if (listing->shape_count)
+        text[n++] = describe_shapes(pool, listing);
+    if (listing->node_count)
+        text[n++] = describe_nodes(pool, listing);
+    for (int i = 0; i < n; ++i)
+        if (!text[i])
+            return ROTID_ERROR_MEMORY;
+    *count = n;
+    return ROTID_OK;
 }

@@ -1,11 +1,10 @@
-#include "import/modes.h"
+#include "import/import.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "uff/uff_write.h"
 
 enum { SET_NODES = 2411, NORMAL_MODE = 2, UNKNOWN_ANALYSIS = 0, VECTOR = 2, DISPLACEMENT = 8, REAL_DATA = 2 };
 

@@ -4,7 +4,7 @@
 
 #include "report/csv.h"
 #include "rotid.h"
-#include "uff/uff_modes.h"
+#include "uff/uff.h"
 
 static int by_id(const void *left, const void *right)
 {

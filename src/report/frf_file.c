@@ -4,7 +4,7 @@
 
 #include "report/report_frf.h"
 #include "result/transfer.h"
-#include "uff/uff_write.h"
+#include "uff/uff.h"
 
 static int by_id(const void *left, const void *right)
 {

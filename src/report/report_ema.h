@@ -6,7 +6,7 @@
 
 #include "base/pool.h"
 #include "ema/ema.h"
-#include "import/measurement.h"
+#include "import/import.h"
 
 struct ema_report {
     const char *file;   /* that was read */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/message.h"
-#include "import/listing.h"
+#include "import/import.h"
 
 /* The summary, the sets, the doubtful places. all: each set a row; else those that are alike share one, at most about forty. */
 void table_uff(FILE *out, const char *path, const struct listing *listing, int summary_count, const char *const *summary,

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "import/names.h"
+#include "import/import.h"
 #include "result/uff.h"
 
 static const char *text_or_null(const char *text)
@@ -25,9 +25,10 @@ static struct listed_set *sets(struct pool *pool, const struct listing *listing)
                                       .set = set->set.number,
                                       .binary = set->set.is_binary,
                                       .name = name_of_set(set->set.number),
-                                      .state = set->is_faulty ? "malformed"
-                                               : set->is_read ? "read"
-                                                              : "not_known",
+                                      .state = set->is_faulty                 ? "malformed"
+                                               : set->is_read                 ? "read"
+                                               : name_of_set(set->set.number) ? "read_over"
+                                                                              : "not_known",
                                       .count = (double)set->size};
     }
     return list;
@@ -190,10 +191,6 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
                                .nsummary = summary_count,
                                .summary = summary,
                                .nsets = listing->set_count,
-                               .elements = (double)listing->element_count,
-                               .trace_lines = listing->trace_count,
-                               .coordinate_systems = listing->system_count,
-                               .analyses = (double)listing->analysis_count,
                                .nfunctions = listing->function_count,
                                .nshapes = listing->shape_count,
                                .header = listing->header ? header(pool, listing->header) : NULL,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "import/names.h"
+#include "import/import.h"
 #include "report/layout.h"
 
 #define ROWS_MOST 40
@@ -114,6 +114,8 @@ static void print_rest(FILE *out, const struct listing *listing, struct row row)
         print_clean(out, listing->header->model);
     } else if (set->is_read) {
         (void)fprintf(out, " %lld in all", size);
+    } else if (name && !set->is_faulty) {
+        (void)fputs(" read over", out);
     }
 }
 

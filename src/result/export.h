@@ -33,8 +33,7 @@ struct export_result {
     const double *full_hz; /* bending modes of the deck's model by rising frequency [Hz] */
     int nexported_hz;
     const double *exported_hz; /* bending modes of the model in the file [Hz]: the full one, with dmig --condensed the condensed
-                                  one (NaN beyond those it has), with ross that of the script, which leaves out the modes of rods
-                                  and bars */
+                                  one (NaN beyond those it has) */
 };
 
 #endif

@@ -2,7 +2,7 @@
 #include "result/export.h"
 #include "result/records.h"
 
-const char *const export_format_words[] = {"matrix-market", "dmig", "ross", NULL};
+const char *const export_format_words[] = {"matrix-market", "dmig", NULL};
 static const char *const models[] = {"identified", "stated", NULL};
 static const char *const condensations[] = {"GUYAN", "IRS", NULL};
 

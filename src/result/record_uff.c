@@ -2,7 +2,7 @@
 #include "result/records.h"
 #include "result/uff.h"
 
-static const char *const states[] = {"read", "not_known", "malformed", NULL};
+static const char *const states[] = {"read", "read_over", "not_known", "malformed", NULL};
 static const char *const doubts[] = {
     "malformed", "unknown_set", "no_units",  "node_twice", "no_coordinates", "abscissa_order", "uneven",          "unit",
     "dead",      "clipped",     "coherence", "identical",  "length",         "resolution",     "frequency_order", NULL};
@@ -150,10 +150,6 @@ static const struct field uff_fields[] = {
     STRUCT(struct uff_result, units, MAY_BE_NULL | BEHIND_POINTER, units_record),
     STRUCTS(struct uff_result, sets, 0, set_record),
     STRUCT(struct uff_result, nodes, 0, nodes_record),
-    NUMBER(struct uff_result, elements, FROM_0 | WHOLE),
-    INTEGER(struct uff_result, trace_lines, FROM_0),
-    INTEGER(struct uff_result, coordinate_systems, FROM_0),
-    NUMBER(struct uff_result, analyses, FROM_0 | WHOLE),
     STRUCTS(struct uff_result, functions, 0, function_record),
     STRUCTS(struct uff_result, shapes, 0, shape_record),
     STRUCTS(struct uff_result, doubtful, 0, doubt_record),

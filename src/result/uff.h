@@ -34,8 +34,8 @@ struct listed_set {
     int set;           /* its number */
     int binary;        /* 58b */
     const char *name;  /* what it holds, NULL where that is not known */
-    const char *state; /* whether it was read */
-    double count;      /* nodes, elements, values, ... in it */
+    const char *state; /* read; read_over: known, but rotid uses nothing of such a set; not_known; malformed */
+    double count;      /* nodes or values in it; 0 where it was not read */
 };
 
 struct listed_nodes {
@@ -134,10 +134,6 @@ struct uff_result {
     int nsets;
     struct listed_set *sets;   /* every set in the order of the file */
     struct listed_nodes nodes; /* of all sets 15, 781 and 2411, in the unit of the file */
-    double elements;           /* elements of sets 2412 */
-    int trace_lines;           /* sets 82 */
-    int coordinate_systems;    /* systems of sets 18 and 2420 */
-    double analyses;           /* sets 2414 */
     int nfunctions;
     struct listed_function *functions; /* sets 58 and 58b */
     int nshapes;

@@ -1,10 +1,176 @@
-/* Universal files: nodes (15, 2411) and mode shapes (55) of a modal test. */
+/* Universal files: mode shapes, nodes, functions and units of a modal test, read and written.
+ *
+ * A file is a row of sets, each between two lines '-1': a line with the number of the set, then records in columns as Fortran
+ * writes them. Files of other writers have the numbers in free format, wrong lengths, missing or further records; what is meant
+ * beyond doubt is read, all else is refused with file, line and column.
+ *
+ * Comes in: a path. Goes out, in three ways:
+ * 1. uff_open, uff_next and the routines uff_read_* give one set after the other; values of functions (58, 58b) come in pieces,
+ * so a file may be larger than memory. Sets that nobody reads are read over, binary ones by their length. Used by src/import.
+ * 2. uff_read gives the nodes and all shapes of a file, uff_choose_modes the modes among them by rising frequency, uff_real_shape
+ * a complex one as the nearest real vector. Used by src/deck for *MEASURED, FILE, and by src/report for tables.
+ * 3. uff_write_* write the sets of `rotid ema` (151, 164, 2411, 55) and `rotid frf` (58).
+ *
+ * Inside, from below: lines.c has lines, bytes and numbers; record.c the layouts of records, from which follow reading and
+ * writing; reader.c the sets in turn, header, units, nodes; function.c sets 58 and 58b; shape.c set 55; file.c whole files and
+ * their modes; write.c. Numbers are those of the file: uff_si_factor tells what brings one to SI. */
 #ifndef ROTID_UFF_UFF_H
 #define ROTID_UFF_UFF_H
 
+#include <stdio.h>
+
 #include "base/message.h"
 #include "base/pool.h"
-#include "uff/uff_data.h"
+
+/* ---- what sets hold */
+
+/* What the sets of a universal file hold, as plain structs: one struct a kind of set, the same for reading and writing. Texts are
+ * without trailing blanks; NULL stands for a text that the file leaves empty or writes as NONE. Numbers are as in the file: no
+ * units applied. */
+
+#define UFF_ID_LINES 5
+#define UFF_TEXT     80 /* characters of an ID line */
+
+struct uff_header { /* set 151 */
+    char model[UFF_TEXT + 1], description[UFF_TEXT + 1], program[UFF_TEXT + 1];
+    char created[UFF_TEXT + 1], saved[UFF_TEXT + 1], written_by[UFF_TEXT + 1], written[UFF_TEXT + 1]; /* date and time as text */
+    int version[2], file_type;
+};
+
+struct uff_units { /* set 164: a value in SI times the factor is the value in the file */
+    int code;      /* 1 SI, 2 foot (lbf), ..., 9 user */
+    char description[21];
+    int temperature_mode;
+    double length, force, temperature, temperature_offset;
+};
+
+struct uff_node { /* sets 15, 781, 2411 */
+    int id;
+    int definition_system, displacement_system, color; /* 0 where there is none */
+    double x[3];
+};
+
+struct uff_shape { /* one set 55 */
+    int line;      /* of the '-1' that opens the set, from 1 */
+    char id[UFF_ID_LINES][UFF_TEXT + 1];
+    int model_type, analysis_type; /* analysis 0 unknown, 2 normal mode; 3, 7 complex eigenvalue; 5 frequency response */
+    int data_characteristic, specific_type,
+        data_type; /* 2 vector3, 3 vector6; 8 displacement, 11 velocity, 12 acceleration; 2 real, 5 complex */
+    int load_case;
+    int number;          /* of the mode, or with analysis type 5 of the frequency; from record 7 */
+    double frequency_hz; /* 0: a mode that does not oscillate */
+    double damping;      /* viscous ratio, of a complex eigenvalue -Re lambda/|lambda|; 0 where the file has none */
+    double hysteretic;   /* hysteretic damping ratio of analysis 2, else 0 */
+    double modal_mass;   /* of analysis 2; 0 where there is none */
+    double eigenvalue[2], modal_a[2], modal_b[2]; /* of analysis 3 and 7 */
+    int is_complex;                               /* imag given */
+    int component_count;                          /* values per node, 1 to 6 */
+    int node_count;                               /* the format lets a writer leave out nodes whose values are all zero */
+    int *node;                                    /* [node_count] ids, distinct, in the order of the file */
+    double *real;                                 /* [component_count * node_count], components of a node contiguous */
+    double *imag;                                 /* same, or NULL */
+};
+
+enum { /* function types of set 58 */
+       UFF_GENERAL,
+       UFF_TIME,
+       UFF_AUTO_SPECTRUM,
+       UFF_CROSS_SPECTRUM,
+       UFF_TRANSFER,
+       UFF_TRANSMISSIBILITY,
+       UFF_COHERENCE,
+       UFF_AUTO_CORRELATION,
+       UFF_CROSS_CORRELATION,
+       UFF_AUTO_PSD,
+       UFF_ESD,
+       UFF_PROBABILITY,
+       UFF_SPECTRUM
+};
+
+enum { UFF_REAL_SINGLE = 2, UFF_REAL_DOUBLE = 4, UFF_COMPLEX_SINGLE = 5, UFF_COMPLEX_DOUBLE = 6 }; /* ordinate data type */
+
+struct uff_axis {      /* records 8 to 11 of set 58 */
+    int specific_type; /* 0 unknown, 1 general, 8 displacement, 9 reaction force, 11 velocity, 12 acceleration, 13 excitation
+                          force, 15 pressure, 16 mass, 17 time, 18 frequency, 19 rpm */
+    int length, force, temperature; /* exponents of the units */
+    char label[21], unit[21];       /* "" for NONE */
+};
+
+struct uff_binary { /* first line of set 58b */
+    int is_binary;
+    int order;  /* 1 little endian, 2 big endian */
+    int format; /* 1 DEC VMS, 2 IEEE 754, 3 IBM 5/370 */
+    long long text_lines, bytes;
+};
+
+struct uff_function { /* sets 58 and 58b without their values */
+    int line;         /* of the '-1' that opens the set */
+    struct uff_binary binary;
+    char id[UFF_ID_LINES][UFF_TEXT + 1];
+    int type, number, version, load_case;
+    char response_name[11], reference_name[11]; /* "" for NONE */
+    int response_node, response_direction;      /* 0 scalar; +-1 x, +-2 y, +-3 z, +-4 to 6 rotations */
+    int reference_node, reference_direction;
+    int ordinate; /* UFF_REAL_SINGLE ... */
+    long long count;
+    int is_even;
+    double start, step; /* of an even abscissa */
+    double z;
+    struct uff_axis abscissa, numerator, denominator, z_axis;
+};
+
+/* ---- set by set */
+
+/* Universal files, read one set after the other: nothing but the set at hand is in memory, and of a function only as many values
+ * as are asked for, so a file may be larger than memory. */
+
+enum { UFF_END = 1 }; /* beside the statuses of rotid.h: no further set, no further value */
+
+struct uff_set {
+    int number;       /* 58 of a set 58b */
+    int is_binary;    /* 58b */
+    int line;         /* of the '-1' that opens it, from 1; lines are not counted inside binary data */
+    long long offset; /* of that line in the file, in bytes */
+};
+
+struct uff_reader; /* opaque; lives on the pool it was opened with */
+
+/* Opens a file. What is wrong with it, now and later, goes to `messages` with file, line, column, set and what was expected.
+ * ROTID_OK, ROTID_ERROR_IO, ROTID_ERROR_MEMORY. uff_close for a reader that was opened, NULL allowed. */
+int uff_open(struct pool *pool, const char *path, struct message_list *messages, struct uff_reader **reader);
+void uff_close(struct uff_reader *reader);
+
+/* Goes on to the next set; the rest of the one before is read over (a binary set by its length). ROTID_OK, UFF_END, or
+ * ROTID_ERROR_SYNTAX, _IO, _MEMORY. After an error of syntax in a set uff_next finds the next one, so a caller may go on. */
+int uff_next(struct uff_reader *reader, struct uff_set *set);
+
+/* Whether it can go back: a pipe cannot. */
+int uff_can_return(const struct uff_reader *reader);
+
+/* Goes back to a set that uff_next returned before, as if it had just been returned. ROTID_OK or ROTID_ERROR_IO. */
+int uff_return_to(struct uff_reader *reader, const struct uff_set *set);
+
+/* Each reads the set that uff_next has just returned, and fails with ROTID_ERROR_SYNTAX (messages say where), _IO or _MEMORY, or
+ * with ROTID_ERROR_ARGUMENT when the set at hand is of another number or has been read. Arrays lie on `pool`; no memory is taken
+ * for what is announced, only for what is there. Numbers that are not finite are errors. */
+int uff_read_header(struct uff_reader *reader, struct uff_header *header);                            /* 151 */
+int uff_read_units(struct uff_reader *reader, struct uff_units *units);                               /* 164 */
+int uff_read_nodes(struct uff_reader *reader, struct pool *pool, int *count, struct uff_node **node); /* 15, 781, 2411 */
+int uff_read_shape_set(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape);        /* 55 */
+
+/* The records 1 to 11 of a set 58 or 58b, then, in pieces of any length, its values in turn: `*got` <= most of them, x (of an
+ * uneven abscissa as in the file, else start + i step; or NULL), real, imag (0 for real data; or NULL). ROTID_OK with *got = 0 at
+ * the end of the values, after which the set has been checked to be complete. A wrong number of bytes of a 58b is a warning where
+ * its end stands behind the bytes that its values need. DEC and IBM numbers are refused by uff_read_values. */
+int uff_read_function(struct uff_reader *reader, struct uff_function *function);
+int uff_read_values(struct uff_reader *reader, long long most, double *x, double *real, double *imag, long long *got);
+
+/* What a value of this quantity must be multiplied with to be in SI: specific data types of set 58 (8 displacement, 11 velocity,
+ * 12 acceleration, 13 and 9 force, 15 pressure, 16 mass, 17 time, 18 frequency) and the exponents of the axis under `units` (NULL
+ * or factors of 0: 1). A unit text "g" or "gn" of an acceleration is 9.80665 m/s2, whatever set 164 says. */
+double uff_si_factor(const struct uff_units *units, const struct uff_axis *axis);
+
+/* ---- the nodes and shapes of a file */
 
 struct uff_file {
     int node_count, shape_count, extra_count;
@@ -18,5 +184,62 @@ struct uff_file {
  * the set, and what was expected. Returns ROTID_OK, ROTID_ERROR_SYNTAX (the list says why), ROTID_ERROR_IO (cannot be read; also
  * in the list) or ROTID_ERROR_MEMORY. *out is empty unless ROTID_OK. A file without a set 55 is ROTID_OK. */
 int uff_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_file *out);
+
+/* ---- the modes among the shapes, as real shapes */
+
+/* What sets 55 of `rotid ema` hold beside the shapes. */
+enum uff_extra { UFF_EXTRA_SHAPE_STD, UFF_EXTRA_POINT, UFF_EXTRA_POINT_STD, UFF_EXTRAS };
+
+/* Whether a shape is one of a mode: not a frequency response. */
+int uff_is_mode(const struct uff_shape *shape);
+
+/* Modes by rising frequency, without those at 0 Hz and without the second of each conjugate pair: chosen[shape_count] gets them.
+ * *rigid, *conjugates: how many are left out so. Returns their number. */
+int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chosen, int *rigid, int *conjugates);
+
+/* Whether the numbers of the file are above zero and rise with the frequency; else modes are numbered from 1. */
+int uff_modes_are_numbered(int count, const struct uff_shape *const *chosen);
+
+/* Record 8 has six digits, which a good test knows better: `rotid ema` writes all of them in a line of text. [Hz] */
+double uff_mode_frequency(const struct uff_shape *mode);
+
+/* Component `component` at each node, [node_count], turned by the phase that makes its real part largest: the real vector nearest
+ * to a complex one. Returns the share of the motion (sum of squares) that is out of phase. */
+double uff_real_shape(const struct uff_shape *mode, int component, double *value);
+
+/* Which set of `rotid ema` this is and of which mode, by its first line of text: UFF_EXTRAS where it is none. *number: 0 where
+ * the text names none. */
+enum uff_extra uff_extra_of(const struct uff_shape *set, int *number);
+
+/* The standard deviation of the frequency [Hz], zero where it is not known, in the second line of a UFF_EXTRA_SHAPE_STD. 0, or 1
+ * where the line has another form. */
+int uff_extra_frequency_std(const struct uff_shape *set, double *hz);
+
+/* ---- writing */
+
+/* Universal files, written set by set to a stream that the caller has opened and will close and check (ferror): the formats of
+ * the sets that uff_read.h reads, with the same structs. Reading what was written gives the same values to the digits of the
+ * format, and bit by bit for binary sets. Every routine returns ROTID_OK, ROTID_ERROR_IO, or ROTID_ERROR_ARGUMENT for what the
+ * format cannot hold: a value that is not finite (binary sets hold it), a line of text that looks like the end of a set, a label
+ * beyond the width of its field. The stream may hold a part of the set then. */
+
+int uff_write_header(FILE *stream, const struct uff_header *header);                /* 151 */
+int uff_write_units(FILE *stream, const struct uff_units *units);                   /* 164 */
+int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node); /* 15 or 2411 */
+int uff_write_shape(FILE *stream, const struct uff_shape *shape);                   /* 55 */
+
+/* Set 58, as text; function->binary.is_binary is ROTID_ERROR_ARGUMENT. The values come in pieces: uff_write_function writes the
+ * records before them, uff_write_values any number of values (x only of an uneven abscissa, imag only of complex ones), until
+ * function->count are there; uff_end_function closes the set. */
+struct uff_function_writer {
+    FILE *stream;
+    const struct uff_function *function;
+    long long written;
+    int on_line; /* numbers on the current line of text */
+};
+int uff_write_function(FILE *stream, const struct uff_function *function, struct uff_function_writer *writer);
+int uff_write_values(struct uff_function_writer *writer, long long count, const double *x, const double *real,
+                     const double *imag);
+int uff_end_function(struct uff_function_writer *writer);
 
 #endif

@@ -1,8 +1,8 @@
-"""Universal files beside pyuff. Every file of the data folder of pyuff's source distribution: rotid uff lists the sets and values that
-pyuff reads, or refuses a set for a reason that holds; converted, pyuff reads the same from the result. Then sets of every kind that pyuff
-wrote, converted by rotid and read by pyuff: binary functions bit by bit, text to its digits."""
+"""Universal files beside pyuff. Every file of the data folder of pyuff's source distribution, then sets of every kind that pyuff wrote:
+rotid uff lists the sets and values that pyuff reads, or refuses a set for a reason that holds. The conversion that docs/uff.md shows."""
 import contextlib
 import io
+import re
 import subprocess
 import sys
 import tarfile
@@ -16,8 +16,6 @@ import pyuff
 from support import ROOT, Checks, parse, rotid, temporary_folder
 
 VERSION = "2.4.2"
-SINGLE, DOUBLE, TEXT = 6e-8, 6e-13, 6e-6  # half a unit of the last digit: a single, 13 digits, 6 digits
-LARGE = 20_000_000  # bytes: as text pyuff would read such a file for minutes
 # files that hold no universal set, or one that is broken, and what rotid says of it
 REFUSED = {
     "meas_point_1.txt": "no universal file",
@@ -108,18 +106,19 @@ def of_type(types, sets, *numbers):
     return [s for t, s in zip(types, sets) if t in numbers]
 
 
-def check_listing(checks, path):
+def check_listing(checks, path, meant=None):
     name = path.name
     code, seen, err = listing(path)
     if name in REFUSED:
         place = f"{path}:" in err and REFUSED[name] in err
         checks.true(f"{name}: refused with place and reason", code in (1, 2) and place, (code, err[:200]))
-        return None
+        return
     if not checks.true(f"{name}: listed", code == 0, (code, err[:300])):
-        return None
+        return
     wrong = [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in SCHEMA.iter_errors(seen)]
     checks.true(f"{name}: the JSON follows its schema", not wrong, wrong[:3])
     types, sets = read(path)
+    sets = meant or sets
     checks.true(f"{name}: the same {len(types)} sets", [s["set"] for s in seen["sets"]] == types, [s["set"] for s in seen["sets"]][:20])
     unread = sum(s is None for s in sets)
     functions = of_type(types, sets, 58)
@@ -135,68 +134,10 @@ def check_listing(checks, path):
     if shapes:
         wrong = [f"{i + 1}: {w}" for i, (a, b) in enumerate(zip(seen["shapes"], shapes)) if b and (w := same_shape(a, b))]
         checks.true(f"{name}: {len(shapes)} shapes", len(shapes) == len(seen["shapes"]) and not wrong, wrong[:3])
-    elements = [s for s in of_type(types, sets, 2412) if s]
-    if elements:
-        count = sum(len(v) for s in elements for k, v in s.items() if isinstance(k, int))
-        checks.true(f"{name}: {count} elements", seen["elements"] == count, seen["elements"])
+    over = {s["set"] for s in seen["sets"] if s["state"] == "read_over"}
+    checks.true(f"{name}: what is read over", over == set(types) & {18, 82, 2412, 2414, 2420}, over)
     if unread:
         print(f"   {name}: pyuff cannot read {unread} of its {len(sets)} sets")
-    return types, sets
-
-
-def differences(types, sets, other_types, other_sets, tolerance):
-    """What pyuff reads from two files, beside what the format of functions changes."""
-    changed = {"binary", "ord_data_type", "byte_ordering", "fp_format", "n_ascii_lines", "n_bytes"}
-    if types != other_types:
-        return [f"sets {other_types[:20]}"]
-    wrong = []
-    for i, (a, b) in enumerate(zip(sets, other_sets)):
-        if a is None:  # there is nothing to compare with
-            continue
-        if b is None:
-            wrong.append(f"set {i + 1}, {types[i]}, cannot be read")
-            continue
-        for key, value in a.items():
-            if key in changed or value is None:
-                continue
-            if types[i] == 82 and key == "nodes":  # Testlab fills the last line with zeros, which pyuff takes for nodes
-                value = value[: a["n_nodes"]]
-            if not same_value(value, b.get(key), tolerance if key in ("data", "x") else TEXT):
-                wrong.append(f"set {i + 1}, {types[i]}: {key} {str(b.get(key))[:60]} for {str(value)[:60]}")
-    return wrong
-
-
-def same_value(a, b, tolerance):
-    if isinstance(a, str):
-        # texts are NONE where they are empty; blanks at the end do not count
-        return (a.strip() or "NONE").rstrip() == ((b or "").strip() or "NONE").rstrip()
-    if isinstance(a, dict):
-        return isinstance(b, dict) and all(same_value(v, b.get(k), tolerance) for k, v in a.items())
-    if isinstance(a, (list, tuple)):
-        return len(a) == len(b) and all(same_value(v, w, tolerance) for v, w in zip(a, b))
-    if isinstance(a, bytes):
-        return a == b
-    return b is not None and near(np.asarray(a), np.asarray(b), tolerance)
-
-
-def check_conversion(checks, path, folder, types, sets):
-    functions = of_type(types, sets, 58)
-    binary = bool(functions) and functions[0] is not None and bool(functions[0].get("binary"))
-    is_large = path.stat().st_size > LARGE
-    format = "binary" if is_large or not binary else "ascii"
-    out = Path(folder) / "converted.uff"
-    code, _, err = rotid("uff", path, "-o", out, "--format", format, "--quiet")
-    if not checks.true(f"{path.name}: converted to {format}", code == 0, (code, err[:300])):
-        return
-    tolerance = 0 if binary and format == "binary" else DOUBLE if format == "ascii" else SINGLE
-    wrong = differences(types, sets, *read(out), tolerance)
-    checks.true(f"{path.name}: pyuff reads the same from the result", not wrong, wrong[:3])
-    if not functions or is_large:
-        return
-    back = Path(folder) / "back.uff"
-    code, _, err = rotid("uff", out, "-o", back, "--quiet")
-    wrong = differences(types, sets, *read(back), SINGLE if not binary else DOUBLE) if code == 0 else err
-    checks.true(f"{path.name}: and from the way back", not wrong, wrong[:3])
 
 
 RANDOM = np.random.default_rng(11)
@@ -259,26 +200,26 @@ def written_by_pyuff():
 
 
 def check_written(checks, name, sets, folder):
-    source = Path(folder) / "pyuff.uff"
-    source.unlink(missing_ok=True)
+    source = Path(folder) / f"pyuff {name}.uff"
     file = pyuff.UFF(str(source))
     for one in sets:
         file._write_set(one, "add")
-    types, original = read(source)
-    if name == "15":  # of which pyuff loses the last line when it reads what it wrote
-        original = sets
-    for format in ("ascii", "binary"):
-        out = Path(folder) / "rotid.uff"
-        code, _, err = rotid("uff", source, "-o", out, "--format", format, "--quiet")
-        if not checks.true(f"pyuff {name}, converted to {format}", code == 0, (code, err[:300])):
-            continue
-        binary = name.startswith("58b")
-        tolerance = 0 if binary and format == "binary" else DOUBLE
-        other_types, other = read(out)
-        if format == "ascii" and "uneven" in name:  # its abscissa has six digits in text; these ones have no more
-            tolerance = DOUBLE
-        wrong = differences(types, original, other_types, other, tolerance)
-        checks.true(f"pyuff {name}, to {format}, read by pyuff", None not in original and not wrong, wrong[:3])
+    check_listing(checks, source, sets if name == "15" else None)  # of which pyuff loses the last line when it reads what it wrote
+
+
+def check_recipe(checks, folder):
+    """The two lines of docs/uff.md, from text to binary and back."""
+    block = re.search(r"```python\n(import pyuff\n.*?)```", (ROOT / "docs" / "uff.md").read_text(), re.S)[1]
+    text, binary, back = (Path(folder) / name for name in ("text.uff", "binary.uff", "back.uff"))
+    text.write_bytes((ROOT / "tests" / "data" / "uff" / "beam_excerpt.uff").read_bytes())
+    for script in (block, block.replace('"binary.uff"', '"back.uff"').replace('"text.uff"', '"binary.uff"').replace('"binary": 1', '"binary": 0')):
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", script], cwd=folder, capture_output=True, text=True)
+        checks.true("docs/uff.md: the conversion by pyuff runs", done.returncode == 0, done.stderr[-300:])
+    first, second, third = (listing(path)[1] for path in (text, binary, back))
+    checks.true("docs/uff.md: binary and text again", [s["binary"] for s in second["sets"]] == [True] * 3 and [s["binary"] for s in third["sets"]] == [False] * 3, "")
+    for other in (second, third):
+        same = all(near(a[key], b[key], 1e-10) for a, b in zip(first["functions"], other["functions"]) for key in ("first", "last", "rms", "count"))
+        checks.true("docs/uff.md: with the same values", same and len(other["functions"]) == 3, "")
 
 
 def main():
@@ -288,9 +229,8 @@ def main():
         for name, sets in written_by_pyuff():
             check_written(checks, name, sets, folder)
         for path in sorted(data_folder().iterdir()):
-            found = check_listing(checks, path)
-            if found:
-                check_conversion(checks, path, folder, *found)
+            check_listing(checks, path)
+        check_recipe(checks, folder)
     checks.end()
 
 

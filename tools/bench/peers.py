@@ -30,14 +30,13 @@ for _ in range(1):
 print(json.dumps({"seconds": best, "hz": list(map(float, found[0]))}))
 """
 ROSS = """
-import importlib.util, json, sys, time, warnings
+import json, sys, time, warnings
 warnings.simplefilter("ignore")
-spec = importlib.util.spec_from_file_location("script", sys.argv[1])
-script = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(script)
+sys.path.insert(0, "tools/python")
+from rotid import to_ross
 best = 1e9
 for _ in range(3):
-    rotor = script.build() # which keeps what it has computed
+    rotor = to_ross("input/paper_rotor.inp", start=True, program=sys.argv[1]) # ROSS keeps what it has computed
     begin = time.process_time()
     rotor.run_modal(0, num_modes=32, sparse=True)
     best = min(best, time.process_time() - begin)
@@ -76,12 +75,8 @@ def extraction(folder):
     return None
 
 
-def modal(folder):
-    path = folder / "paper.py"
-    subprocess.run([rotid, "export", "input/paper_rotor.inp", "--format", "ross", "--start", "-o", str(path), "--quiet"], cwd=ROOT, check=True)
-    text = path.read_text()
-    name = next((word for word in ("build", "make_rotor", "rotor") if f"def {word}(" in text), None)
-    peer = name and by(build / "venv-export/bin/python", ROSS.replace("script.build()", f"script.{name}()"), path)
+def modal():
+    peer = by(build / "venv-export/bin/python", ROSS, rotid)
     if not peer:
         return "ROSS: missing (make check-peers installs it into build/venv-export)"
     result = min((json.loads(subprocess.run([rotid, "identify", "input/paper_rotor.inp", "--no-baseline", "--quiet", "--json", "-", "--set",
@@ -114,7 +109,7 @@ def main():
     os.chdir(ROOT)
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     with tempfile.TemporaryDirectory() as folder:
-        steps = (("sdypy-EMA", lambda: extraction(pathlib.Path(folder))), ("ROSS", lambda: modal(pathlib.Path(folder))), ("CalculiX", solid))
+        steps = (("sdypy-EMA", lambda: extraction(pathlib.Path(folder))), ("ROSS", modal), ("CalculiX", solid))
         for name, step in steps:
             try:
                 missing = step()

@@ -1,0 +1,216 @@
+/* Measured data as a whole, from universal files.
+ *
+ * 1. listing_read: what a file holds and what in it is doubtful, for rotid uff. Values of functions pass by once; what is kept of
+ *    them is their number, first, last, least and greatest, sum, root mean square and a hash (struct values), from which follow
+ * dead, clipped and repeated channels.
+ * 2. measurement_read: the transfer functions H(f) of a test in SI, or the time records that signal/transfer.h makes H of, for
+ *    rotid ema and frf. contents_read lists the functions first, so that only those that are wanted are read; a response record
+ * goes with its force by load case, else with the last force before it. A coherence g2 with K averages gives the variance (1 -
+ * g2)/(g2 K) |H|^2.
+ * 3. modes_write: the modes of a test with their standard deviations as a file that *MEASURED reads.
+ * 4. names: numbers of the format in words, units.
+ *
+ * listing.c has the values, the doubtful places and the summary too, measurement.c the pairing of time records. */
+#ifndef ROTID_IMPORT_IMPORT_H
+#define ROTID_IMPORT_IMPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/message.h"
+#include "base/pool.h"
+#include "ema/ema.h"
+#include "signal/frf.h"
+#include "signal/transfer.h"
+#include "uff/uff.h"
+
+/* ---- What the numbers of a universal file mean, in words. */
+
+/* Of a set; NULL for those that are not known. */
+const char *name_of_set(int number);
+
+/* Of a function type of set 58, one of them and several: "transfer function", "transfer functions". */
+const char *name_of_function(int type, int plural);
+
+/* Of an ordinate data type: "real single", ... */
+const char *name_of_ordinate(int ordinate);
+
+/* Of an analysis type of sets 55 and 2414. */
+const char *name_of_analysis(int type);
+
+/* Of a unit system of set 164: "SI (m, N)", ... */
+const char *name_of_units(int code);
+
+/* A degree of freedom as in "19:+X", "19" for a scalar, "19:-RZ" for a rotation. Returns buffer. */
+#define PLACE_MOST 24
+const char *place_text(int node, int direction, char buffer[PLACE_MOST]);
+
+/* Whether the abscissa is time: by its data type or, where that says nothing, by the kind of function. */
+int has_time_axis(const struct uff_function *function);
+
+/* SI unit of a quantity (specific data type of set 58), "" where that is not known. */
+const char *si_unit(int specific_type);
+
+/* What a value in the unit that a text names must be multiplied with to be in that SI unit; 0 where the text is none of the usual
+ * ones for the quantity. */
+double unit_text_factor(int specific_type, const char *text);
+
+/* ---- The values of a function in a few numbers, gathered piece by piece. */
+
+/* Of complex values `min` and `max` are those of the modulus. Without any, all are zero. */
+struct values {
+    long long count;
+    double first[2], last[2], sum[2]; /* real and imaginary part */
+    double min, max, rms;             /* rms = sqrt(sum |y|^2 / count) */
+    double x_first, x_last, x_least_step, x_most_step;
+    int is_constant;        /* all values are equal */
+    long long plateau[2];   /* most values in a row that equal the least and the greatest of real data */
+    double plateau_jump[2]; /* from the value before that row to it */
+    uint64_t hash;          /* of all values, bit by bit */
+    double scale, squares;  /* sum |y|^2 = scale^2 squares, which does not overflow */
+    long long run[2];
+    double before; /* the value before the last */
+};
+
+void values_open(struct values *values);
+/* count values, all finite: abscissa x, real and imaginary part (imag: of complex ones). */
+void values_add(struct values *values, long long count, const double *x, const double *real, const double *imag, int is_complex);
+void values_close(struct values *values);
+
+/* Whether a record of a time signal stopped at the limit of its converter: the greatest or the least value stands there at least
+ * three times in a row, and the signal was on its way when it got there. */
+int values_are_clipped(const struct values *values);
+
+/* Whether two functions have the same values, all of them. */
+int values_are_same(const struct values *a, const struct values *b);
+
+/* ---- What a universal file holds, and what in it is doubtful. The values of functions pass by and are not kept. */
+
+struct listing_function {
+    struct uff_function function;
+    struct values values;
+    double si_factor, x_si_factor; /* a value, an abscissa times this is in SI */
+    int group;                     /* of functions that differ in their places alone, from 0 */
+};
+
+/* As in the file; node, real, imag only where the values are kept. */
+struct listing_shape {
+    struct uff_shape shape;
+    double sum[2], rms; /* of all components */
+};
+
+struct listing_set {
+    struct uff_set set;
+    int is_read;    /* else it is malformed or was read over */
+    int is_faulty;  /* malformed */
+    long long size; /* nodes or values that it holds */
+    int item;       /* number of the function or the shape, from 0; -1 */
+};
+
+/* A doubtful place: what it is, as a word for programs, and a sentence. */
+struct listing_doubt {
+    const char *kind, *text;
+    int line; /* of the set it concerns, 0 for the file */
+};
+
+struct listing {
+    int set_count, function_count, shape_count, node_count, group_count;
+    int faulty_count;
+    struct listing_set *set;
+    struct listing_function *function;
+    struct listing_shape *shape;
+    struct uff_node *node;     /* of all sets, in their order */
+    int *node_line;            /* line of the set of a node */
+    struct uff_header *header; /* NULL where there is none */
+    struct uff_units *units;   /* the last one, NULL where there is none */
+    size_t doubt_count;
+    struct listing_doubt *doubt;
+    size_t set_room, function_room, shape_room, node_room, line_room, doubt_room;
+};
+
+struct listing_options {
+    int keep_shapes;                 /* the values of shapes as well */
+    int (*cancelled)(void *context); /* asked now and then, NULL allowed */
+    void *context;
+};
+
+/* Reads a file through. A malformed set is an error in `messages` and marked, and reading goes on behind it. ROTID_OK;
+ * ROTID_STOP_CANCELLED; ROTID_ERROR_SYNTAX where the file is no universal file, _IO, _MEMORY. */
+int listing_read(struct pool *pool, const char *path, const struct listing_options *options, struct message_list *messages,
+                 struct listing *listing);
+
+/* One sentence for each group of functions, the shapes, the nodes: `what`[*count] of them. ROTID_OK or ROTID_ERROR_MEMORY. */
+int listing_summarise(struct pool *pool, const struct listing *listing, int *count, const char ***what);
+
+/* ---- The functions, points and units of a universal file, without the values of the functions. */
+
+struct content {
+    struct uff_set set; /* where it stands */
+    struct uff_function
+        function; /* is_even, start and step also where an uneven abscissa is even to the digits it was written with */
+    double *x;    /* [function.count] of one that is not, NULL else */
+};
+
+struct contents {
+    int count;
+    struct content *item; /* [count] sets 58 and 58b in the order of the file */
+    int node_count;
+    struct uff_node *node; /* ids distinct: the first of several wins, with a warning where they differ; metres */
+    struct uff_units units;
+    int has_units;
+};
+
+/* Reads over a file from its beginning. ROTID_OK or the statuses of uff_next and of the readers. */
+int contents_read(struct pool *pool, struct uff_reader *reader, const char *path, struct message_list *messages,
+                  struct contents *contents);
+
+/* Values first ... first + count - 1 of a function, times a factor: real [count], imag [count] (NULL: of a real one). Statuses of
+ * uff_return_to and of the readers; fewer values than the function has are not asked for. */
+int contents_values(struct uff_reader *reader, const struct content *item, long long first, long long count, double factor,
+                    double *real, double *imag);
+
+/* Quantity of an axis as enum frf_quantity: -1 where it is no motion. A type that is not given is told by the text of the unit.
+ */
+int motion_of(const struct uff_axis *axis);
+int is_force(const struct uff_axis *axis);
+
+/* ---- A modal test as universal files hold it: transfer functions, or the time records they are made from, and the points. */
+
+struct measurement_options {
+    struct transfer_options transfer; /* for time records */
+    int reference;                    /* only transfer functions with this reference node; 0: all */
+    double low_hz, high_hz;           /* only these lines; 0, 0: all */
+    int averages;                     /* behind each coherence of the file; 0: not known, so no variance follows from it */
+    int threads;
+};
+
+struct measurement {
+    int node_count;
+    struct uff_node *node; /* distinct ids; coordinates in metres */
+    struct uff_units units;
+    int has_units;
+    struct frf_set set; /* as measured or as computed from the records; SI */
+    int from_records;   /* nonzero: `transfer` holds the impacts */
+    struct transfer transfer;
+    int record_count;
+    double rate; /* Hz, of the records */
+};
+
+/* Reads sets 58 and 58b of a file: transfer functions (type 4) with their coherences (type 6) where it has any, else pairs of
+ * time records (type 1), force and response. Nodes from 15, 781, 2411; values and coordinates brought to SI by set 164 and the
+ * texts of the axes. Coherences of the same response and reference go with their transfer function, and give the variance (1 -
+ * g2)/(g2 * 2 K) * 2 |h|^2 where the number of averages K is known, else NULL. ROTID_OK, ROTID_ERROR_SYNTAX, _IO, _ARGUMENT
+ * (nothing usable; the list says what is there and what was expected), _MEMORY. */
+int measurement_read(struct pool *pool, const char *path, const struct measurement_options *options,
+                     struct message_list *messages, struct measurement *out);
+
+/* ---- The modes of a test as a universal file that `identify` and `diagnose` take: docs/uff.md, "Modes with standard
+ * deviations". */
+
+/* Sets 151, 164 (SI), 2411 (the nodes of the shapes; those without coordinates are left out), and per mode a set 55 of a real
+ * normal mode, a set 55 of analysis type 0 with its standard deviations, and two more of them with the frequencies at each point
+ * where ema holds any. `source`: the file that was measured, for the text lines. ROTID_OK, ROTID_ERROR_IO, _MEMORY. */
+int modes_write(FILE *stream, const char *source, const char *program, const struct measurement *measurement,
+                const struct ema *ema);
+
+#endif

@@ -1,0 +1,342 @@
+#include "uff/reader.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Set 15 has six digits: the same node in set 2411 differs in the last of them. */
+static int is_same_place(const double *a, const double *b)
+{
+    for (int i = 0; i < 3; ++i)
+        if (fabs(a[i] - b[i]) > 1e-5 * fmax(fabs(a[i]), fabs(b[i])))
+            return 0;
+    return 1;
+}
+
+static int check_repeated(const char *path, const struct uff_placed_node *first, const struct uff_placed_node *again,
+                          struct message_list *messages)
+{
+    const char *wrong = NULL;
+    if (first->set_line == again->set_line)
+        wrong = "occurs twice in the set";
+    else if (!is_same_place(first->node.x, again->node.x))
+        wrong = "was elsewhere in an earlier set";
+    if (!wrong)
+        return ROTID_OK;
+    message_add(messages, SEVERITY_ERROR, path, again->line, 1, "set %d: node %d %s, line %d", again->set, again->node.id, wrong,
+                first->line);
+    return ROTID_ERROR_SYNTAX;
+}
+
+/* All nodes of the list to *out, those of several sets joined. The same id twice in a set, or in two sets with different
+ * coordinates, is an error at its line of `path`. ROTID_OK, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY. */
+static int uff_join_nodes(struct pool *pool, struct pool *scratch, const char *path, const struct uff_node_list *list,
+                          struct message_list *messages, struct uff_file *out)
+{
+    struct uff_label_list labels = {0};
+    for (size_t i = 0; i < list->count; ++i)
+        if (uff_add_label(scratch, &labels, list->item[i].node.id) != ROTID_OK)
+            return ROTID_ERROR_MEMORY;
+    uff_sort_labels(&labels);
+
+    char *dropped = POOL_ARRAY(scratch, char, list->count);
+    if (!dropped)
+        return ROTID_ERROR_MEMORY;
+    size_t kept = list->count;
+    for (size_t i = 1; i < labels.count; ++i) {
+        if (labels.item[i].id != labels.item[i - 1].id)
+            continue;
+        int status = check_repeated(path, &list->item[labels.item[i - 1].order], &list->item[labels.item[i].order], messages);
+        if (status != ROTID_OK)
+            return status;
+        dropped[labels.item[i].order] = 1; /* the first one stays */
+        --kept;
+    }
+
+    out->node = POOL_ARRAY(pool, struct uff_node, kept);
+    if (!out->node)
+        return ROTID_ERROR_MEMORY;
+    for (size_t i = 0; i < list->count; ++i)
+        if (!dropped[i])
+            out->node[out->node_count++] = list->item[i].node;
+    return ROTID_OK;
+}
+
+/* ---- the nodes and shapes of a file, for decks */
+
+#define SKIP_LIMIT 32
+struct skip { /* sets of one type that were not read */
+    char what[80];
+    int line, count; /* line of the first one */
+};
+
+struct shape_list {
+    struct uff_shape *item;
+    size_t count, capacity;
+};
+
+/* One reading. */
+struct uff_run {
+    struct uff_reader *reader;
+    const char *path;
+    struct message_list *messages;
+    struct pool *pool;   /* of the caller */
+    struct pool scratch; /* ends with the job; what grows grows here and is copied to its length */
+    struct uff_node_list nodes;
+    struct shape_list shapes, extras;
+    struct skip skip[SKIP_LIMIT];
+    int skip_count, skip_others;
+};
+
+/* Remembers that the set at `line` was not read: the format gives its name, such as "set 151". */
+static void note_skip(struct uff_run *job, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void note_skip(struct uff_run *job, int line, const char *format, ...)
+{
+    char what[sizeof job->skip[0].what];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(what, sizeof what, format, values);
+    va_end(values);
+    for (int i = 0; i < job->skip_count; ++i)
+        if (strcmp(job->skip[i].what, what) == 0) {
+            job->skip[i].count += job->skip[i].count < INT_MAX;
+            return;
+        }
+    if (job->skip_count == SKIP_LIMIT) {
+        job->skip_others += job->skip_others < INT_MAX;
+        return;
+    }
+    struct skip *skip = &job->skip[job->skip_count++];
+    memcpy(skip->what, what, sizeof what);
+    skip->line = line;
+    skip->count = 1;
+}
+
+static void say_skipped(struct uff_run *job)
+{
+    for (int i = 0; i < job->skip_count; ++i) {
+        const struct skip *skip = &job->skip[i];
+        if (skip->count == 1)
+            message_add(job->messages, SEVERITY_NOTE, job->path, skip->line, 1, "%s skipped", skip->what);
+        else
+            message_add(job->messages, SEVERITY_NOTE, job->path, skip->line, 1, "%s skipped, %d times from here on", skip->what,
+                        skip->count);
+    }
+    if (job->skip_others)
+        message_add(job->messages, SEVERITY_NOTE, job->path, 1, 1, "%d sets of further types skipped", job->skip_others);
+}
+
+/* Notes that this set is no shape of a vibration; nonzero when it is to be skipped. */
+static int note_other_data(struct uff_run *job, const struct uff_shape *shape)
+{
+    static const char *const analysis_name[] = {"unknown", "static", "", "", "transient", "", "buckling"};
+    int analysis = shape->analysis_type;
+    int characteristic = shape->data_characteristic, quantity = shape->specific_type;
+    if (analysis != 2 && analysis != 3 && analysis != 5 && analysis != 7) {
+        int named = analysis >= 0 && analysis < (int)(sizeof analysis_name / sizeof *analysis_name);
+        note_skip(job, shape->line, "set 55 of analysis type %d (%s)", analysis,
+                  named ? analysis_name[analysis] : "not known here");
+        return 1;
+    }
+    if (characteristic < 0 || characteristic > 3) { /* unknown, scalar, 3 or 6 degrees of freedom */
+        note_skip(job, shape->line, "set 55 of data characteristic %d (not a vector)", characteristic);
+        return 1;
+    }
+    if (quantity != 0 && quantity != 8 && quantity != 11 && quantity != 12) {
+        note_skip(job, shape->line, "set 55 of specific data type %d (not displacement, velocity or acceleration)", quantity);
+        return 1;
+    }
+    return 0;
+}
+
+static int read_shape(struct uff_run *job)
+{
+    struct uff_shape shape;
+    int status = uff_read_shape_kind(job->reader, &shape);
+    if (status != ROTID_OK)
+        return status;
+    int is_extra = shape.analysis_type == 0 && strncmp(shape.id[0], "ROTID ", 6) == 0;
+    if (!is_extra && note_other_data(job, &shape))
+        return ROTID_OK; /* uff_next reads over the rest */
+    status = uff_read_shape_rest(job->reader, job->pool, &shape);
+    if (status != ROTID_OK)
+        return status;
+    struct shape_list *list = is_extra ? &job->extras : &job->shapes;
+    struct uff_shape *grown =
+        list->count < INT_MAX ? pool_grow(&job->scratch, list->item, list->count, &list->capacity, sizeof *grown) : NULL;
+    if (!grown)
+        return ROTID_ERROR_MEMORY;
+    list->item = grown;
+    list->item[list->count++] = shape;
+    return ROTID_OK;
+}
+
+static int read_nodes(struct uff_run *job, const struct uff_set *set)
+{
+    struct uff_node_list *list = &job->nodes;
+    size_t before = list->count;
+    int status = uff_append_nodes(job->reader, &job->scratch, list);
+    for (size_t i = before; i < list->count && set->number == 15; ++i)
+        if (list->item[i].node.definition_system != 0) {
+            message_add(job->messages, SEVERITY_WARNING, job->path, list->item[i].line, 1,
+                        "set 15: node %d is given in coordinate system %d; its coordinates are taken as global and Cartesian",
+                        list->item[i].node.id, list->item[i].node.definition_system);
+            break;
+        }
+    return status;
+}
+
+static int read_sets(struct uff_run *job)
+{
+    for (;;) {
+        struct uff_set set;
+        int status = uff_next(job->reader, &set);
+        if (status == UFF_END)
+            return ROTID_OK;
+        if (status == ROTID_OK && !set.is_binary && (set.number == 15 || set.number == 781 || set.number == 2411))
+            status = read_nodes(job, &set);
+        else if (status == ROTID_OK && !set.is_binary && set.number == 55)
+            status = read_shape(job);
+        else if (status == ROTID_OK)
+            note_skip(job, set.line, "set %d%s", set.number, set.is_binary ? "b" : "");
+        if (status != ROTID_OK)
+            return status;
+    }
+}
+
+static int keep_shapes(struct pool *pool, const struct shape_list *list, int *count, struct uff_shape **out)
+{
+    *out = POOL_ARRAY(pool, struct uff_shape, list->count);
+    if (!*out)
+        return ROTID_ERROR_MEMORY;
+    if (list->count)
+        memcpy(*out, list->item, list->count * sizeof *list->item);
+    *count = (int)list->count;
+    return ROTID_OK;
+}
+
+int uff_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_file *out)
+{
+    struct uff_run job = {.path = path, .messages = messages, .pool = pool};
+    *out = (struct uff_file){0};
+    pool_open(&job.scratch, pool->allocator);
+
+    int status = uff_open(&job.scratch, path, messages, &job.reader);
+    if (status == ROTID_OK) {
+        status = read_sets(&job);
+        say_skipped(&job);
+        uff_close(job.reader);
+    }
+    if (status == ROTID_OK)
+        status = uff_join_nodes(pool, &job.scratch, path, &job.nodes, messages, out);
+    if (status == ROTID_OK)
+        status = keep_shapes(pool, &job.shapes, &out->shape_count, &out->shape);
+    if (status == ROTID_OK)
+        status = keep_shapes(pool, &job.extras, &out->extra_count, &out->extra);
+    pool_close(&job.scratch);
+
+    if (messages->out_of_memory)
+        status = ROTID_ERROR_MEMORY;
+    if (status != ROTID_OK)
+        *out = (struct uff_file){0};
+    return status;
+}
+
+int uff_is_mode(const struct uff_shape *shape)
+{
+    return shape->analysis_type != 5; /* 5 is a frequency response: an operating shape */
+}
+
+static int compare_shapes(const void *left, const void *right)
+{
+    const struct uff_shape *const *a = left, *const *b = right;
+    return ((*a)->frequency_hz > (*b)->frequency_hz) - ((*a)->frequency_hz < (*b)->frequency_hz);
+}
+
+/* A complex eigenvalue comes with its conjugate; two real modes of one frequency are two modes. */
+static int is_conjugate(const struct uff_shape *a, const struct uff_shape *b)
+{
+    return a->is_complex && b->is_complex && fabs(a->frequency_hz - b->frequency_hz) <= 1e-9 * a->frequency_hz;
+}
+
+int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chosen, int *rigid, int *conjugates)
+{
+    int count = 0, kept = 0;
+    *rigid = 0;
+    for (int k = 0; k < file->shape_count; k++) {
+        if (uff_is_mode(&file->shape[k]) && file->shape[k].frequency_hz > 0)
+            chosen[count++] = &file->shape[k];
+        else
+            *rigid += uff_is_mode(&file->shape[k]);
+    }
+    if (count)
+        qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
+    for (int k = 0; k < count; k++)
+        if (!kept || !is_conjugate(chosen[k], chosen[kept - 1]))
+            chosen[kept++] = chosen[k];
+    *conjugates = count - kept;
+    return kept;
+}
+
+int uff_modes_are_numbered(int count, const struct uff_shape *const *chosen)
+{
+    for (int k = 0; k < count; k++)
+        if (chosen[k]->number <= 0 || (k && chosen[k]->number <= chosen[k - 1]->number))
+            return 0;
+    return 1;
+}
+
+double uff_mode_frequency(const struct uff_shape *mode)
+{
+    double hz;
+    for (int i = 0; i < UFF_ID_LINES; i++)
+        if (sscanf(mode->id[i], "ROTID FREQUENCY_HZ %lf", &hz) == 1 && fabs(hz - mode->frequency_hz) < 1e-5 * mode->frequency_hz)
+            return hz;
+    return mode->frequency_hz;
+}
+
+double uff_real_shape(const struct uff_shape *mode, int component, double *value)
+{
+    int n = mode->node_count, step = mode->component_count;
+    double xx = 0, yy = 0, xy = 0, left = 0;
+    for (int i = 0; i < n; i++) {
+        double x = mode->real[i * step + component], y = mode->imag ? mode->imag[i * step + component] : 0;
+        xx += x * x;
+        yy += y * y;
+        xy += x * y;
+    }
+    double turn = mode->imag ? -0.5 * atan2(2 * xy, xx - yy) : 0;
+    for (int i = 0; i < n; i++) {
+        double x = mode->real[i * step + component], y = mode->imag ? mode->imag[i * step + component] : 0;
+        value[i] = mode->imag ? x * cos(turn) - y * sin(turn) : x;
+        left += mode->imag ? pow(x * sin(turn) + y * cos(turn), 2) : 0;
+    }
+    return xx + yy > 0 ? left / (xx + yy) : 0;
+}
+
+enum uff_extra uff_extra_of(const struct uff_shape *set, int *number)
+{
+    static const char *const title[UFF_EXTRAS] = {[UFF_EXTRA_SHAPE_STD] = "ROTID STANDARD DEVIATION OF MODE ",
+                                                  [UFF_EXTRA_POINT] = "ROTID FREQUENCY AT POINT OF MODE ",
+                                                  [UFF_EXTRA_POINT_STD] =
+                                                      "ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE "};
+    enum uff_extra kind = 0;
+    while (kind < UFF_EXTRAS && strncmp(set->id[0], title[kind], strlen(title[kind])) != 0)
+        kind++;
+    const char *rest = kind < UFF_EXTRAS ? set->id[0] + strlen(title[kind]) : "";
+    char *end;
+    long of = strtol(rest, &end, 10); /* the end of the text is one whole number above zero */
+    *number = end != rest && !*end && of > 0 && of <= 1000000 ? (int)of : 0;
+    return kind;
+}
+
+int uff_extra_frequency_std(const struct uff_shape *set, double *hz)
+{
+    double damping; /* nothing needs its deviation yet, but it has to be one */
+    int length = 0;
+    return sscanf(set->id[1], "FREQUENCY_HZ %lf DAMPING %lf%n", hz, &damping, &length) != 2 || set->id[1][length] ||
+           !(isfinite(*hz) && *hz >= 0 && isfinite(damping) && damping >= 0);
+}

@@ -1,0 +1,418 @@
+#include "uff/reader.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- where in the file a reader is */
+
+int uff_begin(struct uff_reader *reader, int number)
+{
+    return reader->place == UFF_AT_BODY && reader->set.number == number ? ROTID_OK : ROTID_ERROR_ARGUMENT;
+}
+
+int uff_end(struct uff_reader *reader, int status, enum uff_place place)
+{
+    reader->place = status == ROTID_OK ? place : status == ROTID_ERROR_IO ? UFF_BROKEN : UFF_LOST;
+    return status;
+}
+
+int uff_next_record(struct uff_reader *reader, const char *expected, int *is_end)
+{
+    int status = uff_expect_line(&reader->lines, expected);
+    *is_end = status == ROTID_OK && uff_is_delimiter(&reader->lines, 0);
+    return status;
+}
+
+/* ---- ids that must not occur twice */
+
+int uff_add_label(struct pool *pool, struct uff_label_list *labels, int id)
+{
+    struct uff_label *grown = pool_grow(pool, labels->item, labels->count, &labels->capacity, sizeof *grown);
+    if (!grown)
+        return ROTID_ERROR_MEMORY;
+    labels->item = grown;
+    labels->item[labels->count] = (struct uff_label){id, (int)labels->count};
+    ++labels->count;
+    return ROTID_OK;
+}
+
+static int compare_labels(const void *first, const void *second)
+{
+    const struct uff_label *a = first, *b = second;
+    if (a->id != b->id)
+        return a->id < b->id ? -1 : 1;
+    return (a->order > b->order) - (a->order < b->order);
+}
+
+void uff_sort_labels(struct uff_label_list *labels)
+{
+    size_t sorted = 1;
+    while (sorted < labels->count && labels->item[sorted - 1].id < labels->item[sorted].id)
+        ++sorted;
+    if (sorted < labels->count) /* most writers sort */
+        qsort(labels->item, labels->count, sizeof *labels->item, compare_labels);
+}
+
+/* ---- reading over a set, or over what is left of it */
+
+/* Data of a set may be -1 in a line of its own, so the end must look like the beginning did. The first `texts` lines may be
+ * anything. */
+static int skip_lines(struct uff_lines *lines, int texts)
+{
+    for (int i = 0;; i += i < texts) {
+        int status = uff_take_line(lines);
+        if (status == UFF_END)
+            return uff_fail(lines, 0, "the file ends after this line; expected the '-1' that ends the set");
+        if (status != ROTID_OK || (i >= texts && uff_is_delimiter(lines, lines->strict)))
+            return status;
+    }
+}
+
+/* The bytes of binary data may hold anything, also what looks like the end. */
+static int skip_binary(struct uff_reader *reader)
+{
+    struct uff_lines *lines = &reader->lines;
+    struct uff_function function = {0};
+    long long bytes;
+    int x_size;
+    for (long long i = 0; i < reader->binary.text_lines; ++i) {
+        int status = uff_take_line(lines);
+        if (status == UFF_END)
+            return uff_fail(lines, 0, "the file ends after this line; expected %lld lines of text in all",
+                            reader->binary.text_lines);
+        if (status != ROTID_OK)
+            return status;
+        struct uff_cell cell[UFF_CELL_LIMIT];
+        if (i == 6 && reader->set.number == 58 && uff_cut_data_form(lines, cell, &function) >= 0)
+            function = (struct uff_function){0};
+    }
+    int status = uff_measure_binary(reader, &function, &bytes, &x_size);
+    return status == ROTID_OK ? uff_close_values(lines, bytes) : status;
+}
+
+/* Reads over the rest of the set at hand. */
+static int uff_skip_set(struct uff_reader *reader)
+{
+    struct uff_values *values = &reader->values;
+    int status, has_texts = reader->place == UFF_AT_BODY && (reader->set.number == 55 || reader->set.number == 58);
+    if (!reader->set.is_binary)
+        status = skip_lines(&reader->lines, has_texts ? UFF_ID_LINES : 0);
+    else if (reader->place == UFF_AT_BODY)
+        status = skip_binary(reader);
+    else
+        status = uff_close_values(&reader->lines, values->left_over + (values->function.count - values->done) *
+                                                                          (values->x_size + (long long)values->y_size));
+    return uff_end(reader, status, UFF_BETWEEN);
+}
+
+/* ---- header, set 151, and units, set 164 */
+
+/* Record 4: date and time, then numbers, which no one needs: writers put other things there, or nothing. */
+static void cut_versions(const struct uff_lines *lines, struct uff_header *header)
+{
+    static const struct uff_column column[] = {{UFF_INTEGER, 20, 10}, {UFF_INTEGER, 30, 10}, {UFF_INTEGER, 40, 10}};
+    struct uff_cell cell[3];
+    int bad = uff_cut_line(lines, 3, column, cell);
+    uff_copy_text(lines->text, lines->length < 20 || bad >= 0 ? lines->length : 20, sizeof header->created, header->created);
+    for (int i = 0; i < 3 && bad < 0; ++i)
+        if (cell[i].integer < -2147483647 || cell[i].integer > 2147483647)
+            bad = i;
+    if (bad >= 0)
+        return;
+    header->version[0] = (int)cell[0].integer;
+    header->version[1] = (int)cell[1].integer;
+    header->file_type = (int)cell[2].integer;
+}
+
+int uff_read_header(struct uff_reader *reader, struct uff_header *header)
+{
+    struct uff_lines *lines = &reader->lines;
+    *header = (struct uff_header){0};
+    char *text[] = {header->model, header->description, header->program, NULL,
+                    header->saved, header->written_by,  header->written};
+    int status = uff_begin(reader, 151);
+    if (status != ROTID_OK)
+        return status;
+    /* some write fewer records or more: as the lines come, to the end of the set */
+    for (size_t i = 0;; ++i) {
+        status = uff_take_line(lines);
+        if (status == UFF_END)
+            status = uff_fail(lines, 0, "the file ends after this line; expected the '-1' that ends the set");
+        if (status != ROTID_OK || uff_is_delimiter(lines, lines->strict))
+            return uff_end(reader, status, UFF_BETWEEN);
+        if (i == 3)
+            cut_versions(lines, header);
+        else if (i < sizeof text / sizeof *text)
+            uff_copy_text(lines->text, lines->length, UFF_TEXT + 1, text[i]);
+    }
+}
+
+static int read_units(struct uff_reader *reader, struct uff_units *units)
+{
+    struct uff_lines *lines = &reader->lines;
+    double factor[4];
+    int is_end, status = uff_read_record(lines, &uff_units_164, units);
+    if (status != ROTID_OK)
+        return status;
+    if (units->code < 1 || units->code > 9)
+        return uff_fail(lines, 1, "%s: code %d; expected 1 to 9", uff_units_164.what, units->code);
+    status = uff_read_reals(lines, 4, 3, 25, "record 2 (factors of length, force, temperature; offset)", factor);
+    if (status == ROTID_OK)
+        status = uff_next_record(reader, "the '-1' that ends the set", &is_end);
+    if (status != ROTID_OK)
+        return status;
+    if (!is_end)
+        return uff_fail(lines, 0, "expected the '-1' that ends the set behind four factors");
+    units->length = factor[0];
+    units->force = factor[1];
+    units->temperature = factor[2];
+    units->temperature_offset = factor[3];
+    return ROTID_OK;
+}
+
+int uff_read_units(struct uff_reader *reader, struct uff_units *units)
+{
+    *units = (struct uff_units){0};
+    int status = uff_begin(reader, 164);
+    return status == ROTID_OK ? uff_end(reader, read_units(reader, units), UFF_BETWEEN) : status;
+}
+
+/* ---- Nodes: set 15 in single precision, one line a node; sets 2411 and 781 in double precision, two lines a node. */
+
+static int add_node(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list, int line,
+                    const struct uff_node *node)
+{
+    if (list->count >= INT_MAX)
+        return uff_fail(&reader->lines, 0, "more than %d nodes", INT_MAX);
+    struct uff_placed_node *grown = pool_grow(pool, list->item, list->count, &list->capacity, sizeof *grown);
+    if (!grown)
+        return ROTID_ERROR_MEMORY;
+    list->item = grown;
+    list->item[list->count++] =
+        (struct uff_placed_node){.node = *node, .line = line, .set = reader->set.number, .set_line = reader->set.line};
+    return ROTID_OK;
+}
+
+/* One node, of which the first line is at hand. */
+static int read_node(struct uff_lines *lines, int number, struct uff_node *node)
+{
+    if (number == 15)
+        return uff_take_record(lines, &uff_node_15, node);
+    int status = uff_take_record(lines, &uff_node_2411, node);
+    return status == ROTID_OK ? uff_read_record(lines, &uff_place_2411, node) : status;
+}
+
+int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list)
+{
+    int number = reader->set.number;
+    int status = number == 15 || number == 781 || number == 2411 ? uff_begin(reader, number) : ROTID_ERROR_ARGUMENT;
+    if (status != ROTID_OK)
+        return status;
+    for (;;) {
+        struct uff_node node;
+        int is_end;
+        status = uff_next_record(reader, "a node or '-1'", &is_end);
+        if (status != ROTID_OK || is_end)
+            return uff_end(reader, status, UFF_BETWEEN);
+        int line = reader->lines.line;
+        status = read_node(&reader->lines, number, &node);
+        if (status == ROTID_OK)
+            status = add_node(reader, pool, list, line, &node);
+        if (status != ROTID_OK)
+            return uff_end(reader, status, UFF_BETWEEN);
+    }
+}
+
+int uff_read_nodes(struct uff_reader *reader, struct pool *pool, int *count, struct uff_node **node)
+{
+    struct pool scratch; /* what grows grows there and is copied to its length */
+    struct uff_node_list list = {0};
+    *count = 0;
+    *node = NULL;
+    pool_open(&scratch, reader->allocator);
+    int status = uff_append_nodes(reader, &scratch, &list);
+    if (status == ROTID_OK) {
+        *node = POOL_ARRAY(pool, struct uff_node, list.count);
+        status = *node ? ROTID_OK : ROTID_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < list.count && status == ROTID_OK; ++i)
+        (*node)[i] = list.item[i].node;
+    *count = status == ROTID_OK ? (int)list.count : 0;
+    pool_close(&scratch);
+    return status;
+}
+
+/* The sets of a universal file in turn: between two lines '-1', a line with the number of the set and its records. */
+
+int uff_open(struct pool *pool, const char *path, struct message_list *messages, struct uff_reader **out)
+{
+    struct uff_reader *reader = POOL_NEW(pool, struct uff_reader);
+    *out = NULL;
+    if (!reader)
+        return ROTID_ERROR_MEMORY;
+    reader->allocator = pool->allocator;
+    reader->lines.path = path;
+    reader->lines.messages = messages;
+    int status = uff_open_lines(&reader->lines);
+    if (status == ROTID_OK)
+        *out = reader;
+    else
+        uff_close(reader);
+    return status;
+}
+
+void uff_close(struct uff_reader *reader)
+{
+    if (reader && reader->lines.stream)
+        (void)fclose(reader->lines.stream); /* nothing was written that could fail to arrive */
+    if (reader)
+        reader->lines.stream = NULL;
+}
+
+/* The number of a set in the current line, 0 when it is none. */
+static int parse_number(const struct uff_lines *lines, int *is_binary, size_t *end)
+{
+    size_t i = 0;
+    int number = 0;
+    while (lines->text[i] == ' ' || lines->text[i] == '\t')
+        ++i;
+    for (; lines->text[i] >= '0' && lines->text[i] <= '9' && number < 1000000; ++i)
+        number = 10 * number + (lines->text[i] - '0');
+    *end = i;
+    *is_binary = lines->text[i] == 'b' || lines->text[i] == 'B';
+    i += (size_t)*is_binary;
+    return lines->text[i] && lines->text[i] != ' ' && lines->text[i] != '\t' ? 0 : number;
+}
+
+/* Behind an error: the next line that looks like the number of a set behind a '-1', in the columns where the set that failed
+ * had its own. The set that failed is not taken again. ROTID_OK with that line at hand, UFF_END or ROTID_ERROR_IO. */
+static int find_opener(struct uff_reader *reader)
+{
+    struct uff_lines *lines = &reader->lines;
+    for (;;) {
+        size_t end;
+        int is_binary;
+        if (lines->before.is_delimiter && lines->before.line != reader->set.line && parse_number(lines, &is_binary, &end) &&
+            (!lines->strict || (lines->before.is_strict && end <= 6)))
+            return ROTID_OK;
+        int status = uff_take_line(lines);
+        if (status != ROTID_OK)
+            return status;
+    }
+}
+
+/* The '-1' that opens a set, and the line behind it. */
+static int read_opener(struct uff_reader *reader)
+{
+    struct uff_lines *lines = &reader->lines;
+    int status, is_first = !reader->opened_sets;
+    lines->set = 0;
+    do
+        status = uff_take_line(lines);
+    while (status == ROTID_OK && !lines->length); /* blank lines between sets, and at the end */
+    int is_opener = status == ROTID_OK && uff_is_delimiter(lines, 0);
+    if (is_first && (status == UFF_END || (status == ROTID_OK && !is_opener))) {
+        reader->opened_sets = 1; /* say so once */
+        if (status == ROTID_OK && memchr(lines->text, '\r', lines->length))
+            return uff_fail(lines, 0, "lines end with a carriage return alone; expected line feeds");
+        return uff_fail(lines, 0, "no universal file: expected a line '    -1'");
+    }
+    if (status != ROTID_OK)
+        return status;
+    if (!is_opener) {
+        char excerpt[UFF_EXCERPT];
+        return uff_fail(lines, 1, "expected a line '    -1' that opens a set, found '%s'",
+                        uff_excerpt(lines->text, lines->length, excerpt));
+    }
+    return uff_expect_line(lines, "the number of a set");
+}
+
+/* 58b: its first line says how many lines and then how many bytes follow. */
+static int read_binary_line(struct uff_reader *reader)
+{
+    static const int start[] = {7, 13, 19, 31}, width[] = {6, 6, 12, 12}, field[] = {1, 2, 3, 4};
+    struct uff_binary *binary = &reader->binary;
+    long long value[4];
+    if (!uff_find_integers(&reader->lines, 4, start, width, field, value) || value[2] < 0 || value[3] < 0)
+        return uff_fail(&reader->lines, 0, "binary; expected byte order, number format, number of lines and number of bytes");
+    binary->is_binary = 1;
+    /* anything but 1 to 3 is refused when the values are read */
+    binary->order = value[0] == 1 || value[0] == 2 ? (int)value[0] : 0;
+    binary->format = value[1] >= 1 && value[1] <= 3 ? (int)value[1] : 0;
+    /* the format fixes 11 for set 58, and some writers leave 0 there */
+    binary->text_lines = reader->set.number == 58 && value[2] < 11 ? 11 : value[2];
+    binary->bytes = value[3];
+    return ROTID_OK;
+}
+
+/* From the line with the number, which is at hand. */
+static int enter_set(struct uff_reader *reader, struct uff_set *set)
+{
+    struct uff_lines *lines = &reader->lines;
+    size_t end;
+    int is_binary;
+    int number = parse_number(lines, &is_binary, &end);
+    reader->opened_sets = 1;
+    reader->binary = (struct uff_binary){0};
+    reader->values.is_finished = 0;
+    lines->strict = lines->before.is_strict;
+    lines->set = number;
+    reader->set =
+        (struct uff_set){.number = number, .is_binary = is_binary, .line = lines->before.line, .offset = lines->before.offset};
+    if (!number) {
+        char excerpt[UFF_EXCERPT];
+        return uff_fail(lines, 1, "expected the number of a set behind '    -1', found '%s'",
+                        uff_excerpt(lines->text, lines->length, excerpt));
+    }
+    if (is_binary) {
+        int status = read_binary_line(reader);
+        if (status != ROTID_OK)
+            return status;
+    }
+    *set = reader->set;
+    return ROTID_OK;
+}
+
+int uff_next(struct uff_reader *reader, struct uff_set *set)
+{
+    int status = ROTID_OK;
+    *set = (struct uff_set){0};
+    if (reader->place == UFF_BROKEN)
+        return ROTID_ERROR_IO;
+    if (reader->place == UFF_AT_BODY || reader->place == UFF_AT_DATA)
+        status = uff_skip_set(reader);
+    if (status == ROTID_OK && reader->place == UFF_LOST)
+        status = find_opener(reader);
+    else if (status == ROTID_OK)
+        status = read_opener(reader);
+    if (status == UFF_END) {
+        reader->place = UFF_BETWEEN;
+        return status;
+    }
+    if (status == ROTID_OK)
+        status = enter_set(reader, set);
+    return uff_end(reader, status, UFF_AT_BODY);
+}
+
+int uff_can_return(const struct uff_reader *reader)
+{
+    return reader->lines.size >= 0;
+}
+
+int uff_return_to(struct uff_reader *reader, const struct uff_set *set)
+{
+    struct uff_set again = {0};
+    if (reader->place == UFF_BROKEN)
+        return ROTID_ERROR_IO;
+    int status = uff_seek(&reader->lines, set->offset, set->line);
+    if (status == ROTID_OK)
+        status = read_opener(reader);
+    if (status == ROTID_OK)
+        status = enter_set(reader, &again);
+    if (status == UFF_END || (status == ROTID_OK && again.number != set->number)) /* changed under our hands */
+        status = uff_fail(&reader->lines, 0, "set %d is not there any more", set->number);
+    if (status == ROTID_ERROR_SYNTAX)
+        status = ROTID_ERROR_IO;
+    return uff_end(reader, status, UFF_AT_BODY);
+}

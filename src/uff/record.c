@@ -1,0 +1,313 @@
+#include "uff/reader.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void fail(struct uff_put *put)
+{
+    if (put->status == ROTID_OK)
+        put->status = ROTID_ERROR_ARGUMENT;
+}
+
+static void add(struct uff_put *put, int width, const char *cell, int length)
+{
+    if (put->status != ROTID_OK || length < 0 || length > width || put->length + (size_t)width > UFF_PUT_LIMIT) {
+        fail(put);
+        return;
+    }
+    memset(put->line + put->length, ' ', (size_t)(width - length));
+    memcpy(put->line + put->length + (width - length), cell, (size_t)length);
+    put->length += (size_t)width;
+}
+
+void uff_put_integer(struct uff_put *put, int width, long long value)
+{
+    char cell[32];
+    add(put, width, cell, snprintf(cell, sizeof cell, "%lld", value));
+}
+
+/* 1PEw.d: `decimals` behind the point, one digit before it. The exponent letter is E also where the format says D: every reader
+ * of Fortran takes it, and those written in C take nothing else. ROTID_ERROR_ARGUMENT for a value that is not finite. */
+static void uff_put_real(struct uff_put *put, int width, int decimals, double value)
+{
+    char cell[64];
+    if (isfinite(value))
+        add(put, width, cell, snprintf(cell, sizeof cell, "%.*E", decimals, value));
+    else
+        fail(put);
+}
+
+void uff_put_text(struct uff_put *put, int width, const char *text, const char *fallback)
+{
+    const char *shown = *text ? text : fallback;
+    size_t length = strlen(shown);
+    if (put->status != ROTID_OK || length > (size_t)width || put->length + (size_t)width > UFF_PUT_LIMIT) {
+        fail(put);
+        return;
+    }
+    for (size_t i = 0; i < length; ++i)
+        if ((unsigned char)shown[i] < ' ') {
+            fail(put);
+            return;
+        }
+    memcpy(put->line + put->length, shown, length);
+    memset(put->line + put->length + length, ' ', (size_t)width - length);
+    put->length += (size_t)width;
+}
+
+static void write_line(struct uff_put *put, const char *text, size_t length)
+{
+    if (put->status == ROTID_OK && (fwrite(text, 1, length, put->stream) != length || putc('\n', put->stream) == EOF))
+        put->status = ROTID_ERROR_IO;
+}
+
+void uff_put_line(struct uff_put *put)
+{
+    size_t first = 0, length = put->length;
+    while (length && put->line[length - 1] == ' ')
+        --length;
+    while (first < length && put->line[first] == ' ')
+        ++first;
+    if (length - first == 2 && !memcmp(put->line + first, "-1", 2))
+        fail(put);
+    write_line(put, put->line, length);
+    put->length = 0;
+}
+
+void uff_put_open(struct uff_put *put, FILE *stream, int set)
+{
+    char number[16];
+    *put = (struct uff_put){.stream = stream};
+    write_line(put, "    -1", 6);
+    write_line(put, number, (size_t)snprintf(number, sizeof number, "%6d", set));
+}
+
+int uff_put_close(struct uff_put *put)
+{
+    write_line(put, "    -1", 6);
+    return put->status;
+}
+
+void uff_put_integers(struct uff_put *put, int width, int per_line, int count, const int *value)
+{
+    for (int i = 0; i < count; ++i) {
+        uff_put_integer(put, width, value[i]);
+        if ((i + 1) % per_line == 0 || i + 1 == count)
+            uff_put_line(put);
+    }
+}
+
+void uff_put_reals(struct uff_put *put, int width, int decimals, int per_line, int count, const double *value)
+{
+    for (int i = 0; i < count; ++i) {
+        uff_put_real(put, width, decimals, value[i]);
+        if ((i + 1) % per_line == 0 || i + 1 == count)
+            uff_put_line(put);
+    }
+}
+
+void uff_put_text_line(struct uff_put *put, const char *text)
+{
+    uff_put_text(put, UFF_TEXT, text, "NONE");
+    uff_put_line(put);
+}
+
+/* ---- layouts: S struct, M member, from column A (from 0), width W, decimals D */
+
+#define COLUMN(KIND, S, M, A, W) .column = {KIND, A, W}, .offset = offsetof(struct S, M)
+#define WHOLE(S, M, A, W)                                                                                                        \
+    {                                                                                                                            \
+        COLUMN(UFF_INTEGER, S, M, A, W)                                                                                          \
+    }
+#define REQUIRED(S, M, A, W)                                                                                                     \
+    {                                                                                                                            \
+        COLUMN(UFF_REQUIRED_INTEGER, S, M, A, W)                                                                                 \
+    }
+#define WORDS(S, M, A, W)                                                                                                        \
+    {                                                                                                                            \
+        COLUMN(UFF_WORDS, S, M, A, W)                                                                                            \
+    }
+#define REAL(S, M, A, W, D)                                                                                                      \
+    {                                                                                                                            \
+        COLUMN(UFF_REAL, S, M, A, W), .decimals = (D)                                                                            \
+    }
+#define STEP(S, M, A, W, D)                                                                                                      \
+    {                                                                                                                            \
+        COLUMN(UFF_REAL, S, M, A, W), .decimals = (D), .one_more = 1                                                             \
+    }
+
+/* clang-format off */
+const struct uff_record uff_units_164 = {"record 1 (units code, description, temperature mode)", 0, 3, {
+    REQUIRED(uff_units, code, 0, 10),
+    WORDS(uff_units, description, 10, 20),
+    WHOLE(uff_units, temperature_mode, 30, 10)}};
+
+#define NODE_LABEL                                                                                                               \
+    WHOLE(uff_node, id, 0, 10), WHOLE(uff_node, definition_system, 10, 10), WHOLE(uff_node, displacement_system, 20, 10),        \
+    WHOLE(uff_node, color, 30, 10)
+const struct uff_record uff_node_15 = {"a node", 1, 7, {
+    NODE_LABEL,
+    REAL(uff_node, x[0], 40, 13, 5),
+    REAL(uff_node, x[1], 53, 13, 5),
+    REAL(uff_node, x[2], 66, 13, 5)}};
+const struct uff_record uff_node_2411 = {"a node, record 1", 1, 4, {NODE_LABEL}};
+const struct uff_record uff_place_2411 = {"coordinates, record 2 of a node", 1, 3, {
+    REAL(uff_node, x[0], 0, 25, 16),
+    REAL(uff_node, x[1], 25, 25, 16),
+    REAL(uff_node, x[2], 50, 25, 16)}};
+
+const struct uff_record uff_kind_55 = {
+    "record 6 (model, analysis, characteristic, quantity, data type, values per node)", 1, 6, {
+    WHOLE(uff_shape, model_type, 0, 10),
+    WHOLE(uff_shape, analysis_type, 10, 10),
+    WHOLE(uff_shape, data_characteristic, 20, 10),
+    WHOLE(uff_shape, specific_type, 30, 10),
+    WHOLE(uff_shape, data_type, 40, 10),
+    WHOLE(uff_shape, component_count, 50, 10)}};
+
+const struct uff_record uff_location_58 = {
+    "record 6 (function type, number, version, load case, response, reference)", 0, 10, {
+    WHOLE(uff_function, type, 0, 5),
+    WHOLE(uff_function, number, 5, 10),
+    WHOLE(uff_function, version, 15, 5),
+    WHOLE(uff_function, load_case, 20, 10),
+    WORDS(uff_function, response_name, 31, 10),
+    WHOLE(uff_function, response_node, 41, 10),
+    WHOLE(uff_function, response_direction, 51, 4),
+    WORDS(uff_function, reference_name, 56, 10),
+    WHOLE(uff_function, reference_node, 66, 10),
+    WHOLE(uff_function, reference_direction, 76, 4)}};
+/* A step of a sixth digit would move the end of 64000 lines by a third of a line. */
+const struct uff_record uff_form_58 = {"record 7 (ordinate data type, number of values, spacing, minimum, increment, z)", 0, 6, {
+    REQUIRED(uff_function, ordinate, 0, 10),
+    {COLUMN(UFF_LONG, uff_function, count, 10, 10)},
+    WHOLE(uff_function, is_even, 20, 10),
+    STEP(uff_function, start, 30, 13, 5),
+    STEP(uff_function, step, 43, 13, 5),
+    REAL(uff_function, z, 56, 13, 5)}};
+#define AXIS(NAME, WHAT, M)                                                                                                      \
+    const struct uff_record NAME = {WHAT, 0, 6, {                                                                                \
+        WHOLE(uff_function, M.specific_type, 0, 10),                                                                             \
+        WHOLE(uff_function, M.length, 10, 5),                                                                                    \
+        WHOLE(uff_function, M.force, 15, 5),                                                                                     \
+        WHOLE(uff_function, M.temperature, 20, 5),                                                                               \
+        WORDS(uff_function, M.label, 26, 20),                                                                                    \
+        WORDS(uff_function, M.unit, 47, 20)}}
+AXIS(uff_abscissa_58, "record 8 (abscissa)", abscissa);
+AXIS(uff_ordinate_58, "record 9 (ordinate)", numerator);
+AXIS(uff_denominator_58, "record 10 (ordinate denominator)", denominator);
+AXIS(uff_z_axis_58, "record 11 (z axis)", z_axis);
+/* clang-format on */
+
+/* ---- reading */
+
+static void store(const struct uff_lines *lines, const struct uff_member *member, const struct uff_cell *cell, void *to)
+{
+    void *at = (char *)to + member->offset;
+    switch (member->column.kind) {
+    case UFF_LONG:
+        *(long long *)at = cell->integer;
+        break;
+    case UFF_REAL:
+        *(double *)at = cell->real;
+        break;
+    case UFF_WORDS:
+        uff_copy_text(lines->text + cell->start, cell->length, (size_t)member->column.width + 1, at);
+        break;
+    default:
+        *(int *)at = (int)cell->integer;
+    }
+}
+
+int uff_cut_members(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT],
+                    void *to)
+{
+    struct uff_column column[UFF_CELL_LIMIT];
+    for (int i = 0; i < record->count; ++i)
+        column[i] = record->member[i].column;
+    int bad = uff_cut_line(lines, record->count, column, cell);
+    for (int i = 0; i < record->count && bad < 0; ++i)
+        store(lines, &record->member[i], &cell[i], to);
+    return bad;
+}
+
+/* Integers, and behind them reals. */
+static int take_exact(struct uff_lines *lines, const struct uff_record *record, void *to)
+{
+    struct uff_form form = {0};
+    int integer[UFF_CELL_LIMIT];
+    double real[UFF_CELL_LIMIT];
+    for (int i = 0; i < record->count; ++i) {
+        const struct uff_column *column = &record->member[i].column;
+        int is_real = column->kind == UFF_REAL;
+        *(is_real ? &form.real_width : &form.integer_width) = column->width;
+        ++*(is_real ? &form.reals : &form.integers);
+    }
+    int status = uff_parse_line(lines, &form, record->what, integer, real);
+    for (int i = 0; i < record->count && status == ROTID_OK; ++i) {
+        const struct uff_cell cell = {.integer = i < form.integers ? integer[i] : 0,
+                                      .real = i < form.integers ? 0 : real[i - form.integers]};
+        store(lines, &record->member[i], &cell, to);
+    }
+    return status;
+}
+
+int uff_take_record(struct uff_lines *lines, const struct uff_record *record, void *to)
+{
+    struct uff_column column[UFF_CELL_LIMIT];
+    struct uff_cell cell[UFF_CELL_LIMIT];
+    if (record->is_exact)
+        return take_exact(lines, record, to);
+    for (int i = 0; i < record->count; ++i)
+        column[i] = record->member[i].column;
+    int status = uff_cut_record(lines, record->count, column, record->what, cell);
+    for (int i = 0; i < record->count && status == ROTID_OK; ++i)
+        if (column[i].kind == UFF_REQUIRED_INTEGER && cell[i].integer != (int)cell[i].integer)
+            status = uff_fail(lines, column[i].start + 1, "%s: the number is too large for 32 bits", record->what);
+    for (int i = 0; i < record->count && status == ROTID_OK; ++i)
+        store(lines, &record->member[i], &cell[i], to);
+    return status;
+}
+
+int uff_read_record(struct uff_lines *lines, const struct uff_record *record, void *to)
+{
+    int status = uff_expect_line(lines, record->what);
+    return status == ROTID_OK ? uff_take_record(lines, record, to) : status;
+}
+
+/* ---- writing */
+
+static int decimals_of(const struct uff_member *member, double value)
+{
+    char few[32], many[32];
+    if (!member->one_more || !isfinite(value))
+        return member->decimals;
+    (void)snprintf(few, sizeof few, "%.*E", member->decimals, value);
+    int length = snprintf(many, sizeof many, "%.*E", member->decimals + 1, value);
+    return member->decimals + (length < member->column.width && strtod(many, NULL) != strtod(few, NULL));
+}
+
+static void put_members(struct uff_put *put, const struct uff_record *record, const void *from)
+{
+    for (int i = 0, end = 0; i < record->count; ++i) {
+        const struct uff_member *member = &record->member[i];
+        const void *at = (const char *)from + member->offset;
+        int width = member->column.width;
+        for (; end < member->column.start; ++end)
+            uff_put_text(put, 1, "", " ");
+        end += width;
+        if (member->column.kind == UFF_REAL)
+            uff_put_real(put, width, decimals_of(member, *(const double *)at), *(const double *)at);
+        else if (member->column.kind == UFF_WORDS)
+            uff_put_text(put, width, at, "NONE");
+        else
+            uff_put_integer(put, width, member->column.kind == UFF_LONG ? *(const long long *)at : *(const int *)at);
+    }
+}
+
+void uff_put_record(struct uff_put *put, const struct uff_record *record, const void *from)
+{
+    put_members(put, record, from);
+    uff_put_line(put);
+}
