@@ -54,19 +54,19 @@ void struck_hit(const struct struck *struck, double start, double peak, long lon
     }
 }
 
-struct record struck_record(long long count)
+struct time_record struck_record(long long count)
 {
     double *samples = POOL_ARRAY(&test_pool, double, 2 * count);
     assert_non_null(samples);
-    return (struct record){.count = count, .force = samples, .response = samples + count};
+    return (struct time_record){.count = count, .force = samples, .response = samples + count};
 }
 
-double *struck_force(const struct record *record)
+double *struck_force(const struct time_record *record)
 {
     return (double *)(uintptr_t)record->force;
 }
 
-double *struck_response(const struct record *record)
+double *struck_response(const struct time_record *record)
 {
     return (double *)(uintptr_t)record->response;
 }

@@ -31,11 +31,11 @@ double complex struck_transfer(const struct struck *struck, double complex s);
 void struck_hit(const struct struck *struck, double start, double peak, long long count, double *force, double *response);
 
 /* Fresh zeroed samples on the test's pool. */
-struct record struck_record(long long count);
+struct time_record struck_record(long long count);
 
 /* The samples of such a record, to be written to. */
-double *struck_force(const struct record *record);
-double *struck_response(const struct record *record);
+double *struck_force(const struct time_record *record);
+double *struck_response(const struct time_record *record);
 
 /* Adds normal noise of the given standard deviation. */
 void struck_noise(uint64_t *seed, double deviation, long long count, double *x);

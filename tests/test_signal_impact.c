@@ -10,7 +10,7 @@
 static const struct struck_mode modes[] = {{40, 0.05, 0.5}, {90, 0.04, -0.3}, {170, 0.03, 0.4}};
 static const struct struck hammer = {3, modes, FRF_ACCELERATION, 0.004, 12800};
 
-static struct transfer compute(int nrecord, const struct record *record, const struct transfer_options *options)
+static struct transfer compute(int nrecord, const struct time_record *record, const struct transfer_options *options)
 {
     struct transfer out;
     int bad;
@@ -19,9 +19,9 @@ static struct transfer compute(int nrecord, const struct record *record, const s
     return out;
 }
 
-static struct record hits(double seconds, int count, const double *start, const double *peak)
+static struct time_record hits(double seconds, int count, const double *start, const double *peak)
 {
-    struct record record = struck_record((long long)(seconds * hammer.rate));
+    struct time_record record = struck_record((long long)(seconds * hammer.rate));
     for (int k = 0; k < count; k++)
         struck_hit(&hammer, start[k], peak ? peak[k] : 100, record.count, struck_force(&record), struck_response(&record));
     return record;
@@ -44,7 +44,7 @@ static void an_impact_is_where_its_pulse_is(void **state)
     (void)state;
     for (int sign = -1; sign <= 1; sign += 2)
         for (int offset = -1; offset <= 1; offset++) {
-            struct record record = hits(2, 1, start, peak);
+            struct time_record record = hits(2, 1, start, peak);
             for (long long j = 0; j < record.count; j++)
                 struck_force(&record)[j] = sign * record.force[j] + 30 * offset;
             struct transfer out = compute(1, &record, &(struct transfer_options){0});
@@ -68,7 +68,7 @@ static void spreading_impacts_over_records_changes_nothing(void **state)
     enum { IMPACTS = 12, LENGTH = 12800 };
     static const double start[] = {0.1};
     struct transfer_options options = {.block = 0.8, .force_window = 0.02};
-    struct record each[IMPACTS], joined = struck_record((long long)IMPACTS * LENGTH);
+    struct time_record each[IMPACTS], joined = struck_record((long long)IMPACTS * LENGTH);
     uint64_t seed = 4;
     (void)state;
     for (int k = 0; k < IMPACTS; k++) {
@@ -81,7 +81,7 @@ static void spreading_impacts_over_records_changes_nothing(void **state)
     assert_int_equal(one.nimpact, IMPACTS);
     assert_int_equal(one.set.frf[0].averages, IMPACTS);
     for (int parts = 1; parts <= 3; parts++) {
-        struct record record[3];
+        struct time_record record[3];
         for (int p = 0; p < parts; p++) {
             record[p] = joined;
             record[p].count = joined.count / parts;
@@ -107,7 +107,7 @@ static void double_hits_are_told_from_the_next_impact(void **state)
     (void)state;
     for (int keep = 0; keep < 2; keep++)
         for (int given = 0; given < 2; given++) {
-            struct record record = hits(4.6, 4, start, peak);
+            struct time_record record = hits(4.6, 4, start, peak);
             struct transfer out = compute(1, &record, &(struct transfer_options){.double_hits = keep, .block = given ? 1.4 : 0});
             assert_int_equal(out.nimpact, 3);
             for (int k = 0; k < 3; k++) {
@@ -126,7 +126,7 @@ static void ringing_of_a_filter_is_no_double_hit(void **state)
     static const double start[] = {0.1};
     (void)state;
     for (int bounce = 0; bounce < 2; bounce++) {
-        struct record record = hits(2, 1, start, NULL);
+        struct time_record record = hits(2, 1, start, NULL);
         double *force = struck_force(&record);
         for (long long j = 0; j < record.count; j++) {
             double t = (double)j / hammer.rate - 0.104;
@@ -146,7 +146,7 @@ static void ringing_of_a_filter_is_no_double_hit(void **state)
 static void a_quick_second_impact_is_no_double_hit(void **state)
 {
     static const double start[] = {0.1, 0.6};
-    struct record record = hits(8, 2, start, NULL);
+    struct time_record record = hits(8, 2, start, NULL);
     (void)state;
     struct transfer out = compute(1, &record, &(struct transfer_options){0});
     assert_int_equal(out.nimpact, 2);
@@ -159,7 +159,7 @@ static void a_quick_second_impact_is_no_double_hit(void **state)
 static void impacts_without_room_are_left_out(void **state)
 {
     static const double start[] = {-0.002, 1.5, 3, 4.5, 5.9};
-    struct record record = hits(6, 5, start, NULL);
+    struct time_record record = hits(6, 5, start, NULL);
     (void)state;
     struct transfer out = compute(1, &record, &(struct transfer_options){0});
     assert_int_equal(out.nimpact, 5);
@@ -175,7 +175,7 @@ static void impacts_without_room_are_left_out(void **state)
 static void all_records_share_the_shortest_block(void **state)
 {
     static const double start[] = {0.1};
-    struct record record[] = {hits(3, 1, start, NULL), hits(1, 1, start, NULL), hits(2, 1, start, NULL)};
+    struct time_record record[] = {hits(3, 1, start, NULL), hits(1, 1, start, NULL), hits(2, 1, start, NULL)};
     (void)state;
     for (int r = 0; r < 3; r++)
         record[r].response_node = r;
@@ -195,7 +195,7 @@ static void overload_of_either_channel_is_found(void **state)
     (void)state;
     for (int l = 0; l < 3; l++)
         for (int channel = 0; channel < 2; channel++) {
-            struct record record = hits(3, 2, start, (const double[]){100, 40});
+            struct time_record record = hits(3, 2, start, (const double[]){100, 40});
             double *x = channel ? struck_response(&record) : struck_force(&record), largest = 0;
             for (long long j = 0; j < record.count; j++)
                 largest = fmax(largest, fabs(x[j]));
@@ -216,7 +216,7 @@ static void coarse_steps_are_no_overload(void **state)
     static const int steps[] = {50, 300, 5000, 100000};
     (void)state;
     for (int s = 0; s < 4; s++) {
-        struct record record = hits(2, 1, start, NULL);
+        struct time_record record = hits(2, 1, start, NULL);
         for (int channel = 0; channel < 2; channel++) {
             double *x = channel ? struck_response(&record) : struck_force(&record), largest = 0;
             for (long long j = 0; j < record.count; j++)
@@ -233,7 +233,7 @@ static void coarse_steps_are_no_overload(void **state)
 static void noise_makes_no_impacts(void **state)
 {
     static const double start[] = {0.1, 1.6, 3.1};
-    struct record record = hits(4.6, 3, start, NULL);
+    struct time_record record = hits(4.6, 3, start, NULL);
     uint64_t seed = 77;
     (void)state;
     struck_noise(&seed, 2, record.count, struck_force(&record));
@@ -259,7 +259,7 @@ static void offsets_do_not_leak(void **state)
     struct transfer_options options = {.exponential = 1e-3, .block = 0.8};
     (void)state;
     for (int noisy = 0; noisy < 2; noisy++) {
-        struct record record = hits(2, 1, start, NULL);
+        struct time_record record = hits(2, 1, start, NULL);
         uint64_t seed = 6;
         for (long long j = 0; j < record.count; j++) {
             struck_force(&record)[j] += 20;
@@ -274,7 +274,7 @@ static void offsets_do_not_leak(void **state)
 static void the_tail_tells_a_block_that_ends_too_early(void **state)
 {
     static const double start[] = {0.1};
-    struct record record = hits(2, 1, start, NULL);
+    struct time_record record = hits(2, 1, start, NULL);
     (void)state;
     assert_true(compute(1, &record, &(struct transfer_options){0}).impact[0].tail < 1e-6);
     assert_true(compute(1, &record, &(struct transfer_options){.block = 0.1}).impact[0].tail > 0.2);

@@ -32,7 +32,7 @@ static void run(const struct trial *trial, uint64_t *seed, struct transfer *out)
 {
     static double force[MOST + BLOCK], response[MOST + BLOCK];
     long long count = (long long)trial->impacts * BLOCK;
-    struct record record = {.count = count, .force = force, .response = response};
+    struct time_record record = {.count = count, .force = force, .response = response};
     struct transfer_options options = trial->options;
     int bad;
     memset(force, 0, sizeof force);

@@ -11,9 +11,9 @@
 #define RATE   1000.0
 
 /* Three impacts a record, of a sampled system with white noise on the response. */
-static struct record usual(int node)
+static struct time_record usual(int node)
 {
-    struct record record = struck_record(LENGTH);
+    struct time_record record = struck_record(LENGTH);
     double *f = struck_force(&record), *x = struck_response(&record);
     uint64_t seed = (uint64_t)node;
     for (int k = 0; k < 3; k++) {
@@ -28,7 +28,7 @@ static struct record usual(int node)
     return record;
 }
 
-static void assert_refused(int nrecord, const struct record *record, double rate, const struct transfer_options *options,
+static void assert_refused(int nrecord, const struct time_record *record, double rate, const struct transfer_options *options,
                            int expected)
 {
     struct transfer out;
@@ -40,7 +40,7 @@ static void assert_refused(int nrecord, const struct record *record, double rate
 
 static void options_out_of_range_are_refused(void **state)
 {
-    struct record record = usual(1);
+    struct time_record record = usual(1);
     const struct transfer_options wrong[] = {
         {.estimator = -1},
         {.estimator = 3},
@@ -100,7 +100,7 @@ static void records_without_an_impact_are_named(void **state)
     uint64_t seed = 2;
     (void)state;
     for (int kind = 0; kind < 12; kind++) {
-        struct record record[] = {usual(1), usual(2), usual(2)};
+        struct time_record record[] = {usual(1), usual(2), usual(2)};
         double *f = struck_force(&record[2]), *x = struck_response(&record[2]);
         options = (struct transfer_options){0};
         if (kind < 6)
@@ -152,7 +152,7 @@ static void records_without_an_impact_are_named(void **state)
 /* All impacts of node 2 are overloaded or cut: its first record is named. */
 static void transfer_functions_without_a_usable_impact_are_named(void **state)
 {
-    struct record record[] = {usual(1), usual(2), usual(2)};
+    struct time_record record[] = {usual(1), usual(2), usual(2)};
     (void)state;
     for (int r = 1; r < 3; r++)
         for (int j = 0; j < LENGTH; j++)
@@ -161,7 +161,7 @@ static void transfer_functions_without_a_usable_impact_are_named(void **state)
     assert_refused(1, record, RATE, &(struct transfer_options){.block = 1.5}, 0); /* all are second hits of the first */
 }
 
-static int compute(struct pool *pool, int nrecord, const struct record *record, int threads, struct transfer *out)
+static int compute(struct pool *pool, int nrecord, const struct time_record *record, int threads, struct transfer *out)
 {
     int bad;
     struct transfer_options options = {.estimator = TRANSFER_HV, .exponential = 0.1};
@@ -170,7 +170,7 @@ static int compute(struct pool *pool, int nrecord, const struct record *record, 
 
 static void every_failing_allocation_is_reported(void **state)
 {
-    struct record record[] = {usual(1), usual(2), usual(1), usual(3)};
+    struct time_record record[] = {usual(1), usual(2), usual(1), usual(3)};
     int status = ROTID_ERROR_MEMORY, n = 0;
     (void)state;
     while (status == ROTID_ERROR_MEMORY) {
@@ -193,7 +193,7 @@ static void every_failing_allocation_is_reported(void **state)
 static void results_do_not_depend_on_the_threads(void **state)
 {
     enum { FUNCTIONS = 9 };
-    struct record record[FUNCTIONS];
+    struct time_record record[FUNCTIONS];
     struct transfer serial, out;
     (void)state;
     for (int r = 0; r < FUNCTIONS; r++)
@@ -218,7 +218,7 @@ static void results_do_not_depend_on_the_threads(void **state)
 /* The single spectra give the estimate again, and any other choice of impacts. */
 static void single_impacts_add_up_to_the_estimate(void **state)
 {
-    struct record record[] = {usual(1), usual(2)};
+    struct time_record record[] = {usual(1), usual(2)};
     struct transfer out;
     (void)state;
     assert_status(compute(&test_pool, 2, record, 1, &out), ROTID_OK);
@@ -277,7 +277,7 @@ static void lines_without_force_say_nothing(void **state)
 /* Force and response in units as far apart as samples may be: the same digits. */
 static void units_may_be_of_any_size(void **state)
 {
-    struct record plain = usual(1), scaled = usual(1);
+    struct time_record plain = usual(1), scaled = usual(1);
     struct transfer out, far;
     int bad;
     (void)state;

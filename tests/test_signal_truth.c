@@ -15,7 +15,7 @@ static struct frf_set measure(const struct struck *hammer, double seconds, const
 {
     struct transfer out;
     int bad;
-    struct record record = struck_record((long long)(seconds * hammer->rate));
+    struct time_record record = struck_record((long long)(seconds * hammer->rate));
     struck_hit(hammer, 0.02, 100, record.count, struck_force(&record), struck_response(&record));
     assert_status(transfer_compute(&test_pool, 1, &record, hammer->rate, hammer->quantity, options, 1, &out, &bad), ROTID_OK);
     assert_int_equal(bad, -1);
@@ -119,7 +119,7 @@ static void windowed_recursion_is_exact_to_single_precision(void **state)
     struct transfer out;
     int bad;
     (void)state;
-    struct record record = struck_record(4096);
+    struct time_record record = struck_record(4096);
     double *f = struck_force(&record), *y = struck_response(&record), worst = 0, largest = 0;
     f[200] = 3, f[201] = 10, f[202] = 5, f[203] = 2;
     for (int j = 1; j < 4096; j++)

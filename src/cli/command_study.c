@@ -46,7 +46,7 @@ static int in_processes(void *context, struct command *command, const struct stu
 }
 
 /* What is wrong with files of results stands in the messages. */
-static int refuse(struct command *command, int status)
+static int refuse_study(struct command *command, int status)
 {
     command_print_messages(command);
     if (!command->messages.errors)
@@ -60,7 +60,7 @@ static int report(struct command *command, const char *path, int code)
     struct header header;
     int status = summary_read(&command->pool, path, &command->messages, &header, &summary);
     if (status)
-        return refuse(command, status);
+        return refuse_study(command, status);
     if (command_wants_table(command))
         summary_table(terminal_out(), &summary);
     command->head.seed = (double)header.seed;
@@ -122,7 +122,7 @@ int study_conduct(struct command *command, const struct study *study, study_comp
     command_watch_signals(0);
     int status = record_open(&command->pool, command->output, &header, arguments->retry_failed, &command->messages, &record);
     if (status)
-        return refuse(command, status);
+        return refuse_study(command, status);
     command_print_messages(command);
     long before = record.done;
     if (before && command_wants_progress(command))
@@ -149,7 +149,7 @@ static int merge(struct command *command)
     command_watch_signals(0);
     int status = merge_results(&command->pool, command->nfile, command->file, command->output, &command->messages, &merged);
     if (status)
-        return refuse(command, status);
+        return refuse_study(command, status);
     if (merged.missing)
         terminal_say("rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n", merged.missing,
                      merged.runs, command->output, merged.list, command->output);

@@ -8,7 +8,7 @@
 #include "diagnose/causes/catalogue.h"
 #include "rotid.h"
 
-static void refuse(struct deck_writer *w)
+static void refuse_writing(struct deck_writer *w)
 {
     w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
 }
@@ -60,7 +60,7 @@ static void write_sensors(struct deck_writer *w, const struct data *data)
         if (s % DECK_MOST_LINES == 0)
             deck_put(w, "*SENSORS\n");
         if (data->sensor[s].id < 1 || data->sensor[s].id > 1000000000)
-            refuse(w);
+            refuse_writing(w);
         deck_put(w, "%d", data->sensor[s].id);
         deck_put_number(w, ", ", data->sensor[s].position);
         deck_put(w, "\n");
@@ -82,14 +82,14 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
     const struct job *job = w->job;
     double last = 0;
     if (job->measurement.nmode > 1000)
-        refuse(w);
+        refuse_writing(w);
     if (job->measurement.nmode)
         deck_put(w, "*MODES\n");
     for (int k = 0; k < job->measurement.nmode; k++) {
         double hz = job->measurement.frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
         int damped = job->measurement.damping[k] >= 0 && job->measurement.damping[k] < 1;
         if (job->measurement.number[k] > 1000)
-            refuse(w);
+            refuse_writing(w);
         if (k && hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
             hz = nextafter(hz, INFINITY);
         last = hz;
@@ -229,7 +229,7 @@ static void write_effect(struct deck_writer *w, const struct effect *effect, con
 {
     const struct cause_kind *kind = catalogue_of(effect);
     if (!kind) {
-        refuse(w);
+        refuse_writing(w);
         return;
     }
     deck_put_card(w, "CAUSE");
@@ -263,7 +263,7 @@ static void write_correction(struct deck_writer *w, const struct correction *cor
 {
     const struct cause_kind *kind = catalogue_find(correction->id);
     if (!kind) {
-        refuse(w);
+        refuse_writing(w);
         return;
     }
     deck_put_card(w, "CAUSE");
@@ -335,7 +335,7 @@ void deck_write_unknown(struct deck_writer *w, int p, const char *name)
     rotid_parameter bounds = w->job->unknowns.bounds[p];
     struct parameter parameter = w->job->unknowns.parameter[p];
     if (!name || !*name || *name == '*' || strchr(name, ','))
-        refuse(w);
+        refuse_writing(w);
     if (parameter.kind == PARAMETER_EFFECT) {
         const struct effect *effect = &w->rotor.effect[parameter.index];
         bounds.lower = inside_physical(w, effect, parameter.component, bounds.lower);

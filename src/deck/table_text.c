@@ -43,8 +43,8 @@ int table_is_number(const char *text)
     return end != text && !*end;
 }
 
-static int refuse(struct splitter *s, int row, int column, const char *format, ...) __attribute__((format(printf, 4, 5)));
-static int refuse(struct splitter *s, int row, int column, const char *format, ...)
+static int refuse_table(struct splitter *s, int row, int column, const char *format, ...) __attribute__((format(printf, 4, 5)));
+static int refuse_table(struct splitter *s, int row, int column, const char *format, ...)
 {
     char text[512], cell[TABLE_CELL_LENGTH];
     va_list values;
@@ -61,9 +61,9 @@ static int refuse_kind(struct splitter *s)
 {
     size_t length = (size_t)(s->end - s->at);
     if (length >= 4 && (!memcmp(s->at, "PK\3\4", 4) || !memcmp(s->at, "\xd0\xcf\x11\xe0", 4)))
-        return refuse(s, 1, 1, "the file is a workbook, expected its sheet saved as CSV");
+        return refuse_table(s, 1, 1, "the file is a workbook, expected its sheet saved as CSV");
     if (length >= 2 && (!memcmp(s->at, "\xff\xfe", 2) || !memcmp(s->at, "\xfe\xff", 2)))
-        return refuse(s, 1, 1, "the file is text in UTF-16, expected CSV in UTF-8");
+        return refuse_table(s, 1, 1, "the file is text in UTF-16, expected CSV in UTF-8");
     return 0;
 }
 
@@ -110,10 +110,10 @@ static int check_character(struct splitter *s, const char *c, int quoted)
 {
     unsigned code;
     if ((unsigned char)*c < ' ' && *c != '\t' && !(quoted && (*c == '\n' || *c == '\r')))
-        return refuse(s, s->row, s->column, "byte 0x%02x is not text, expected a table as CSV", (unsigned char)*c);
+        return refuse_table(s, s->row, s->column, "byte 0x%02x is not text, expected a table as CSV", (unsigned char)*c);
     if (!is_blank(*c) && text_is_control(c, &code))
-        return refuse(s, s->row, s->column,
-                      "character U+%04X does not stand for itself, expected text without control characters", code);
+        return refuse_table(s, s->row, s->column,
+                            "character U+%04X does not stand for itself, expected text without control characters", code);
     return 0;
 }
 
@@ -123,7 +123,7 @@ static char *quoted_text(struct splitter *s, char **end)
     char *from = ++s->at, *to = from;
     for (;; s->at++) {
         if (s->at == s->end)
-            return refuse(s, s->row, s->column, "the quote is not closed, expected \" behind the text"), NULL;
+            return refuse_table(s, s->row, s->column, "the quote is not closed, expected \" behind the text"), NULL;
         if (*s->at == '"' && (s->at + 1 == s->end || s->at[1] != '"'))
             break;
         s->at += *s->at == '"';
@@ -135,7 +135,8 @@ static char *quoted_text(struct splitter *s, char **end)
     while (!ends_cell(s, s->at) && is_blank(*s->at))
         s->at++;
     if (!ends_cell(s, s->at))
-        return refuse(s, s->row, s->column, "text stands behind a quote, expected '%c' or the end of the row", s->separator),
+        return refuse_table(s, s->row, s->column, "text stands behind a quote, expected '%c' or the end of the row",
+                            s->separator),
                NULL;
     *end = to;
     return from;
@@ -170,11 +171,12 @@ static int take_cell(struct splitter *s)
     while (end > text && is_blank(end[-1]))
         end--;
     if (end - text > DECK_LINE_LENGTH)
-        return refuse(s, s->row, s->column, "the text is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
+        return refuse_table(s, s->row, s->column, "the text is longer than %d characters, expected a shorter one",
+                            DECK_LINE_LENGTH);
     if (++s->cells > TABLE_MOST_CELLS)
-        return refuse(s, s->row, s->column, "the table has more than %d cells, expected fewer", TABLE_MOST_CELLS);
+        return refuse_table(s, s->row, s->column, "the table has more than %d cells, expected fewer", TABLE_MOST_CELLS);
     if (s->column > TABLE_MOST_COLUMNS)
-        return refuse(s, s->row, s->column, "the row has more than %d cells, expected fewer", TABLE_MOST_COLUMNS);
+        return refuse_table(s, s->row, s->column, "the row has more than %d cells, expected fewer", TABLE_MOST_COLUMNS);
     struct field *grown = pool_grow(s->pool, s->line.field, (size_t)s->line.count, &s->field_room, sizeof *grown);
     if (!grown)
         return s->out_of_memory = 1;
@@ -237,9 +239,10 @@ static int take_decimal_commas(struct splitter *s)
                 first = field;
             if (first && point) {
                 char cell[TABLE_CELL_LENGTH];
-                return refuse(s, first->place.line, first->place.column,
-                              "'%s' has a decimal comma and '%s' in cell %s a decimal point, expected one of them in a table",
-                              first->text, point->text, table_cell_name(point->place.line, point->place.column, cell));
+                return refuse_table(
+                    s, first->place.line, first->place.column,
+                    "'%s' has a decimal comma and '%s' in cell %s a decimal point, expected one of them in a table", first->text,
+                    point->text, table_cell_name(point->place.line, point->place.column, cell));
             }
         }
     for (int r = 0; r < s->table->nrow && first; r++)
@@ -265,7 +268,7 @@ int table_text_split(struct pool *pool, const char *path, size_t length, char *t
         if (take_row(&s))
             return s.out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_SYNTAX;
     if (!table->nrow)
-        return refuse(&s, 1, 1, "the table is empty, expected rows of values"), ROTID_ERROR_SYNTAX;
+        return refuse_table(&s, 1, 1, "the table is empty, expected rows of values"), ROTID_ERROR_SYNTAX;
     if (take_decimal_commas(&s))
         return ROTID_ERROR_SYNTAX;
     return messages->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;

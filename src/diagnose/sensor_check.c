@@ -26,7 +26,7 @@
 
 struct search {
     struct sensor_field field;
-    struct suspect suspect;
+    struct sensor_likelihood suspect;
     double threshold; /* of the score */
     double false_alarm;
     double noise_factor;
@@ -53,10 +53,10 @@ static double judge(struct search *search, int s, double least, struct sensor_fa
 {
     struct explanation explanation[FAULT_KINDS];
     int best = 0;
-    double limit = suspect_open(&search->suspect, s), physics;
+    double limit = likelihood_open(&search->suspect, s), physics;
     if (limit < search->threshold / 2) /* of a swap, each of the two sensors must show half */
         return -INFINITY;
-    suspect_explain(&search->suspect, limit < least, explanation);
+    likelihood_explain(&search->suspect, limit < least, explanation);
     for (int kind = 1; kind < FAULT_KINDS; kind++)
         if (explanation[kind].score > explanation[best].score)
             best = kind;
@@ -115,7 +115,7 @@ static int find_one(struct search *search, struct sensor_fault *fault)
     double worst = search->threshold;
     int found = 0;
     for (int s = 0; s < field->n; s++)
-        search->limit[s] = search->left[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
+        search->limit[s] = search->left[s] = field->masked[s] ? -INFINITY : likelihood_open(&search->suspect, s);
     for (;;) { /* the most suspicious first, so that the others need less work */
         struct sensor_fault candidate;
         int s = largest(field->n, search->left);
@@ -166,7 +166,7 @@ static int find_pair(struct search *search, int nfault, struct sensor_fault *fau
             field_mask(field, t);
             if (i == 2) {
                 for (int s = 0; s < n; s++)
-                    search->left[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
+                    search->left[s] = field->masked[s] ? -INFINITY : likelihood_open(&search->suspect, s);
                 other[2] = largest(n, search->left);
             }
             if (other[i] >= 0 && other[i] < n && !field->masked[other[i]] && both_bad(search, t, other[i], nfault, fault))
@@ -229,7 +229,7 @@ static void find_copies(struct search *search, int most, struct sensor_fault *fa
             equal++;
             if (*nfault == most)
                 continue;
-            double of_s = suspect_open(&search->suspect, s), of_t = suspect_open(&search->suspect, t);
+            double of_s = likelihood_open(&search->suspect, s), of_t = likelihood_open(&search->suspect, t);
             fault[(*nfault)++] = (struct sensor_fault){.kind = FAULT_DUPLICATE,
                                                        .sensor = of_s > of_t ? s : t,
                                                        .other = of_s > of_t ? t : s,
@@ -331,7 +331,7 @@ int sensor_check(struct pool *pool, const struct shape_data *data, double false_
         return ROTID_OK;
     int status = field_new(pool, data, &search.field);
     if (!status)
-        status = suspect_new(pool, &search.field, &search.suspect);
+        status = likelihood_new(pool, &search.field, &search.suspect);
     if (status)
         return status;
     search.limit = POOL_ARRAY(pool, double, data->nsensor);

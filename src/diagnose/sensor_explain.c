@@ -15,11 +15,11 @@
 /* Grid points whose likelihood for the other sensors is this far below the best contribute nothing to an explanation. */
 #define NEGLIGIBLE 8.0
 
-int suspect_new(struct pool *pool, const struct sensor_field *field, struct suspect *suspect)
+int likelihood_new(struct pool *pool, const struct sensor_field *field, struct sensor_likelihood *suspect)
 {
     size_t n = (size_t)field->n, all = (size_t)field->ngrid * (size_t)field->nmode;
     double *numbers = POOL_ARRAY(pool, double, 5 * all + 4 * n);
-    *suspect = (struct suspect){.field = field, .wanted = POOL_ARRAY(pool, int, all)};
+    *suspect = (struct sensor_likelihood){.field = field, .wanted = POOL_ARRAY(pool, int, all)};
     if (!numbers || !suspect->wanted)
         return ROTID_ERROR_MEMORY;
     suspect->others = numbers;
@@ -50,7 +50,8 @@ static double log_normal(double difference, double variance)
 }
 
 /* Log likelihood of all sensors when this one reads `gain` times the deflection at a place with this prediction. */
-static double likelihood(const struct suspect *suspect, const double *mean, const double *variance, double gain, int all)
+static double likelihood(const struct sensor_likelihood *suspect, const double *mean, const double *variance, double gain,
+                         int all)
 {
     const struct sensor_field *field = suspect->field;
     double total = 0, each[FIELD_MOST_GRID];
@@ -70,7 +71,7 @@ static double likelihood(const struct suspect *suspect, const double *mean, cons
 }
 
 /* The likelihood where the sensor reads what it does whatever the field does. */
-static double detached(const struct suspect *suspect)
+static double detached(const struct sensor_likelihood *suspect)
 {
     const struct sensor_field *field = suspect->field;
     double total = 0;
@@ -83,7 +84,7 @@ static double detached(const struct suspect *suspect)
     return total;
 }
 
-double suspect_open(struct suspect *suspect, int s)
+double likelihood_open(struct sensor_likelihood *suspect, int s)
 {
     const struct sensor_field *field = suspect->field;
     suspect->s = s;
@@ -109,20 +110,20 @@ double suspect_open(struct suspect *suspect, int s)
     return 2 * (detached(suspect) - suspect->sound);
 }
 
-static double of_gain(struct suspect *suspect, double gain)
+static double of_gain(struct sensor_likelihood *suspect, double gain)
 {
     return likelihood(suspect, suspect->mean, suspect->variance, gain, 0);
 }
 
-static double of_place(struct suspect *suspect, double z)
+static double of_place(struct sensor_likelihood *suspect, double z)
 {
     field_predict(suspect->field, suspect->s, z, suspect->wanted, suspect->there_mean, suspect->there_variance, suspect->vector);
     return likelihood(suspect, suspect->there_mean, suspect->there_variance, 1, 0);
 }
 
 /* The maximum of f between low and high by golden section, and the standard deviation from its curvature there. */
-static double maximum(struct suspect *suspect, double (*f)(struct suspect *, double), double low, double high, double *at,
-                      double *std)
+static double maximum(struct sensor_likelihood *suspect, double (*f)(struct sensor_likelihood *, double), double low, double high,
+                      double *at, double *std)
 {
     const double golden = 0.6180339887498949;
     double a = high - golden * (high - low), b = low + golden * (high - low), fa = f(suspect, a), fb = f(suspect, b);
@@ -151,7 +152,7 @@ static double maximum(struct suspect *suspect, double (*f)(struct suspect *, dou
     return top;
 }
 
-static void offer(const struct suspect *suspect, double value, double cost, struct explanation candidate,
+static void offer(const struct sensor_likelihood *suspect, double value, double cost, struct explanation candidate,
                   struct explanation *explanation)
 {
     candidate.drop = 2 * (value - suspect->sound);
@@ -160,7 +161,7 @@ static void offer(const struct suspect *suspect, double value, double cost, stru
         *explanation = candidate;
 }
 
-static void explain_gain(struct suspect *suspect, struct explanation *explanation)
+static void explain_gain(struct sensor_likelihood *suspect, struct explanation *explanation)
 {
     struct explanation none = {.other = -1, .value = NAN, .std = NAN};
     double best = -INFINITY, best_gain = 1, gain, std;
@@ -183,7 +184,7 @@ static void explain_gain(struct suspect *suspect, struct explanation *explanatio
     offer(suspect, best, PARAMETER_COST, (struct explanation){.other = -1, .value = gain, .std = std}, &explanation[FAULT_GAIN]);
 }
 
-static void explain_position(struct suspect *suspect, struct explanation *explanation)
+static void explain_position(struct sensor_likelihood *suspect, struct explanation *explanation)
 {
     const struct sensor_field *field = suspect->field;
     double own = field->data->z[suspect->s], reach = REACH * 2 * field->half, step = 2 * reach / REACH_GRID;
@@ -203,7 +204,7 @@ static void explain_position(struct suspect *suspect, struct explanation *explan
 }
 
 /* Both sensors are predicted by the rest, and each reads what is at the other's place. */
-static double swapped(const struct suspect *suspect, int t)
+static double swapped(const struct sensor_likelihood *suspect, int t)
 {
     const struct sensor_field *field = suspect->field;
     int n = field->n, s = suspect->s;
@@ -230,7 +231,7 @@ static double swapped(const struct suspect *suspect, int t)
     return total;
 }
 
-static void explain_swap(struct suspect *suspect, struct explanation *explanation)
+static void explain_swap(struct sensor_likelihood *suspect, struct explanation *explanation)
 {
     for (int t = 0; t < suspect->field->n; t++)
         if (t != suspect->s && !suspect->field->masked[t])
@@ -238,7 +239,7 @@ static void explain_swap(struct suspect *suspect, struct explanation *explanatio
                   (struct explanation){.other = t, .value = NAN, .std = NAN}, &explanation[FAULT_SWAP]);
 }
 
-void suspect_explain(struct suspect *suspect, int quick, struct explanation *explanation)
+void likelihood_explain(struct sensor_likelihood *suspect, int quick, struct explanation *explanation)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
         explanation[kind] = (struct explanation){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};

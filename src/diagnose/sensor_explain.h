@@ -15,7 +15,7 @@ struct explanation {
     double value, std;
 };
 
-struct suspect { /* one sensor at a time */
+struct sensor_likelihood { /* one sensor at a time */
     const struct sensor_field *field;
     int s;
     double sound;            /* log likelihood, no fault */
@@ -27,12 +27,12 @@ struct suspect { /* one sensor at a time */
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY */
-int suspect_new(struct pool *pool, const struct sensor_field *field, struct suspect *suspect);
+int likelihood_new(struct pool *pool, const struct sensor_field *field, struct sensor_likelihood *suspect);
 
 /* Takes up sensor s, which is not masked. Returns an upper limit of `drop` of all kinds but swaps. */
-double suspect_open(struct suspect *suspect, int s);
+double likelihood_open(struct sensor_likelihood *suspect, int s);
 
 /* explanation [FAULT_KINDS] of the suspect; only swaps where `quick`; copies are no matter of likelihood. */
-void suspect_explain(struct suspect *suspect, int quick, struct explanation *explanation);
+void likelihood_explain(struct sensor_likelihood *suspect, int quick, struct explanation *explanation);
 
 #endif

@@ -93,7 +93,7 @@ static const char *unfit(const struct uff_function *force, const struct uff_func
     return motion_of(&response->numerator) == quantity ? NULL : "its quantity is not that of the others";
 }
 
-static int same_pair(const struct record *a, const struct record *b)
+static int same_pair(const struct time_record *a, const struct time_record *b)
 {
     return a->response_node == b->response_node && a->response_direction == b->response_direction &&
            a->reference_node == b->reference_node && a->reference_direction == b->reference_direction;
@@ -101,9 +101,9 @@ static int same_pair(const struct record *a, const struct record *b)
 
 /* The records of a transfer function that has no impact to use go; one bad point is no reason to lose a test. Returns how many
  * stay. */
-static int leave_out(const struct loading *l, int count, struct record *record, int bad)
+static int leave_out(const struct loading *l, int count, struct time_record *record, int bad)
 {
-    const struct record gone = record[bad];
+    const struct time_record gone = record[bad];
     int kept = 0;
     message_add(
         l->messages, SEVERITY_WARNING, l->path, gone.line, 1,
@@ -117,7 +117,7 @@ static int leave_out(const struct loading *l, int count, struct record *record, 
 }
 
 /* A block that ends while the rotor still rings bends every peak, and nothing in the transfer functions shows it. */
-static void warn_of_leakage(const struct loading *l, const struct record *record, const struct transfer *transfer)
+static void warn_of_leakage(const struct loading *l, const struct time_record *record, const struct transfer *transfer)
 {
     int count = 0, used = 0, worst = -1;
     for (int i = 0; i < transfer->nimpact; i++) {
@@ -152,7 +152,7 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
     struct pool scratch;
     pool_open(&scratch, pool->allocator);
     struct loading l = {.pool = &scratch, .reader = reader, .path = path, .contents = contents, .messages = messages};
-    struct record *record = POOL_ARRAY(&scratch, struct record, contents->count);
+    struct time_record *record = POOL_ARRAY(&scratch, struct time_record, contents->count);
     l.values = POOL_ARRAY(&scratch, double *, contents->count);
     int status = record && l.values ? ROTID_OK : ROTID_ERROR_MEMORY, by_case = load_cases_tell(contents), count = 0, bad = -1;
     int quantity = -1;
@@ -162,13 +162,13 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
         if (force < 0)
             continue;
         const struct uff_function *g = &contents->item[force].function;
-        struct record *r = &record[count];
-        *r = (struct record){.line = f->line,
-                             .response_node = f->response_node,
-                             .response_direction = f->response_direction,
-                             .reference_node = f->reference_node ? f->reference_node : g->response_node,
-                             .reference_direction = f->reference_node ? f->reference_direction : g->response_direction,
-                             .count = f->count};
+        struct time_record *r = &record[count];
+        *r = (struct time_record){.line = f->line,
+                                  .response_node = f->response_node,
+                                  .response_direction = f->response_direction,
+                                  .reference_node = f->reference_node ? f->reference_node : g->response_node,
+                                  .reference_direction = f->reference_node ? f->reference_direction : g->response_direction,
+                                  .count = f->count};
         if (options->reference && r->reference_node != options->reference)
             continue;
         if (quantity < 0) {
@@ -218,7 +218,7 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
 /* ---- A file is listed first; then the functions that are wanted are read, the rest never leaves the disk. */
 
 /* A set 58 that is no longer than its neighbours is not worth losing the rest for; a file with nothing usable is. */
-static int refuse(struct message_list *messages, const char *path, const struct contents *c)
+static int refuse_file(struct message_list *messages, const char *path, const struct contents *c)
 {
     if (!messages->errors)
         message_add(messages, SEVERITY_ERROR, path, 1, 1,
@@ -462,7 +462,7 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
         else if (contents_have_records(&contents))
             status = records_load(pool, l.reader, path, &contents, options, messages, out);
         else
-            status = refuse(messages, path, &contents);
+            status = refuse_file(messages, path, &contents);
     }
     uff_close(l.reader);
     pool_close(&scratch);

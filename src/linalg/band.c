@@ -118,7 +118,7 @@ typedef four lanes4;
 #undef NAMED
 
 /* of any kd, or of 3 as a constant */
-INLINE void cholesky_solve(int n, int kd, const double *band, int lanes, double *b)
+INLINE void cholesky_lanes(int n, int kd, const double *band, int lanes, double *b)
 {
     if (lanes == 4)
         cholesky_solve_4(n, kd, band, (lanes4 *)b);
@@ -131,9 +131,9 @@ INLINE void cholesky_solve(int n, int kd, const double *band, int lanes, double 
 EACH_MACHINE static void cholesky_solve_here(int n, int kd, const double *band, int lanes, double *b)
 {
     if (kd == 3)
-        cholesky_solve(n, 3, band, lanes, b);
+        cholesky_lanes(n, 3, band, lanes, b);
     else
-        cholesky_solve(n, kd, band, lanes, b);
+        cholesky_lanes(n, kd, band, lanes, b);
 }
 
 void band_cholesky_solve(int n, int kd, const double *band, int lanes, double *b)

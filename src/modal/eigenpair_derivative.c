@@ -8,7 +8,7 @@
 #include "modal/eigenvector_derivative.h"
 
 #define NORMALISED 1e-6  /* of phi' M phi from 1: what is farther off is no vector of rotid_eigenpairs */
-#define ZERO       1e-13 /* of the highest eigenvalue: below this, rounding of a rigid motion */
+#define RIGID      1e-13 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 
 struct pair {
     const rotid_matrix *k, *m, *dk, *dm;
@@ -24,7 +24,7 @@ static int is_close(struct pool *pool, const struct pair *pair, int *close)
     double here = pair->lambda[pair->j], largest = 0;
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(pair->k->band[(ptrdiff_t)i * stride] / pair->m->band[(ptrdiff_t)i * stride]));
-    double zero = ZERO * largest;
+    double zero = RIGID * largest;
     int first;
     *close = eigenvalue_cluster(pair->count, pair->lambda, pair->j, &first) > 1;
     for (int i = 0; i < pair->count; i++) /* both are zero, and their distance is nothing but rounding */

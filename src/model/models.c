@@ -2,8 +2,8 @@
 
 #include <pthread.h>
 
-struct entry {
-    struct entry *next;
+struct built_model {
+    struct built_model *next;
     const struct models *owner;
     struct rotor rotor; /* as it was given */
     int refine, nrigid;
@@ -29,18 +29,18 @@ struct models {
     int takes_up;
     const struct models *older;
     struct models *solids; /* of the same run */
-    struct entry *first;
+    struct built_model *first;
     struct held *held; /* the newest first */
     struct near *near; /* the same */
 };
 
 /* The entry with this shape, if possible with these values. */
-static struct entry *find(const struct models *models, const struct rotor *rotor, int refine, int *same_values)
+static struct built_model *find(const struct models *models, const struct rotor *rotor, int refine, int *same_values)
 {
-    struct entry *found = NULL;
+    struct built_model *found = NULL;
     *same_values = 0;
     for (; models; models = models->older)
-        for (struct entry *e = models->first; e; e = e->next)
+        for (struct built_model *e = models->first; e; e = e->next)
             if (e->refine == refine && rotor_same_shape(&e->rotor, rotor)) {
                 *same_values = rotor_same_values(&e->rotor, rotor);
                 found = e;
@@ -55,7 +55,7 @@ static struct entry *find(const struct models *models, const struct rotor *rotor
 static int counted(const struct models *models, const struct rotor *rotor)
 {
     for (; models; models = models->older)
-        for (const struct entry *e = models->first; e; e = e->next) {
+        for (const struct built_model *e = models->first; e; e = e->next) {
             int solid = models->as == AS_SOLID;
             struct rotor known = e->rotor, asked = *rotor;
             if (solid)
@@ -66,10 +66,10 @@ static int counted(const struct models *models, const struct rotor *rotor)
     return -1;
 }
 
-static int add(struct models *models, const struct rotor *rotor, int refine, const struct entry *built, struct entry **added,
-               int *failed)
+static int add(struct models *models, const struct rotor *rotor, int refine, const struct built_model *built,
+               struct built_model **added, int *failed)
 {
-    struct entry *e = POOL_NEW(&models->pool, struct entry);
+    struct built_model *e = POOL_NEW(&models->pool, struct built_model);
     int status = e ? rotor_copy(&models->pool, rotor, &e->rotor) : ROTID_ERROR_MEMORY;
     if (!status && built)
         e->discrete = built->discrete;
@@ -114,7 +114,7 @@ enum discretisation models_discretisation(const struct models *models)
 int models_begin(struct pool *pool, enum discretisation as, const struct rotor *rotor, struct models **models,
                  struct model_size *size, int *failed)
 {
-    struct entry *e;
+    struct built_model *e;
     *failed = -1;
     *models = models_new(pool, as, NULL);
     int status = *models ? add(*models, rotor, 1, NULL, &e, failed) : ROTID_ERROR_MEMORY;
@@ -167,7 +167,7 @@ int models_discretise(struct pool *pool, struct models *models, const struct rot
     *failed = -1;
     if (takes_up)
         (void)pthread_mutex_lock(&models->lock);
-    struct entry *e = find(models, rotor, refine, &same_values);
+    struct built_model *e = find(models, rotor, refine, &same_values);
     if (takes_up && (!same_values || e->owner != models))
         status = add(models, rotor, refine, e, &e, failed);
     *nrigid = status ? -1 : rotor->settled_rigid ? rotor->settled_rigid - 1 : counted(models, rotor);
@@ -185,7 +185,7 @@ void models_keep_rigid(struct models *models, const struct rotor *rotor, int ref
     if (!models || !models->takes_up)
         return;
     (void)pthread_mutex_lock(&models->lock);
-    struct entry *e = find(models, rotor, refine, &same_values);
+    struct built_model *e = find(models, rotor, refine, &same_values);
     if (e && same_values)
         e->nrigid = nrigid;
     (void)pthread_mutex_unlock(&models->lock);

@@ -2,7 +2,7 @@
 
 #include "record/record.h"
 
-size_t record_element_size(const struct field *field)
+size_t record_element_size(const struct record_field *field)
 {
     switch (field->kind) {
     case FIELD_NUMBER:
@@ -35,7 +35,7 @@ static void own_text(struct pool *pool, char *place)
     (void)own_list(pool, place, text ? strlen(text) + 1 : 0, 1);
 }
 
-static size_t length_of(const struct field *field, const char *of)
+static size_t length_of(const struct record_field *field, const char *of)
 {
     size_t count = field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX ? (size_t) * (const int *)(of + field->count) : 1;
     int by_columns = field->shape == SHAPE_MATRIX || field->kind == FIELD_MAP;
@@ -45,7 +45,7 @@ static size_t length_of(const struct field *field, const char *of)
 /* Whatever the rows lead to from the struct at `of` becomes its own. */
 static void own(struct pool *pool, const struct record *record, char *of)
 {
-    for (const struct field *field = record->field; field->key; field++) {
+    for (const struct record_field *field = record->field; field->key; field++) {
         char *place = of + field->offset;
         size_t size = field->kind == FIELD_INLINE ? field->record->size : record_element_size(field), count = 1;
         if (field->shape == SHAPE_FIXED || field->kind == FIELD_COUNT)

@@ -1,9 +1,9 @@
-#include "record/record.h"
+#include "record/rows.h"
 
 const char *const verdict_words[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
 
-static const struct field value_fields[] = {
+static const struct record_field value_fields[] = {
     TEXT(rotid_cause_value, name, 0),
     TEXT(rotid_cause_value, unit, MAY_BE_NULL),
     NUMBER(rotid_cause_value, value, 0),
@@ -14,7 +14,7 @@ static const struct field value_fields[] = {
 };
 static const struct record value_record = RECORD(rotid_cause_value, value_fields);
 
-static const struct field cause_fields[] = {
+static const struct record_field cause_fields[] = {
     TEXT(rotid_cause, id, 0),
     TEXT(rotid_cause, target, 0),
     TEXT(rotid_cause, name, MAY_BE_NULL),
@@ -26,13 +26,13 @@ static const struct field cause_fields[] = {
 };
 const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
-static const struct field spread_fields[] = {
+static const struct record_field spread_fields[] = {
     TEXT(rotid_spread, name, 0),      TEXT(rotid_spread, unit, 0),     NUMBER(rotid_spread, lowest, 0),
     NUMBER(rotid_spread, highest, 0), INTERVAL(rotid_spread, ci95, 0), {0},
 };
 static const struct record spread_record = RECORD(rotid_spread, spread_fields);
 
-static const struct field verdict_fields[] = {
+static const struct record_field verdict_fields[] = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
     FLAG(rotid_verdict, adequate_after, 0),
     NUMBER(rotid_verdict, p_value, MAY_BE_NULL | PROBABILITY),
@@ -49,7 +49,7 @@ static const struct field verdict_fields[] = {
 };
 static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
 
-static const struct field data_finding_fields[] = {
+static const struct record_field data_finding_fields[] = {
     TEXT(rotid_data_finding, id, 0),
     INTEGERS(rotid_data_finding, sensors, 0),
     INTEGERS(rotid_data_finding, modes, 0),
@@ -65,7 +65,7 @@ static const struct field data_finding_fields[] = {
 };
 static const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
 
-static const struct field numerical_finding_fields[] = {
+static const struct record_field numerical_finding_fields[] = {
     TEXT(rotid_numerical_finding, id, 0),
     INTEGERS(rotid_numerical_finding, modes, 0),
     NUMBERS_BY(rotid_numerical_finding, error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
@@ -75,7 +75,7 @@ static const struct field numerical_finding_fields[] = {
 };
 static const struct record numerical_finding_record = RECORD(rotid_numerical_finding, numerical_finding_fields);
 
-static const struct field round_fields[] = {
+static const struct record_field round_fields[] = {
     INTEGER(rotid_round, round, FROM_1),
     WORD(rotid_round, kind, 0, verdict_words),
     NUMBER(rotid_round, chi2, MAY_BE_NULL),
@@ -93,7 +93,7 @@ static const struct field round_fields[] = {
 };
 static const struct record round_record = RECORD(rotid_round, round_fields);
 
-static const struct field candidate_fields[] = {
+static const struct record_field candidate_fields[] = {
     INTEGER(rotid_candidate, round, FROM_1),
     INLINE(rotid_candidate, cause, 0, cause_record),
     FLAG(rotid_candidate, suspect, 0),
@@ -117,14 +117,14 @@ static const struct field candidate_fields[] = {
 };
 static const struct record candidate_record = RECORD(rotid_candidate, candidate_fields);
 
-static const struct field pair_fields[] = {
+static const struct record_field pair_fields[] = {
     NUMBER(rotid_pair, before, MAY_BE_NULL),
     NUMBER(rotid_pair, after, MAY_BE_NULL),
     {0},
 };
 static const struct record pair_record = RECORD(rotid_pair, pair_fields);
 
-static const struct field changed_parameter_fields[] = {
+static const struct record_field changed_parameter_fields[] = {
     TEXT(rotid_changed_parameter, name, 0),
     TEXT(rotid_changed_parameter, unit, 0),
     NUMBER(rotid_changed_parameter, before, MAY_BE_NULL),
@@ -135,7 +135,7 @@ static const struct field changed_parameter_fields[] = {
 };
 static const struct record changed_parameter_record = RECORD(rotid_changed_parameter, changed_parameter_fields);
 
-static const struct field gain_fields[] = {
+static const struct record_field gain_fields[] = {
     STRUCT(rotid_gain, frequency_rms_percent, 0, pair_record),
     STRUCT(rotid_gain, frequency_max_percent, 0, pair_record),
     STRUCT(rotid_gain, shape_rms, 0, pair_record),
@@ -151,7 +151,7 @@ static const struct field gain_fields[] = {
 };
 static const struct record gain_record = RECORD(rotid_gain, gain_fields);
 
-static const struct field sensor_residual_fields[] = {
+static const struct record_field sensor_residual_fields[] = {
     INTEGER(rotid_sensor_residual, id, 0),
     NUMBER(rotid_sensor_residual, z_m, 0),
     NUMBER(rotid_sensor_residual, rms, MAY_BE_NULL | FROM_0),
@@ -160,14 +160,14 @@ static const struct field sensor_residual_fields[] = {
 };
 static const struct record sensor_residual_record = RECORD(rotid_sensor_residual, sensor_residual_fields);
 
-static const struct field localisation_fields[] = {
+static const struct record_field localisation_fields[] = {
     NUMBER(rotid_localisation, z_m, 0),
     NUMBER(rotid_localisation, indicator, MAY_BE_NULL),
     {0},
 };
 static const struct record localisation_record = RECORD(rotid_localisation, localisation_fields);
 
-static const struct field detectable_fields[] = {
+static const struct record_field detectable_fields[] = {
     TEXT(rotid_detectable, id, 0),
     TEXT(rotid_detectable, target, 0),
     TEXT(rotid_detectable, parameter, 0),
@@ -180,14 +180,14 @@ static const struct field detectable_fields[] = {
 };
 const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
 
-static const struct field step_fields[] = {
+static const struct record_field step_fields[] = {
     TEXT(rotid_step, name, 0),
     NUMBER(rotid_step, seconds, FROM_0),
     {0},
 };
 static const struct record step_record = RECORD(rotid_step, step_fields);
 
-static const struct field diagnosis_fields[] = {
+static const struct record_field diagnosis_fields[] = {
     FLAG(rotid_diagnosis, interrupted, 0),
     TEXT(rotid_diagnosis, before, MAY_BE_NULL | SINCE_LATER),
     TEXT(rotid_diagnosis, after, MAY_BE_NULL | SINCE_LATER),
@@ -212,7 +212,7 @@ static const struct field diagnosis_fields[] = {
 };
 const struct record diagnosis_record = RECORD(rotid_diagnosis, diagnosis_fields);
 
-static const struct field diagnosis_whole_fields[] = {
+static const struct record_field diagnosis_whole_fields[] = {
     ROWS(0, diagnosis_record),
     STRUCTS(rotid_diagnosis, message, 0, message_record),
     TEXT(rotid_diagnosis, extended_deck, 0),

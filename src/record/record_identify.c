@@ -1,4 +1,4 @@
-#include "record/record.h"
+#include "record/rows.h"
 
 const char *const functional_words[] = {"LIKELIHOOD", "HYBRID", "HYBRID_F", NULL};
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
@@ -8,7 +8,7 @@ const char *const pairing_words[] = {"shape", "number", NULL};
 static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
 static const char *const grounds[] = {"noise", "residuals", NULL};
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     TEXT(rotid_fitted_parameter, name, 0),
     TEXT(rotid_fitted_parameter, unit, 0),
     NUMBER(rotid_fitted_parameter, value, 0),
@@ -23,7 +23,7 @@ static const struct field parameter_fields[] = {
 };
 const struct record fitted_parameter_record = RECORD(rotid_fitted_parameter, parameter_fields);
 
-static const struct field mode_fields[] = {
+static const struct record_field mode_fields[] = {
     INTEGER(rotid_compared_mode, mode, FROM_1),
     INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
     NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
@@ -39,7 +39,7 @@ static const struct field mode_fields[] = {
 };
 static const struct record mode_record = RECORD(rotid_compared_mode, mode_fields);
 
-static const struct field member_fields[] = {
+static const struct record_field member_fields[] = {
     TEXT(rotid_member_shape, name, MAY_BE_NULL),
     NUMBERS(rotid_member_shape, z_m, ROUNDED),
     NUMBERS_BY(rotid_member_shape, shape, ELEMENTS_MAY_BE_NULL | ROUNDED, nz_m, "z_m"),
@@ -47,7 +47,7 @@ static const struct field member_fields[] = {
 };
 static const struct record member_record = RECORD(rotid_member_shape, member_fields);
 
-static const struct field mode_shapes_fields[] = {
+static const struct record_field mode_shapes_fields[] = {
     INTEGER(rotid_mode_shapes, mode, FROM_1),
     INTEGER(rotid_mode_shapes, measured_mode, FROM_1 | SINCE_LATER),
     NUMBERS(rotid_mode_shapes, measured, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | ROUNDED),
@@ -60,7 +60,7 @@ static const struct field mode_shapes_fields[] = {
 };
 static const struct record mode_shapes_record = RECORD(rotid_mode_shapes, mode_shapes_fields);
 
-static const struct field shapes_fields[] = {
+static const struct record_field shapes_fields[] = {
     INTEGERS(rotid_shapes, sensor_id, 0),
     NUMBERS_BY(rotid_shapes, z_m, FROM_0 | ROUNDED, nsensor_id, "sensor_id"),
     NUMBERS(rotid_shapes, axis_z_m, FROM_0 | ROUNDED),
@@ -69,7 +69,7 @@ static const struct field shapes_fields[] = {
 };
 static const struct record shapes_record = RECORD(rotid_shapes, shapes_fields);
 
-static const struct field history_fields[] = {
+static const struct record_field history_fields[] = {
     INTEGER(rotid_history_entry, iteration, FROM_0),
     NUMBER(rotid_history_entry, objective, FROM_0),
     NUMBER(rotid_history_entry, gradient, FROM_0),
@@ -82,7 +82,7 @@ static const struct field history_fields[] = {
 };
 static const struct record history_record = RECORD(rotid_history_entry, history_fields);
 
-static const struct field minimiser_fields[] = {
+static const struct record_field minimiser_fields[] = {
     TEXT_OF(rotid_minimiser, algorithm, 0, algorithms),
     TEXT(rotid_minimiser, result, 0),
     FLAG(rotid_minimiser, usable, 0),
@@ -96,7 +96,7 @@ static const struct field minimiser_fields[] = {
 };
 static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
-static const struct field noise_fields[] = {
+static const struct record_field noise_fields[] = {
     NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
     FLAG(rotid_noise, frequency_assumed, 0),
@@ -106,7 +106,7 @@ static const struct field noise_fields[] = {
 };
 const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
-static const struct field state_fields[] = {
+static const struct record_field state_fields[] = {
     TEXT(rotid_identified_state, name, 0),
     INTEGER(rotid_identified_state, fitted_residuals, FROM_0),
     FLAG(rotid_identified_state, shapes_fitted, 0),
@@ -130,7 +130,7 @@ static const struct field state_fields[] = {
 };
 static const struct record state_record = RECORD(rotid_identified_state, state_fields);
 
-static const struct field identification_fields[] = {
+static const struct record_field identification_fields[] = {
     TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
@@ -172,7 +172,7 @@ static const struct field identification_fields[] = {
 };
 const struct record identification_record = RECORD(rotid_identification, identification_fields);
 
-static const struct field hidden_fields[] = {
+static const struct record_field hidden_fields[] = {
     TEXT(rotid_hidden, parameter, 0),
     NUMBER(rotid_hidden, shift, 0),
     TEXT(rotid_hidden, unit, 0),
@@ -188,7 +188,7 @@ static const struct field hidden_fields[] = {
 };
 const struct record hidden_cause_record = RECORD(rotid_hidden, hidden_fields);
 
-static const struct field identification_alone_fields[] = {
+static const struct record_field identification_alone_fields[] = {
     STRUCT(rotid_identification, noise, SINCE_LATER | BEHIND_POINTER, noise_record),
     STRUCT(rotid_identification, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCTS(rotid_identification, hidden, SINCE_LATER, hidden_cause_record),
@@ -196,7 +196,7 @@ static const struct field identification_alone_fields[] = {
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
 
-static const struct field identification_whole_fields[] = {
+static const struct record_field identification_whole_fields[] = {
     ROWS(0, identification_record),
     ROWS(0, identification_alone_record),
     STRUCTS(rotid_identification, message, 0, message_record),

@@ -14,7 +14,7 @@ void digits_cell(FILE *out, int width, int digits, double value);
 void power_cell(FILE *out, int width, int decimals, double value);
 /* A number within a sentence, or a dash. Returns text. */
 const char *layout_number(char text[64], int digits, double value);
-#define NUMBER(digits, value) layout_number((char[64]){""}, (digits), (value))
+#define IN_DIGITS(digits, value) layout_number((char[64]){""}, (digits), (value))
 /* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
 const char *layout_unit(const char *unit);
 const char *layout_gap(const char *unit);

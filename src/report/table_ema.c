@@ -7,11 +7,11 @@
 #include "report/report_ema.h"
 #include "result/ema.h"
 
-#define WIDTH    110
-#define COLUMNS  96 /* of the stabilisation picture */
-#define ROWS     16
-#define MOST_MAC 20
-#define WORST    5
+#define WIDTH       110
+#define COLUMNS     96 /* of the stabilisation picture */
+#define LISTED_ROWS 16
+#define MOST_MAC    20
+#define WORST       5
 
 static void print_source(FILE *out, const struct ema_report *r)
 {
@@ -124,7 +124,7 @@ static void print_stabilisation(FILE *out, const struct ema_report *r)
         highest = ema->pole[i].order > highest ? ema->pole[i].order : highest;
     if (!highest || !(high > low))
         return;
-    step = (highest + ROWS - 1) / ROWS;
+    step = (highest + LISTED_ROWS - 1) / LISTED_ROWS;
     (void)fprintf(out, "\nStabilisation (s stable, f frequency only, . neither; every %dth order)\n", step);
     for (int order = highest; order > 0; order -= step) {
         memset(row, ' ', COLUMNS);

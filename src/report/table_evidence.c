@@ -11,7 +11,7 @@ static void print_values(struct wrap *wrap, const rotid_cause *cause)
 {
     for (int p = 0; p < cause->nparameters; p++) {
         const rotid_cause_value *value = &cause->parameters[p];
-        wrap_item(wrap, "%s%s %s%s%s%s", p ? ", " : "", value->name, NUMBER(4, value->value), layout_gap(value->unit),
+        wrap_item(wrap, "%s%s %s%s%s%s", p ? ", " : "", value->name, IN_DIGITS(4, value->value), layout_gap(value->unit),
                   layout_unit(value->unit), value->fixed ? " fixed" : "");
         if (!value->fixed && isfinite(value->ci95[0]) && isfinite(value->ci95[1]))
             wrap_item(wrap, "(%.3g ... %.3g)", value->ci95[0], value->ci95[1]);

@@ -43,7 +43,7 @@ static void print_model(FILE *out, const struct frf_view *view)
         (void)fprintf(out, "%s%.4f Hz",
                       i ? ", " : "modes on the supports: ", sqrt(fmax(s->lambda[i], 0)) / 6.28318530717958647692);
     if (s->nrigid)
-        (void)fprintf(out, ", damping %s %% (%s)\n", NUMBER(4, 100 * r->zeta[0]), source_text(r->damping[0]));
+        (void)fprintf(out, ", damping %s %% (%s)\n", IN_DIGITS(4, 100 * r->zeta[0]), source_text(r->damping[0]));
     if (r->decay > 0)
         (void)fprintf(out, "exponential window of the measurement: %.5g 1/s, synthesised with it\n", r->decay);
 }

@@ -122,10 +122,10 @@ static void print_parameters(FILE *out, const rotid_diagnosis *d)
     }
     if (base && base->intervals_widened_by > 1)
         (void)fprintf(out, "  intervals%s are widened by %s: the misfit exceeds the noise\n", extended ? " before" : "",
-                      NUMBER(3, base->intervals_widened_by));
+                      IN_DIGITS(3, base->intervals_widened_by));
     if (extended && extended->intervals_widened_by > 1)
         (void)fprintf(out, "  intervals after are widened by %s: the misfit exceeds the noise\n",
-                      NUMBER(3, extended->intervals_widened_by));
+                      IN_DIGITS(3, extended->intervals_widened_by));
 }
 
 void table_gain(const struct diagnosis_view *view)

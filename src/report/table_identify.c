@@ -87,7 +87,7 @@ static void print_intervals(FILE *out, const struct result_head *head, const rot
                       fit->dof);
     if (fit->intervals_widened_by > 1)
         (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
-                      NUMBER(3, fit->intervals_widened_by));
+                      IN_DIGITS(3, fit->intervals_widened_by));
     if (fit->intervals_widened_by > 1 && !fit_is_inadequate(fit)) /* half of all adequate models have a misfit above the noise */
         (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests", 100 * fit_p_value(fit));
     if (fit->intervals_widened_by > 1)
@@ -137,7 +137,7 @@ static void print_parameters(FILE *out, const struct result_head *head, const ro
         (void)fprintf(out, " (relative changes)\n");
     }
     if (n > 1) {
-        (void)fprintf(out, "condition number %s", NUMBER(3, fit->condition_number));
+        (void)fprintf(out, "condition number %s", IN_DIGITS(3, fit->condition_number));
         if (n == 2 && isfinite(fit->correlation[1]))
             (void)fprintf(out, ", correlation %.3f", fit->correlation[1]);
         (void)fprintf(out, "\n");
@@ -198,7 +198,7 @@ static void print_head(FILE *out, const rotid_identification *fit)
                   !strcmp(fit->status, "converged")  ? "converged"
                   : !strcmp(fit->status, "at_bound") ? "converged AT A BOUND"
                                                      : "NOT CONVERGED",
-                  fitted, fitted == 1 ? "" : "s", fit->functional, fit->reduction, NUMBER(10, fit->objective));
+                  fitted, fitted == 1 ? "" : "s", fit->functional, fit->reduction, IN_DIGITS(10, fit->objective));
     power_cell(out, 0, 1, fit->gradient);
     (void)fputs("\n\n", out);
 }

@@ -60,7 +60,7 @@ static void print_by_cause(const struct diagnosis_view *view, int p)
         (void)fprintf(view->out, "    these causes leave %.4g to %.4g%s%s, %s apart; their intervals %s to %s\n", spread->lowest,
                       spread->highest, layout_gap(spread->unit), layout_unit(spread->unit),
                       percent_text(200 * (spread->highest - spread->lowest) / fabs(spread->highest + spread->lowest), figure),
-                      NUMBER(4, spread->ci95[0]), NUMBER(4, spread->ci95[1]));
+                      IN_DIGITS(4, spread->ci95[0]), IN_DIGITS(4, spread->ci95[1]));
 }
 
 /* What may hide in it: the causes that move it most. */

@@ -82,9 +82,9 @@ static void print_limits(FILE *out, const rotid_suggestion *s)
             (void)fprintf(out, " %s: no possible size would show\n", d->parameter);
             continue;
         }
-        (void)fprintf(out, " %s %s%s%s", d->parameter, NUMBER(3, d->smallest), layout_gap(d->unit), layout_unit(d->unit));
+        (void)fprintf(out, " %s %s%s%s", d->parameter, IN_DIGITS(3, d->smallest), layout_gap(d->unit), layout_unit(d->unit));
         if (isfinite(d->z_m))
-            (void)fprintf(out, " at %.4g m, at worst %s", d->z_m, NUMBER(3, d->worst));
+            (void)fprintf(out, " at %.4g m, at worst %s", d->z_m, IN_DIGITS(3, d->worst));
         (void)fputc('\n', out);
     }
 }

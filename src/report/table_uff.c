@@ -86,7 +86,7 @@ static void print_function(FILE *out, const struct listing *listing, struct row 
     if (*unit || *f->function.denominator.unit)
         print_unit(out, unit, f->function.denominator.unit);
     if (f->si_factor != 1)
-        (void)fprintf(out, ", times %s in SI", NUMBER(6, f->si_factor));
+        (void)fprintf(out, ", times %s in SI", IN_DIGITS(6, f->si_factor));
 }
 
 static void print_rest(FILE *out, const struct listing *listing, struct row row)
@@ -103,9 +103,9 @@ static void print_rest(FILE *out, const struct listing *listing, struct row row)
         (void)fprintf(out, " %s, %d points, %s", name_of_analysis(first->analysis_type), first->node_count,
                       first->is_complex ? "complex" : "real");
         if (row.first == row.last)
-            (void)fprintf(out, ", %s Hz, damping %s", NUMBER(6, first->frequency_hz), NUMBER(4, first->damping));
+            (void)fprintf(out, ", %s Hz, damping %s", IN_DIGITS(6, first->frequency_hz), IN_DIGITS(4, first->damping));
         else
-            (void)fprintf(out, ", %s to %s Hz", NUMBER(6, first->frequency_hz), NUMBER(6, last->frequency_hz));
+            (void)fprintf(out, ", %s to %s Hz", IN_DIGITS(6, first->frequency_hz), IN_DIGITS(6, last->frequency_hz));
     } else if (set->set.number == 164 && listing->units) {
         (void)fprintf(out, " %s ", name_of_units(listing->units->code));
         print_clean(out, listing->units->description);

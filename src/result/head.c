@@ -3,17 +3,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 
-static const struct field reference_fields[] = {
+static const struct record_field reference_fields[] = {
     TEXT(rotid_reference, quantity, 0),
     NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),
     {0},
 };
 static const struct record reference_record = RECORD(rotid_reference, reference_fields);
 
-static const struct field provenance_fields[] = {
+static const struct record_field provenance_fields[] = {
     INTEGER(struct result_head, schema, FROM_1),
     TEXT(struct result_head, rotid, 0),
     TEXT(struct result_head, commit, 0),
@@ -25,7 +25,7 @@ static const struct field provenance_fields[] = {
 };
 const struct record provenance_record = RECORD(struct result_head, provenance_fields);
 
-static const struct field deck_fields[] = {
+static const struct record_field deck_fields[] = {
     TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
     STRUCTS(struct result_head, references, SINCE_LATER, reference_record),

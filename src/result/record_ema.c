@@ -1,4 +1,4 @@
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/ema.h"
 #include "result/records.h"
 #include "result/transfer.h"
@@ -19,7 +19,7 @@ const char *const ema_channel_doubts[] = {
 const char *const ema_method_words[] = {"lscf", "quadrature", NULL};
 static const char *const grounds[] = {"variance", "residual", NULL};
 
-static const struct field source_fields[] = {
+static const struct record_field source_fields[] = {
     TEXT(struct ema_source, file, 0),
     WORD(struct ema_source, quantity, 0, transfer_quantity_words),
     INTEGER(struct ema_source, transfer_functions, FROM_1),
@@ -34,14 +34,14 @@ static const struct field source_fields[] = {
 };
 static const struct record source_record = RECORD(struct ema_source, source_fields);
 
-static const struct field alone_fields[] = {
+static const struct record_field alone_fields[] = {
     NUMBER(struct ema_point_frequency, frequency_hz, MAY_BE_NULL | ABOVE_0),
     NUMBER(struct ema_point_frequency, frequency_std_hz, MAY_BE_NULL | FROM_0),
     {0},
 };
 static const struct record alone_record = RECORD(struct ema_point_frequency, alone_fields);
 
-static const struct field point_fields[] = {
+static const struct record_field point_fields[] = {
     INTEGER(struct ema_shape_point, node, 0),
     INTEGER(struct ema_shape_point, direction, FROM_0),
     NUMBER(struct ema_shape_point, value, MAY_BE_NULL),
@@ -53,7 +53,7 @@ static const struct field point_fields[] = {
 };
 static const struct record point_record = RECORD(struct ema_shape_point, point_fields);
 
-static const struct field mode_fields[] = {
+static const struct record_field mode_fields[] = {
     INTEGER(struct ema_mode_result, mode, FROM_1),
     NUMBER(struct ema_mode_result, frequency_hz, ABOVE_0),
     NUMBER(struct ema_mode_result, frequency_std_hz, MAY_BE_NULL | FROM_0),
@@ -70,7 +70,7 @@ static const struct field mode_fields[] = {
 };
 static const struct record mode_record = RECORD(struct ema_mode_result, mode_fields);
 
-static const struct field pole_fields[] = {
+static const struct record_field pole_fields[] = {
     INTEGER(struct ema_pole_result, order, FROM_1),
     NUMBER(struct ema_pole_result, frequency_hz, FROM_0),
     NUMBER(struct ema_pole_result, damping, 0),
@@ -82,7 +82,7 @@ static const struct field pole_fields[] = {
 };
 static const struct record pole_record = RECORD(struct ema_pole_result, pole_fields);
 
-static const struct field channel_fields[] = {
+static const struct record_field channel_fields[] = {
     INTEGER(struct ema_channel_result, response_node, 0),
     INTEGER(struct ema_channel_result, response_direction, 0),
     INTEGER(struct ema_channel_result, reference_node, 0),
@@ -96,7 +96,7 @@ static const struct field channel_fields[] = {
 static const struct record channel_record = RECORD(struct ema_channel_result, channel_fields);
 
 #define CURVE(M) NUMBERS_BY(struct ema_curve, M, ELEMENTS_MAY_BE_NULL | ROUNDED, nfrequency_hz, "frequency_hz")
-static const struct field curve_fields[] = {
+static const struct record_field curve_fields[] = {
     INTEGER(struct ema_curve, channel, FROM_1),
     NUMBERS(struct ema_curve, frequency_hz, FROM_0),
     CURVE(measured_re),
@@ -107,8 +107,9 @@ static const struct field curve_fields[] = {
 };
 static const struct record curve_record = RECORD(struct ema_curve, curve_fields);
 
-#define RMS(M) NUMBERS_BY(struct ema_result, M, ELEMENTS_MAY_BE_NULL | ROUNDED | SINCE_LATER, nrms_frequency_hz, "rms_frequency_hz")
-static const struct field ema_fields[] = {
+#define RMS(M)                                                                                                                   \
+    NUMBERS_BY(struct ema_result, M, ELEMENTS_MAY_BE_NULL | ROUNDED | SINCE_LATER, nrms_frequency_hz, "rms_frequency_hz")
+static const struct record_field ema_fields[] = {
     STRUCT(struct ema_result, source, 0, source_record),
     WORD(struct ema_result, method, 0, ema_method_words),
     INTEGER(struct ema_result, order, FROM_0),

@@ -1,4 +1,4 @@
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/export.h"
 #include "result/records.h"
 
@@ -6,7 +6,7 @@ const char *const export_format_words[] = {"matrix-market", "dmig", NULL};
 static const char *const models[] = {"identified", "stated", NULL};
 static const char *const condensations[] = {"GUYAN", "IRS", NULL};
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     TEXT(struct export_parameter_result, name, 0),
     TEXT(struct export_parameter_result, unit, 0),
     NUMBER(struct export_parameter_result, value, 0),
@@ -15,7 +15,7 @@ static const struct field parameter_fields[] = {
 };
 static const struct record parameter_record = RECORD(struct export_parameter_result, parameter_fields);
 
-static const struct field export_fields[] = {
+static const struct record_field export_fields[] = {
     TEXT_OF(struct export_result, format, 0, export_format_words),
     TEXTS(struct export_result, files, NOT_EMPTY),
     TEXT_OF(struct export_result, model, 0, models),

@@ -45,7 +45,7 @@ static int is_whole(const struct json_place *at, double value, double most)
     return whole;
 }
 
-static void read_integer(const struct json_place *at, const struct field *field, int *to)
+static void read_integer(const struct json_place *at, const struct record_field *field, int *to)
 {
     double value = at->json->valuedouble;
     if (is_whole(at, value, INT_MAX)) {
@@ -74,7 +74,7 @@ static int read_word(const struct json_place *at, const char *const *word)
     return -1;
 }
 
-static void read_text(const struct json_place *at, const struct field *field, const char **to)
+static void read_text(const struct json_place *at, const struct record_field *field, const char **to)
 {
     const char *text = pool_copy_text(at->reader->pool, at->json->valuestring);
     if (!text)
@@ -85,7 +85,7 @@ static void read_text(const struct json_place *at, const struct field *field, co
         (void)read_word(at, field->words);
 }
 
-static enum place_kind kind_of(const struct field *field)
+static enum place_kind kind_of(const struct record_field *field)
 {
     switch (field->kind) {
     case FIELD_NUMBER:
@@ -104,7 +104,7 @@ static enum place_kind kind_of(const struct field *field)
 }
 
 /* What stands for a value that is not known. A text that has to be there is "" then, so that nobody meets NULL. */
-static void set_unknown(const struct field *field, void *to)
+static void set_unknown(const struct record_field *field, void *to)
 {
     if (field->kind == FIELD_NUMBER)
         *(double *)to = NAN;
@@ -116,7 +116,7 @@ static void set_unknown(const struct field *field, void *to)
         *(const char **)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? NULL : "";
 }
 
-static void read_words(const struct json_place *list, const struct field *field, int *to)
+static void read_words(const struct json_place *list, const struct record_field *field, int *to)
 {
     *to = 0;
     for (struct json_place item = place_first(list, PLACE_TEXT); item.json; item = place_next(&item, PLACE_TEXT)) {
@@ -125,7 +125,7 @@ static void read_words(const struct json_place *list, const struct field *field,
     }
 }
 
-static void read_counts(const struct json_place *map, const struct field *field, int *to)
+static void read_counts(const struct json_place *map, const struct record_field *field, int *to)
 {
     struct json_place at;
     for (int i = 0; field->words[i]; i++)
@@ -136,7 +136,7 @@ static void read_counts(const struct json_place *map, const struct field *field,
 static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to);
 
 /* at->json is of the kind, or NULL or null where there is none. above: the struct that the value is of. */
-static void read_value(const struct json_place *at, const struct field *field, const void *above, void *to)
+static void read_value(const struct json_place *at, const struct record_field *field, const void *above, void *to)
 {
     int is_there = at->json && !cJSON_IsNull(at->json);
     if (field->kind == FIELD_RECORD) {
@@ -174,7 +174,7 @@ static void read_value(const struct json_place *at, const struct field *field, c
 }
 
 /* Whether the value of a field is there, and of the kind. A list or struct that may not be null has to be. */
-static int find(const struct json_place *above, const struct field *field, enum place_kind kind, struct json_place *at)
+static int find(const struct json_place *above, const struct record_field *field, enum place_kind kind, struct json_place *at)
 {
     if (field->bits & (IF_KNOWN | SINCE_LATER) || (field->bits & MAY_BE_NULL && place_has(above, field->key)))
         return place_find(above, field->key, kind, at);
@@ -182,7 +182,7 @@ static int find(const struct json_place *above, const struct field *field, enum 
 }
 
 /* A value of another kind is told, and becomes an unknown one. */
-static void read_elements(const struct json_place *list, const struct field *field, int count, const void *above, char *to)
+static void read_elements(const struct json_place *list, const struct record_field *field, int count, const void *above, char *to)
 {
     size_t size = record_element_size(field);
     struct json_place item = {.reader = list->reader, .above = list, .json = list->json->child};
@@ -197,7 +197,7 @@ static void read_elements(const struct json_place *list, const struct field *fie
     }
 }
 
-static void read_fixed(const struct json_place *above, const struct field *field, void *record)
+static void read_fixed(const struct json_place *above, const struct record_field *field, void *record)
 {
     struct json_place list;
     void *to = member(record, field->offset);
@@ -211,7 +211,7 @@ static void read_fixed(const struct json_place *above, const struct field *field
         place_wrong(&list, "has %d values, expected %d", place_count(&list), field->fixed);
 }
 
-static void read_list(const struct json_place *above, const struct field *field, void *record)
+static void read_list(const struct json_place *above, const struct record_field *field, void *record)
 {
     struct json_place list;
     int *count = member(record, field->count), length;
@@ -249,7 +249,7 @@ static int read_components(const struct json_place *map, rotid_component *next)
     return 1;
 }
 
-static void read_map(const struct json_place *above, const struct field *field, void *record)
+static void read_map(const struct json_place *above, const struct record_field *field, void *record)
 {
     struct json_place map;
     rotid_component **to = member(record, field->offset);
@@ -261,7 +261,7 @@ static void read_map(const struct json_place *above, const struct field *field, 
         *(int *)member(record, field->columns) = count;
 }
 
-static void read_maps(const struct json_place *above, const struct field *field, void *record)
+static void read_maps(const struct json_place *above, const struct record_field *field, void *record)
 {
     struct json_place list;
     int *count = member(record, field->count), width = *(int *)member(record, field->columns), length;
@@ -282,7 +282,7 @@ static void read_maps(const struct json_place *above, const struct field *field,
     *count = length;
 }
 
-static void read_matrix(const struct json_place *above, const struct field *field, void *record)
+static void read_matrix(const struct json_place *above, const struct record_field *field, void *record)
 {
     int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
     int is_square = rows == columns, known = is_square || size[0] || size[1]; /* of a square one the size stands before it */
@@ -294,7 +294,7 @@ static void read_matrix(const struct json_place *above, const struct field *fiel
     }
 }
 
-static void read_one(const struct json_place *above, const struct field *field, void *record)
+static void read_one(const struct json_place *above, const struct record_field *field, void *record)
 {
     struct json_place at;
     void *to = member(record, field->offset);
@@ -316,7 +316,7 @@ static void read_one(const struct json_place *above, const struct field *field, 
 /* Whether the keys of a struct stand here: the first one that results of all versions have tells. */
 static int stands_here(const struct json_place *at, const struct record *record)
 {
-    const struct field *field = record->field;
+    const struct record_field *field = record->field;
     while (field->bits & SINCE_LATER)
         field++;
     return field->kind == FIELD_INLINE ? stands_here(at, field->record) : place_has(at, field->key);
@@ -324,7 +324,7 @@ static int stands_here(const struct json_place *at, const struct record *record)
 
 static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to)
 {
-    for (const struct field *field = record->field; field->key; field++) {
+    for (const struct record_field *field = record->field; field->key; field++) {
         void *inside = member(to, field->offset);
         if (field->kind == FIELD_COUNT) {
             *(int *)inside = above ? *(const int *)((const char *)above + field->count) : 0;

@@ -1,11 +1,11 @@
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 #include "run/job.h"
 #include "run/sensitivity.h"
 
 #define CURVE (ELEMENTS_MAY_BE_NULL | FROM_0)
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     COUNT_OF(struct sensitivity_parameter, nfrequency_hz, struct sensitivity, nfrequency_hz),
     COUNT_OF(struct sensitivity_parameter, nrelative_value, struct sensitivity, nrelative_value),
     TEXT(struct sensitivity_parameter, name, 0),
@@ -19,7 +19,7 @@ static const struct field parameter_fields[] = {
 };
 static const struct record parameter_record = RECORD(struct sensitivity_parameter, parameter_fields);
 
-static const struct field line_fields[] = {
+static const struct record_field line_fields[] = {
     COUNT_OF(struct growth_line, nepsilon_squared, struct growth, nepsilon_squared),
     NUMBERS_BY(struct growth_line, objective, CURVE, nepsilon_squared, "epsilon_squared"),
     NUMBER(struct growth_line, slope, MAY_BE_NULL),
@@ -28,7 +28,7 @@ static const struct field line_fields[] = {
 };
 static const struct record line_record = RECORD(struct growth_line, line_fields);
 
-static const struct field growth_fields[] = {
+static const struct record_field growth_fields[] = {
     NUMBERS(struct growth, epsilon_squared, ABOVE_0),
     STRUCT(struct growth, hybrid, 0, line_record),
     STRUCT(struct growth, hybrid_f, 0, line_record),
@@ -37,7 +37,7 @@ static const struct field growth_fields[] = {
 };
 static const struct record growth_record = RECORD(struct growth, growth_fields);
 
-static const struct field sensitivity_fields[] = {
+static const struct record_field sensitivity_fields[] = {
     TEXT_OF(struct sensitivity, reduction, 0, reduction_words),
     NUMBER(struct sensitivity, step, ABOVE_0),
     NUMBERS(struct sensitivity, frequency_hz, FROM_0),

@@ -1,5 +1,5 @@
 /* Of a file of results of a study: its first line and its summary. */
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 #include "result/study.h"
 
@@ -7,7 +7,7 @@ const char *const score_words[] = {"quiet",  "false_alarm", "right", "in_set", "
                                    "silent", "unexplained", "wrong", NULL};
 static const char *const studies[] = {"identify", "diagnose", NULL};
 
-static const struct field digests_fields[] = {
+static const struct record_field digests_fields[] = {
     TEXT(struct study_digests, plan, 0),
     TEXT(struct study_digests, decks, 0),
     TEXT(struct study_digests, data, 0),
@@ -16,7 +16,7 @@ static const struct field digests_fields[] = {
 };
 static const struct record digests_record = RECORD(struct study_digests, digests_fields);
 
-static const struct field header_fields[] = {
+static const struct record_field header_fields[] = {
     INTEGER(struct study_header, schema, FROM_1),
     TEXT(struct study_header, rotid, 0),
     TEXT(struct study_header, commit, 0),
@@ -31,7 +31,7 @@ static const struct field header_fields[] = {
 };
 const struct record study_header_record = RECORD(struct study_header, header_fields);
 
-static const struct field axes_fields[] = {
+static const struct record_field axes_fields[] = {
     TEXT(struct study_axes, deck, 0),
     TEXT(struct study_axes, variant, MAY_BE_NULL),
     TEXT(struct study_axes, modes, MAY_BE_NULL),
@@ -43,7 +43,7 @@ static const struct field axes_fields[] = {
 };
 const struct record study_axes_record = RECORD(struct study_axes, axes_fields);
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     TEXT(struct cell_parameter, name, 0),
     TEXT(struct cell_parameter, unit, 0),
     INTEGER(struct cell_parameter, count, FROM_0),
@@ -61,7 +61,7 @@ static const struct field parameter_fields[] = {
 };
 static const struct record parameter_record = RECORD(struct cell_parameter, parameter_fields);
 
-static const struct field diagnoses_fields[] = {
+static const struct record_field diagnoses_fields[] = {
     INTEGER(struct cell_diagnoses, count, FROM_0),
     COUNTS(struct cell_diagnoses, verdicts, 0, verdict_words),
     MAP(struct cell_diagnoses, named, 0),
@@ -71,7 +71,7 @@ static const struct field diagnoses_fields[] = {
 };
 static const struct record diagnoses_record = RECORD(struct cell_diagnoses, diagnoses_fields);
 
-static const struct field cell_fields[] = {
+static const struct record_field cell_fields[] = {
     STRUCT(struct study_cell_result, cell, 0, study_axes_record),
     INTEGER(struct study_cell_result, first_run, FROM_0),
     INTEGER(struct study_cell_result, runs, FROM_0),
@@ -92,7 +92,7 @@ static const struct field cell_fields[] = {
 };
 static const struct record cell_record = RECORD(struct study_cell_result, cell_fields);
 
-static const struct field error_fields[] = {
+static const struct record_field error_fields[] = {
     TEXT(struct study_error, error, 0),
     INTEGER(struct study_error, runs, FROM_1),
     INTEGER(struct study_error, first_run, FROM_0),
@@ -100,7 +100,7 @@ static const struct field error_fields[] = {
 };
 static const struct record error_record = RECORD(struct study_error, error_fields);
 
-static const struct field study_fields[] = {
+static const struct record_field study_fields[] = {
     TEXT(struct study_result, results, 0),
     TEXT(struct study_result, plan, MAY_BE_NULL),
     TEXT_OF(struct study_result, studies, 0, studies),

@@ -1,5 +1,5 @@
 /* Of a file of results of a study: the line of a run. */
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 #include "result/study.h"
 #include "run/job.h"
@@ -7,7 +7,7 @@
 static const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     TEXT(struct run_parameter, name, 0),
     TEXT(struct run_parameter, unit, 0),
     NUMBER(struct run_parameter, value, MAY_BE_NULL),
@@ -21,7 +21,7 @@ static const struct field parameter_fields[] = {
 };
 static const struct record parameter_record = RECORD(struct run_parameter, parameter_fields);
 
-static const struct field mode_fields[] = {
+static const struct record_field mode_fields[] = {
     TEXT(struct run_mode, state, IF_KNOWN),
     INTEGER(struct run_mode, mode, FROM_1),
     NUMBER(struct run_mode, measured_hz, ABOVE_0),
@@ -33,7 +33,7 @@ static const struct field mode_fields[] = {
 };
 static const struct record mode_record = RECORD(struct run_mode, mode_fields);
 
-static const struct field value_fields[] = {
+static const struct record_field value_fields[] = {
     TEXT(struct run_value, name, 0),
     TEXT(struct run_value, unit, 0),
     NUMBER(struct run_value, value, 0),
@@ -41,14 +41,14 @@ static const struct field value_fields[] = {
 };
 static const struct record value_record = RECORD(struct run_value, value_fields);
 
-static const struct field hidden_fields[] = {
+static const struct record_field hidden_fields[] = {
     TEXT(struct run_hidden, id, 0),
     STRUCTS(struct run_hidden, parameters, 0, value_record),
     {0},
 };
 static const struct record hidden_record = RECORD(struct run_hidden, hidden_fields);
 
-static const struct field fit_fields[] = {
+static const struct record_field fit_fields[] = {
     TEXT_OF(struct run_fit, functional, 0, functional_words),
     TEXT_OF(struct run_fit, reduction, 0, reduction_words),
     NUMBER(struct run_fit, objective, MAY_BE_NULL | FROM_0),
@@ -65,7 +65,7 @@ static const struct field fit_fields[] = {
 };
 static const struct record fit_record = RECORD(struct run_fit, fit_fields);
 
-static const struct field minimiser_fields[] = {
+static const struct record_field minimiser_fields[] = {
     TEXT(struct run_minimiser, algorithm, 0),
     FLAG(struct run_minimiser, usable, 0),
     NUMBER(struct run_minimiser, objective, MAY_BE_NULL | FROM_0),
@@ -75,7 +75,7 @@ static const struct field minimiser_fields[] = {
 };
 static const struct record minimiser_record = RECORD(struct run_minimiser, minimiser_fields);
 
-static const struct field cause_parameter_fields[] = {
+static const struct record_field cause_parameter_fields[] = {
     TEXT(struct run_cause_parameter, name, 0),
     TEXT(struct run_cause_parameter, unit, 0),
     NUMBER(struct run_cause_parameter, value, MAY_BE_NULL),
@@ -84,7 +84,7 @@ static const struct field cause_parameter_fields[] = {
 };
 static const struct record cause_parameter_record = RECORD(struct run_cause_parameter, cause_parameter_fields);
 
-static const struct field cause_fields[] = {
+static const struct record_field cause_fields[] = {
     TEXT(struct run_cause, id, 0),
     TEXT(struct run_cause, target, 0),
     TEXT(struct run_cause, state, IF_KNOWN),
@@ -93,7 +93,7 @@ static const struct field cause_fields[] = {
 };
 static const struct record run_cause_record = RECORD(struct run_cause, cause_fields);
 
-static const struct field verdict_fields[] = {
+static const struct record_field verdict_fields[] = {
     WORD(struct run_verdict, kind, 0, verdict_words),
     FLAG(struct run_verdict, adequate_after, 0),
     NUMBER(struct run_verdict, p_value, MAY_BE_NULL | PROBABILITY),
@@ -103,7 +103,7 @@ static const struct field verdict_fields[] = {
 };
 static const struct record verdict_record = RECORD(struct run_verdict, verdict_fields);
 
-static const struct field finding_fields[] = {
+static const struct record_field finding_fields[] = {
     TEXT(struct run_finding, id, 0),
     TEXT(struct run_finding, state, IF_KNOWN),
     INTEGERS(struct run_finding, sensors, 0),
@@ -113,7 +113,7 @@ static const struct field finding_fields[] = {
 };
 static const struct record finding_record = RECORD(struct run_finding, finding_fields);
 
-static const struct field diagnosis_fields[] = {
+static const struct record_field diagnosis_fields[] = {
     STRUCT(struct run_diagnosis, verdict, 0, verdict_record),
     STRUCTS(struct run_diagnosis, data_findings, 0, finding_record),
     WORD(struct run_diagnosis, score, MAY_BE_NULL, score_words),
@@ -122,14 +122,14 @@ static const struct field diagnosis_fields[] = {
 };
 static const struct record diagnosis_record_of_run = RECORD(struct run_diagnosis, diagnosis_fields);
 
-static const struct field stamp_fields[] = {
+static const struct record_field stamp_fields[] = {
     TEXT(struct study_run, study, 0),
     TEXT(struct study_run, digest, 0),
     {0},
 };
 static const struct record stamp_record = RECORD(struct study_run, stamp_fields);
 
-static const struct field run_fields[] = {
+static const struct record_field run_fields[] = {
     INTEGER(struct study_run, run, FROM_0),
     STRUCT(struct study_run, cell, 0, study_axes_record),
     INTEGER(struct study_run, replicate, FROM_0),

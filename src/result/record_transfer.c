@@ -1,4 +1,4 @@
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 #include "result/transfer.h"
 
@@ -8,7 +8,7 @@ const char *const transfer_damping_words[] = {"measured", "stated", "smallest_me
 
 #define RATIO (MAY_BE_NULL | CORRELATION)
 
-static const struct field parameter_fields[] = {
+static const struct record_field parameter_fields[] = {
     TEXT(struct transfer_parameter, name, 0),
     TEXT(struct transfer_parameter, unit, 0),
     NUMBER(struct transfer_parameter, value, 0),
@@ -16,7 +16,7 @@ static const struct field parameter_fields[] = {
 };
 static const struct record parameter_record = RECORD(struct transfer_parameter, parameter_fields);
 
-static const struct field mode_agreement_fields[] = {
+static const struct record_field mode_agreement_fields[] = {
     NUMBER(struct transfer_mode_agreement, frac, RATIO),
     NUMBER(struct transfer_mode_agreement, frac_at_measured_frequencies, RATIO),
     NUMBER(struct transfer_mode_agreement, level_db, MAY_BE_NULL),
@@ -26,7 +26,7 @@ static const struct field mode_agreement_fields[] = {
 };
 static const struct record mode_agreement_record = RECORD(struct transfer_mode_agreement, mode_agreement_fields);
 
-static const struct field mode_fields[] = {
+static const struct record_field mode_fields[] = {
     FLAG(struct transfer_mode, rigid, 0),
     INTEGER(struct transfer_mode, mode, MAY_BE_NULL | FROM_1),
     NUMBER(struct transfer_mode, model_hz, FROM_0),
@@ -38,7 +38,7 @@ static const struct field mode_fields[] = {
 };
 static const struct record mode_record = RECORD(struct transfer_mode, mode_fields);
 
-static const struct field agreement_fields[] = {
+static const struct record_field agreement_fields[] = {
     NUMBER(struct transfer_agreement, frac, RATIO),
     NUMBER(struct transfer_agreement, frac_at_measured_frequencies, RATIO),
     NUMBER(struct transfer_agreement, frac_of_conjugate, RATIO),
@@ -48,7 +48,7 @@ static const struct field agreement_fields[] = {
 };
 static const struct record agreement_record = RECORD(struct transfer_agreement, agreement_fields);
 
-static const struct field at_mode_fields[] = {
+static const struct record_field at_mode_fields[] = {
     INTEGER(struct transfer_at_mode, mode, FROM_1),
     NUMBER(struct transfer_at_mode, level_db, MAY_BE_NULL),
     NUMBER(struct transfer_at_mode, phase_deg, MAY_BE_NULL),
@@ -57,7 +57,7 @@ static const struct field at_mode_fields[] = {
 };
 static const struct record at_mode_record = RECORD(struct transfer_at_mode, at_mode_fields);
 
-static const struct field beside_fields[] = {
+static const struct record_field beside_fields[] = {
     INLINE(struct transfer_beside, agreement, 0, agreement_record),
     FLAG(struct transfer_beside, measured_reversed, 0),
     FLAG(struct transfer_beside, measured_reciprocal, 0),
@@ -67,21 +67,21 @@ static const struct field beside_fields[] = {
 static const struct record beside_record = RECORD(struct transfer_beside, beside_fields);
 
 #define CURVE(M) NUMBERS_BY(struct transfer_function, M, ELEMENTS_MAY_BE_NULL, nfrequency_hz, "frequency_hz")
-static const struct field curve_fields[] = {
+static const struct record_field curve_fields[] = {
     NUMBERS(struct transfer_function, frequency_hz, ABOVE_0),
     CURVE(synthesised_re),
     CURVE(synthesised_im),
     {0},
 };
 static const struct record curve_record = RECORD(struct transfer_function, curve_fields);
-static const struct field measured_curve_fields[] = {
+static const struct record_field measured_curve_fields[] = {
     CURVE(measured_re),
     CURVE(measured_im),
     {0},
 };
 static const struct record measured_curve_record = RECORD(struct transfer_function, measured_curve_fields);
 
-static const struct field function_fields[] = {
+static const struct record_field function_fields[] = {
     INTEGER(struct transfer_function, response, 0),
     INTEGER(struct transfer_function, reference, 0),
     NUMBER(struct transfer_function, response_z_m, FROM_0),
@@ -93,7 +93,7 @@ static const struct field function_fields[] = {
 };
 static const struct record function_record = RECORD(struct transfer_function, function_fields);
 
-static const struct field frf_fields[] = {
+static const struct record_field frf_fields[] = {
     FLAG(struct transfer_result, complete, 0),
     TEXT_OF(struct transfer_result, quantity, 0, transfer_quantity_words),
     TEXT_OF(struct transfer_result, unit, 0, transfer_unit_words),

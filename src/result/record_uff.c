@@ -1,4 +1,4 @@
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 #include "result/uff.h"
 
@@ -10,7 +10,7 @@ static const char *const doubts[] = {
 #define NUMBER_3(S, M) RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, 0, .fixed = 3)
 #define ID(S)          RECORD_ROW(S, id, FIELD_TEXT, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = LISTED_ID_LINES)
 
-static const struct field header_fields[] = {
+static const struct record_field header_fields[] = {
     TEXT(struct listed_header, model, MAY_BE_NULL),   TEXT(struct listed_header, description, MAY_BE_NULL),
     TEXT(struct listed_header, program, MAY_BE_NULL), TEXT(struct listed_header, created, MAY_BE_NULL),
     TEXT(struct listed_header, saved, MAY_BE_NULL),   TEXT(struct listed_header, written_by, MAY_BE_NULL),
@@ -18,7 +18,7 @@ static const struct field header_fields[] = {
 };
 static const struct record header_record = RECORD(struct listed_header, header_fields);
 
-static const struct field units_fields[] = {
+static const struct record_field units_fields[] = {
     INTEGER(struct listed_units, code, 0),
     TEXT(struct listed_units, name, 0),
     TEXT(struct listed_units, description, MAY_BE_NULL),
@@ -30,7 +30,7 @@ static const struct field units_fields[] = {
 };
 static const struct record units_record = RECORD(struct listed_units, units_fields);
 
-static const struct field set_fields[] = {
+static const struct record_field set_fields[] = {
     INTEGER(struct listed_set, line, FROM_1),
     INTEGER(struct listed_set, set, FROM_0),
     FLAG(struct listed_set, binary, 0),
@@ -41,14 +41,14 @@ static const struct field set_fields[] = {
 };
 static const struct record set_record = RECORD(struct listed_set, set_fields);
 
-static const struct field every_node_fields[] = {
+static const struct record_field every_node_fields[] = {
     INTEGERS(struct listed_nodes, ids, 0),
     MATRIX(struct listed_nodes, x, 0, nids, nx),
     {0},
 };
 static const struct record every_node_record = RECORD(struct listed_nodes, every_node_fields);
 
-static const struct field nodes_fields[] = {
+static const struct record_field nodes_fields[] = {
     INTEGER(struct listed_nodes, count, FROM_0),
     NUMBER_3(struct listed_nodes, min),
     NUMBER_3(struct listed_nodes, max),
@@ -57,7 +57,7 @@ static const struct field nodes_fields[] = {
 };
 static const struct record nodes_record = RECORD(struct listed_nodes, nodes_fields);
 
-static const struct field axis_fields[] = {
+static const struct record_field axis_fields[] = {
     INTEGER(struct listed_axis, data_type, 0),
     TEXT(struct listed_axis, label, MAY_BE_NULL),
     TEXT(struct listed_axis, unit, MAY_BE_NULL),
@@ -65,7 +65,7 @@ static const struct field axis_fields[] = {
 };
 static const struct record axis_record = RECORD(struct listed_axis, axis_fields);
 
-static const struct field function_fields[] = {
+static const struct record_field function_fields[] = {
     INTEGER(struct listed_function, line, FROM_1),
     INTEGER(struct listed_function, type, FROM_0),
     TEXT(struct listed_function, kind, 0),
@@ -101,7 +101,7 @@ static const struct field function_fields[] = {
 };
 static const struct record function_record = RECORD(struct listed_function, function_fields);
 
-static const struct field every_value_fields[] = {
+static const struct record_field every_value_fields[] = {
     INTEGERS(struct listed_shape, nodes, 0),
     NUMBERS(struct listed_shape, real, 0),
     NUMBERS(struct listed_shape, imag, 0),
@@ -109,7 +109,7 @@ static const struct field every_value_fields[] = {
 };
 static const struct record every_value_record = RECORD(struct listed_shape, every_value_fields);
 
-static const struct field shape_fields[] = {
+static const struct record_field shape_fields[] = {
     INTEGER(struct listed_shape, line, FROM_1),
     ID(struct listed_shape),
     INTEGER(struct listed_shape, analysis_type, 0),
@@ -127,7 +127,7 @@ static const struct field shape_fields[] = {
 };
 static const struct record shape_record = RECORD(struct listed_shape, shape_fields);
 
-static const struct field doubt_fields[] = {
+static const struct record_field doubt_fields[] = {
     TEXT_OF(struct listed_doubt, kind, 0, doubts),
     INTEGER(struct listed_doubt, line, MAY_BE_NULL | FROM_1),
     TEXT(struct listed_doubt, text, 0),
@@ -135,7 +135,7 @@ static const struct field doubt_fields[] = {
 };
 static const struct record doubt_record = RECORD(struct listed_doubt, doubt_fields);
 
-static const struct field error_fields[] = {
+static const struct record_field error_fields[] = {
     INTEGER(struct listed_error, line, FROM_0),
     INTEGER(struct listed_error, column, FROM_0),
     TEXT(struct listed_error, text, 0),
@@ -143,7 +143,7 @@ static const struct field error_fields[] = {
 };
 static const struct record error_record = RECORD(struct listed_error, error_fields);
 
-static const struct field uff_fields[] = {
+static const struct record_field uff_fields[] = {
     TEXT(struct uff_result, file, 0),
     TEXTS(struct uff_result, summary, 0),
     STRUCT(struct uff_result, header, MAY_BE_NULL | BEHIND_POINTER, header_record),

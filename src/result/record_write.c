@@ -14,7 +14,7 @@ static int integer_at(const void *from, size_t offset)
 }
 
 /* What a member that is a pointer, or a struct or array in place, leads to. */
-static const void *target_of(const struct field *field, const void *from)
+static const void *target_of(const struct record_field *field, const void *from)
 {
     const char *place = at(from, field->offset);
     int pointed =
@@ -31,7 +31,8 @@ static void write_number(struct json_tree *tree, cJSON *object, const char *key,
 }
 
 /* One value; `key` NULL: an element of a list. */
-static void write_value(struct json_tree *tree, cJSON *object, const char *key, const struct field *field, const void *value)
+static void write_value(struct json_tree *tree, cJSON *object, const char *key, const struct record_field *field,
+                        const void *value)
 {
     cJSON *array;
     int integer;
@@ -73,7 +74,7 @@ static void write_value(struct json_tree *tree, cJSON *object, const char *key, 
     }
 }
 
-static void write_list(struct json_tree *tree, cJSON *object, const struct field *field, const void *from)
+static void write_list(struct json_tree *tree, cJSON *object, const struct record_field *field, const void *from)
 {
     int count = field->shape == SHAPE_FIXED ? field->fixed : integer_at(from, field->count);
     const char *list = target_of(field, from);
@@ -97,7 +98,7 @@ static void write_map(struct json_tree *tree, cJSON *object, const char *key, in
         json_number(tree, map, component[i].name, component[i].value);
 }
 
-static void write_maps(struct json_tree *tree, cJSON *object, const struct field *field, const void *from)
+static void write_maps(struct json_tree *tree, cJSON *object, const struct record_field *field, const void *from)
 {
     int count = field->shape == SHAPE_ONE ? 1 : integer_at(from, field->count), each = integer_at(from, field->columns);
     const rotid_component *component = target_of(field, from);
@@ -110,7 +111,7 @@ static void write_maps(struct json_tree *tree, cJSON *object, const struct field
         write_map(tree, array, NULL, each, component + (ptrdiff_t)i * each);
 }
 
-static void write_matrix(struct json_tree *tree, cJSON *object, const struct field *field, const void *from)
+static void write_matrix(struct json_tree *tree, cJSON *object, const struct record_field *field, const void *from)
 {
     const double *value = target_of(field, from);
     int rows = value ? integer_at(from, field->count) : 0, columns = integer_at(from, field->columns);
@@ -122,7 +123,7 @@ static void write_matrix(struct json_tree *tree, cJSON *object, const struct fie
         json_matrix(tree, object, field->key, rows, columns, value);
 }
 
-static int is_known(const struct field *field, const void *from)
+static int is_known(const struct record_field *field, const void *from)
 {
     const void *value = target_of(field, from);
     if (field->kind == FIELD_INLINE && !(field->bits & BEHIND_POINTER))
@@ -136,7 +137,7 @@ static int is_known(const struct field *field, const void *from)
 
 void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from)
 {
-    for (const struct field *field = record->field; field->key; field++) {
+    for (const struct record_field *field = record->field; field->key; field++) {
         if (field->kind == FIELD_COUNT || (field->bits & IF_KNOWN && !is_known(field, from)))
             continue;
         const void *value = target_of(field, from);

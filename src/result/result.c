@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "record/record.h"
+#include "record/rows.h"
 #include "result/records.h"
 
 /* Rows of the parts that results are made of. */
@@ -13,7 +13,7 @@
 
 /* The same of each state. */
 #define STATE(M, R)                                                                                                              \
-    static const struct field M##_state_fields[] = {                                                                             \
+    static const struct record_field M##_state_fields[] = {                                                                      \
         TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R), {0}};                             \
     static const struct record M##_state_record = RECORD(struct result_state, M##_state_fields)
 #define STATES(M) STRUCTS(struct result, states, IF_KNOWN, M##_state_record)
@@ -23,20 +23,20 @@ STATE(modes, spectrum_record);
 STATE(sensitivity, sensitivity_record);
 STATE(frf, transfer_record);
 
-static const struct field check_fields[] = {HEAD, OWN(check, check_record), STATES(check), WARNINGS, {0}};
-static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS, {0}};
-static const struct field identify_fields[] = {
+static const struct record_field check_fields[] = {HEAD, OWN(check, check_record), STATES(check), WARNINGS, {0}};
+static const struct record_field modes_fields[] = {HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS, {0}};
+static const struct record_field identify_fields[] = {
     HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
-static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
-static const struct field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
-static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
-static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
-static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
-static const struct field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
-static const struct field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
-static const struct field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
+static const struct record_field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
+static const struct record_field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
+static const struct record_field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
+static const struct record_field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
+static const struct record_field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
+static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
+static const struct record_field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
+static const struct record_field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
 
-static const struct field head_alone_fields[] = {PROVENANCE, {0}};
+static const struct record_field head_alone_fields[] = {PROVENANCE, {0}};
 const struct record head_alone_record = RECORD(struct result, head_alone_fields);
 
 static const struct {
@@ -44,16 +44,11 @@ static const struct {
     struct record record;
     int has_page;
 } commands[] = {
-    {"check", RECORD(struct result, check_fields), 1},
-    {"modes", RECORD(struct result, modes_fields), 1},
-    {"identify", RECORD(struct result, identify_fields), 1},
-    {"diagnose", RECORD(struct result, diagnose_fields), 1},
-    {"suggest", RECORD(struct result, suggest_fields), 1},
-    {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
-    {"frf", RECORD(struct result, frf_fields), 1},
-    {"ema", RECORD(struct result, ema_fields), 1},
-    {"uff", RECORD(struct result, uff_fields), 0},
-    {"export", RECORD(struct result, export_fields), 0},
+    {"check", RECORD(struct result, check_fields), 1},       {"modes", RECORD(struct result, modes_fields), 1},
+    {"identify", RECORD(struct result, identify_fields), 1}, {"diagnose", RECORD(struct result, diagnose_fields), 1},
+    {"suggest", RECORD(struct result, suggest_fields), 1},   {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
+    {"frf", RECORD(struct result, frf_fields), 1},           {"ema", RECORD(struct result, ema_fields), 1},
+    {"uff", RECORD(struct result, uff_fields), 0},           {"export", RECORD(struct result, export_fields), 0},
     {"study", RECORD(struct result, study_fields), 1},
 };
 #define COMMANDS (int)(sizeof commands / sizeof *commands)
@@ -87,7 +82,7 @@ char *result_json(const struct result *result)
 {
     const struct record *record = result_record(result->head.command);
     struct json_tree tree;
-    for (const struct field *field = record->field; field->key; field++)
+    for (const struct record_field *field = record->field; field->key; field++)
         if (field->bits & BEHIND_POINTER && !*(void *const *)((const char *)result + field->offset))
             return NULL;
     json_open(&tree);
@@ -112,5 +107,8 @@ const rotid_identification *fit_of_result(const struct result *result)
 
 const rotid_noise *noise_of_result(const struct result *result)
 {
-    return result->diagnose ? &result->diagnose->noise : result->suggest ? &result->suggest->noise : result->identify ? result->identify->noise : NULL;
+    return result->diagnose   ? &result->diagnose->noise
+           : result->suggest  ? &result->suggest->noise
+           : result->identify ? result->identify->noise
+                              : NULL;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int refuse(struct message_list *notes, const struct job *job, const char *format, int id)
+static int refuse_points(struct message_list *notes, const struct job *job, const char *format, int id)
 {
     message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, format, id);
     return ROTID_ERROR_ARGUMENT;
@@ -89,10 +89,11 @@ static int all_rows(struct chooser *chooser, const struct job *job, const struct
         if (is_lateral(&set->frf[c], axis))
             take(chooser, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
     if (!chooser->out->nrow)
-        return refuse(notes, job,
-                      "none of the %d measured transfer functions is lateral, expected response and force along one axis other "
-                      "than that of the rotor, AXIS on *FRF",
-                      set->nfrf);
+        return refuse_points(
+            notes, job,
+            "none of the %d measured transfer functions is lateral, expected response and force along one axis other "
+            "than that of the rotor, AXIS on *FRF",
+            set->nfrf);
     chooser->out->nleft_out = set->nfrf - chooser->out->nrow;
     if (chooser->out->nleft_out)
         message_add(
@@ -116,7 +117,7 @@ int frf_choose_rows(struct pool *pool, const struct job *job, const struct frf_m
     if (measured)
         status = request->npair ? requested_rows(&chooser, job, measured, notes) : all_rows(&chooser, job, measured->set, notes);
     else if (!request->npair && !rotor->nsensor)
-        status = refuse(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
+        status = refuse_points(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
     for (int i = 0; i < request->npair && !measured; i++)
         take(&chooser, request->pair[i].response, request->pair[i].reference, NULL);
     for (int s = 0; s < rotor->nsensor && !measured && !request->npair; s++)
@@ -164,9 +165,9 @@ static int node_position(const struct job *job, const struct frf_measured *measu
                 id, *z, length);
             return ROTID_ERROR_ARGUMENT;
         }
-    return refuse(notes, job,
-                  "point %d of the transfer functions has no position, expected it in *SENSORS or among the nodes of the file",
-                  id);
+    return refuse_points(
+        notes, job, "point %d of the transfer functions has no position, expected it in *SENSORS or among the nodes of the file",
+        id);
 }
 
 /* The distinct points of the rows by id, with their positions. */

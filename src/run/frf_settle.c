@@ -7,7 +7,7 @@
 #define DEFAULT_LINES 1601 /* where the card gives no lines, as many as a usual analyser has */
 #define MOST_LINES    1000000
 
-static int refuse(struct message_list *notes, const struct job *job, const char *text)
+static int refuse_settling(struct message_list *notes, const struct job *job, const char *text)
 {
     message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "%s", text);
     return ROTID_ERROR_ARGUMENT;
@@ -29,8 +29,9 @@ static int measured_lines(const struct job *job, const struct frf_set *set, stru
     out->frequency_hz = set->frequency_hz + first;
     out->decay = set->window_decay;
     out->quantity = request->has_quantity ? request->quantity : set->quantity;
-    return out->nline > 0 ? ROTID_OK
-                          : refuse(notes, job, "no measured line lies between LOW and HIGH, expected other limits on *FRF");
+    return out->nline > 0
+               ? ROTID_OK
+               : refuse_settling(notes, job, "no measured line lies between LOW and HIGH, expected other limits on *FRF");
 }
 
 static int requested_lines(struct pool *pool, const struct job *job, struct message_list *notes, struct frf_result *out)
@@ -44,11 +45,11 @@ static int requested_lines(struct pool *pool, const struct job *job, struct mess
             high = fmax(high, 1.1 * job->measurement.frequency_hz[k]);
     }
     if (!(low > 0 && high > low))
-        return refuse(notes, job,
-                      "the lines of the transfer functions are not known, expected LOW and HIGH [Hz] on *FRF, LOW first");
+        return refuse_settling(
+            notes, job, "the lines of the transfer functions are not known, expected LOW and HIGH [Hz] on *FRF, LOW first");
     double step = request->step_hz;
     if (step > 0 && (high - low) / step >= MOST_LINES)
-        return refuse(notes, job, "there are more than 1000000 lines, expected a larger STEP on *FRF");
+        return refuse_settling(notes, job, "there are more than 1000000 lines, expected a larger STEP on *FRF");
     out->nline = step > 0 ? (int)floor((high - low) / step * (1 + 1e-12)) + 1 : request->nline ? request->nline : DEFAULT_LINES;
     double *hz = POOL_ARRAY(pool, double, out->nline);
     if (!hz)
@@ -86,7 +87,7 @@ int frf_choose_damping(struct pool *pool, const struct job *job, const struct co
             count++;
         }
     if (!count && stated <= 0)
-        return refuse(
+        return refuse_settling(
             notes, job,
             "no mode has a damping ratio, expected one as third value of *MODES, in the file of *MEASURED, or DAMPING= on "
             "*FRF");

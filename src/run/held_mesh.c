@@ -19,7 +19,7 @@ int mesh_hold_as_it_is(struct pool *pool, const struct job *job, int count)
 }
 
 /* shift [n] = shape - a other, a the least-squares scale */
-static void shift_of(int n, const double *shape, const double *other, double *shift)
+static void shape_shift(int n, const double *shape, const double *other, double *shift)
 {
     double product = 0, square = 0;
     for (int i = 0; i < n; i++) {
@@ -44,7 +44,7 @@ int mesh_hold(struct pool *pool, const struct job *job, const struct spectrum *s
         if (j < held)
             *moved = fmax(*moved, fabs(ratio[j] / before->ratio[j] - 1));
         if (s->other_shape)
-            shift_of(s->nmaster, s->shape + at, s->other_shape + at, shift + at);
+            shape_shift(s->nmaster, s->shape + at, s->other_shape + at, shift + at);
     }
     const struct held_modes modes = {.count = s->count,
                                      .nmaster = s->nmaster,

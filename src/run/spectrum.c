@@ -101,8 +101,8 @@ static double *copy(struct pool *pool, const double *from, int rows, int columns
 }
 
 /* same of a solution whose model stands at x, by the mass between its modes and the other ones on its mesh. */
-static int pair_modes(struct pool *pool, struct pool *scratch, const struct prediction *p, const struct solution *known,
-                      struct solution *out)
+static int pair_meshes(struct pool *pool, struct pool *scratch, const struct prediction *p, const struct solution *known,
+                       struct solution *out)
 {
     int n = out->size, rigid = out->model->equations.nrigid, count = out->pairs - rigid;
     int known_rigid = known->model->equations.nrigid, most = known->pairs - known_rigid;
@@ -160,7 +160,7 @@ static int solve(struct pool *pool, struct models *models, const struct rotor *r
         if (!status)
             keep_shapes(out->model, &p, *count, out->shape);
         if (!status && known)
-            status = pair_modes(pool, &scratch, &p, known, out);
+            status = pair_meshes(pool, &scratch, &p, known, out);
     }
     pool_close(&scratch);
     return status;

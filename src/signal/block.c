@@ -21,7 +21,7 @@ int block_quiet(int begin, const struct impact *impact, double rate)
     return begin - half > rise ? begin - (int)lround(rise) : half;
 }
 
-static int is_sound(const struct record *record)
+static int is_sound(const struct time_record *record)
 {
     if (record->count < 1 || !record->force || !record->response)
         return 0;
@@ -40,7 +40,7 @@ static long long room_of(int n, const struct impact *impact, int k, double rate,
 }
 
 /* Impacts of one record from the pulses at the end of the list, and in *shortest the length that the record leaves to a block. */
-static int split(struct pool *pool, const struct record *record, double rate, long long pre, long long given,
+static int split(struct pool *pool, const struct time_record *record, double rate, long long pre, long long given,
                  struct impact_list *list, size_t first, long long *shortest)
 {
     int n = (int)(list->count - first);
@@ -62,7 +62,7 @@ static int split(struct pool *pool, const struct record *record, double rate, lo
 }
 
 /* Which impacts of record `at` are used, once the length of the blocks is known. */
-static void judge(const struct record *record, double rate, const struct transfer_options *options, long long pre, int at,
+static void judge(const struct time_record *record, double rate, const struct transfer_options *options, long long pre, int at,
                   struct block_plan *plan)
 {
     struct impact *impact = &plan->impact[plan->first[at]];
@@ -81,8 +81,8 @@ static void judge(const struct record *record, double rate, const struct transfe
     }
 }
 
-int block_plan(struct pool *pool, int nrecord, const struct record *record, double rate, const struct transfer_options *options,
-               struct block_plan *plan, int *bad_record)
+int block_plan(struct pool *pool, int nrecord, const struct time_record *record, double rate,
+               const struct transfer_options *options, struct block_plan *plan, int *bad_record)
 {
     struct impact_list list = {0};
     double pretrigger = options->pretrigger > 0 ? options->pretrigger : 0.01;

@@ -15,8 +15,8 @@ struct block_plan {
 
 /* Finds the impacts of nrecord >= 1 records, tells second hits from the next impacts, chooses the length of the blocks and which
  * impacts are used; see struct transfer_options, whose ranges have been checked. Statuses and *bad_record as transfer_compute. */
-int block_plan(struct pool *pool, int nrecord, const struct record *record, double rate, const struct transfer_options *options,
-               struct block_plan *plan, int *bad_record);
+int block_plan(struct pool *pool, int nrecord, const struct time_record *record, double rate,
+               const struct transfer_options *options, struct block_plan *plan, int *bad_record);
 
 /* Samples at the beginning of a block over which its means are taken: before the onset by the width of the pulse, which may rise
  * for that long, but at least the first half of what there is before the onset. >= 1. */

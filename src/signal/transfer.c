@@ -24,7 +24,7 @@ struct worker { /* workspace of one thread */
 };
 
 struct work {
-    const struct record *record;
+    const struct time_record *record;
     double rate;
     const struct transfer_options *options;
     struct block_plan plan;
@@ -46,7 +46,7 @@ static int in_range(double rate, enum frf_quantity quantity, const struct transf
            isfinite(o->force_window) && o->exponential >= 0 && o->exponential <= 1 && threads >= 1;
 }
 
-static int same_function(const struct record *record, const struct frf *frf)
+static int same_function(const struct time_record *record, const struct frf *frf)
 {
     return record->response_node == frf->response_node && record->response_direction == frf->response_direction &&
            record->reference_node == frf->reference_node && record->reference_direction == frf->reference_direction;
@@ -66,7 +66,7 @@ static int group(struct pool *pool, int nrecord, struct work *work, int *bad_rec
     if (!out->set.frf || !out->first || !work->member || !of)
         return ROTID_ERROR_MEMORY;
     for (int r = 0; r < nrecord; r++) {
-        const struct record *record = &work->record[r];
+        const struct time_record *record = &work->record[r];
         while (of[r] < out->set.nfrf && !same_function(record, &out->set.frf[of[r]]))
             of[r]++;
         if (of[r] == out->set.nfrf)
@@ -241,7 +241,7 @@ static int estimate(void *context, int f, int thread)
     return ROTID_OK;
 }
 
-int transfer_compute(struct pool *pool, int nrecord, const struct record *record, double rate, enum frf_quantity quantity,
+int transfer_compute(struct pool *pool, int nrecord, const struct time_record *record, double rate, enum frf_quantity quantity,
                      const struct transfer_options *options, int threads, struct transfer *out, int *bad_record)
 {
     struct work work = {.record = record, .rate = rate, .options = options, .out = out};

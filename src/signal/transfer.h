@@ -44,8 +44,8 @@ struct impact { /* one found in a record */
     int used;
 };
 
-struct record { /* one measurement: force and one response, sampled together */
-    int line;   /* of the file, for messages */
+struct time_record { /* one measurement: force and one response, sampled together */
+    int line;        /* of the file, for messages */
     int response_node, response_direction, reference_node, reference_direction;
     long long count;
     const double *force, *response; /* [count] N; m, m/s or m/s2 */
@@ -75,7 +75,7 @@ struct transfer {
  * ROTID_ERROR_ARGUMENT (*bad_record: the record without an impact, or with samples that are not finite or above 1e50, or shorter
  * than a block; the first of a transfer function that has no impact to use; -1 where the options are at fault, also where no line
  * lies between their limits), ROTID_ERROR_MEMORY. threads >= 1; the results are the same for any number. */
-int transfer_compute(struct pool *pool, int nrecord, const struct record *record, double rate, enum frf_quantity quantity,
+int transfer_compute(struct pool *pool, int nrecord, const struct time_record *record, double rate, enum frf_quantity quantity,
                      const struct transfer_options *options, int threads, struct transfer *out, int *bad_record);
 
 #endif

@@ -34,15 +34,15 @@ static const char *place(const struct study_cell_result *cell, int axis, char ro
 
 static const struct cell_diagnoses none; /* of a cell that has none */
 
-struct columns { /* those axes on which cells differ */
+struct shown_columns { /* those axes on which cells differ */
     int width[AXES];
     int parameter; /* width of their names */
     int has_truth, has_starts, has_holdout, has_diagnoses, has_scores;
 };
 
-static struct columns find_columns(const struct study_result *s)
+static struct shown_columns find_columns(const struct study_result *s)
 {
-    struct columns c = {.parameter = (int)sizeof "parameter" - 1};
+    struct shown_columns c = {.parameter = (int)sizeof "parameter" - 1};
     for (int i = 0; i < s->ncells; i++) {
         const struct study_cell_result *cell = &s->cells[i];
         char room[2][64];
@@ -69,7 +69,7 @@ static struct columns find_columns(const struct study_result *s)
     return c;
 }
 
-static void print_head(FILE *out, const struct study_result *s, const struct columns *c)
+static void print_head(FILE *out, const struct study_result *s, const struct shown_columns *c)
 {
     char room[64];
     int any = 0;
@@ -93,7 +93,7 @@ static void print_head(FILE *out, const struct study_result *s, const struct col
     (void)fputs(any ? "\n\n" : "\n", out);
 }
 
-static void print_place(FILE *out, const struct columns *c, const struct study_cell_result *cell)
+static void print_place(FILE *out, const struct shown_columns *c, const struct study_cell_result *cell)
 {
     char room[64];
     for (int a = 0; a < AXES; a++)
@@ -103,14 +103,14 @@ static void print_place(FILE *out, const struct columns *c, const struct study_c
         }
 }
 
-static void print_blank(FILE *out, const struct columns *c)
+static void print_blank(FILE *out, const struct shown_columns *c)
 {
     for (int a = 0; a < AXES; a++)
         if (c->width[a])
             (void)fprintf(out, "%*s", c->width[a] + 2, "");
 }
 
-static void print_parameter(FILE *out, const struct columns *c, const struct cell_parameter *p)
+static void print_parameter(FILE *out, const struct shown_columns *c, const struct cell_parameter *p)
 {
     (void)fputs("  ", out);
     text_cell(out, c->parameter, p->name);
@@ -123,7 +123,7 @@ static void print_parameter(FILE *out, const struct columns *c, const struct cel
     }
 }
 
-static void print_cells(FILE *out, const struct study_result *s, const struct columns *c)
+static void print_cells(FILE *out, const struct study_result *s, const struct shown_columns *c)
 {
     print_place(out, c, NULL);
     (void)fprintf(out, "%6s%5s%6s%8s%8s%s%s%9s  %-*s%13s%10s%10s%s\n", "runs", "fail", "bound", "no conv", "not ad.",
@@ -160,7 +160,7 @@ static void print_cells(FILE *out, const struct study_result *s, const struct co
         (void)fputs("at best: runs that came to the best objective of their replicate\n", out);
 }
 
-static void print_diagnoses(FILE *out, const struct study_result *s, const struct columns *c)
+static void print_diagnoses(FILE *out, const struct study_result *s, const struct shown_columns *c)
 {
     (void)fputc('\n', out);
     print_place(out, c, NULL);
@@ -181,7 +181,7 @@ static void print_diagnoses(FILE *out, const struct study_result *s, const struc
     }
 }
 
-static void print_scores(FILE *out, const struct study_result *s, const struct columns *c)
+static void print_scores(FILE *out, const struct study_result *s, const struct shown_columns *c)
 {
     (void)fputc('\n', out);
     print_place(out, c, NULL);
@@ -203,7 +203,7 @@ static void print_scores(FILE *out, const struct study_result *s, const struct c
 
 void summary_table(FILE *out, const struct study_result *s)
 {
-    const struct columns c = find_columns(s);
+    const struct shown_columns c = find_columns(s);
     print_head(out, s, &c);
     if (s->ncells)
         print_cells(out, s, &c);

@@ -16,14 +16,14 @@
 #include "result/json_tree.h"
 #include "study/run.h"
 
-struct stop {
+struct worker_stop {
     int (*cancelled)(void *context);
     void *context;
 };
 
 static int is_stopped(void *context)
 {
-    const struct stop *stop = context;
+    const struct worker_stop *stop = context;
     return stop->cancelled && stop->cancelled(stop->context);
 }
 
@@ -41,7 +41,7 @@ static int give(int socket, const void *bytes, size_t count)
     return 0;
 }
 
-static int take(int socket, void *bytes, size_t count, struct stop *stop)
+static int take(int socket, void *bytes, size_t count, struct worker_stop *stop)
 {
     char *to = bytes;
     while (count) {
@@ -55,7 +55,7 @@ static int take(int socket, void *bytes, size_t count, struct stop *stop)
 }
 
 /* The worker itself: until there is nothing to read any more, or it is stopped. Its exit code. */
-static int work(const struct study *study, int socket, struct stop *stop)
+static int work(const struct study *study, int socket, struct worker_stop *stop)
 {
     const rotid_environment environment = {.size = sizeof environment, .cancelled = is_stopped, .context = stop};
     struct jobs jobs;
@@ -80,7 +80,7 @@ static int work(const struct study *study, int socket, struct stop *stop)
 int worker_start(const struct study *study, int (*cancelled)(void *context), void *context, int nothers,
                  const struct worker *others, struct worker *worker)
 {
-    struct stop stop = {cancelled, context};
+    struct worker_stop stop = {cancelled, context};
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
         return ROTID_ERROR_IO;

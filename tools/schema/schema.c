@@ -64,7 +64,7 @@ static void put_words(FILE *out, const char *const *words)
     }
 }
 
-static void put_counts(FILE *out, const struct field *field, int null)
+static void put_counts(FILE *out, const struct record_field *field, int null)
 {
     (void)fprintf(out, "\"type\": %s, \"properties\": {", null ? "[\"object\", \"null\"]" : "\"object\"");
     for (int i = 0; field->words[i]; i++)
@@ -75,7 +75,7 @@ static void put_counts(FILE *out, const struct field *field, int null)
 }
 
 /* What one value is; null: it may be that. */
-static void put_value(struct schema *schema, const struct field *field, int null)
+static void put_value(struct schema *schema, const struct record_field *field, int null)
 {
     static const char *const types[] = {[FIELD_NUMBER] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
                                         [FIELD_TEXT] = "string",   [FIELD_WORD] = "string",     [FIELD_MAP] = "object"};
@@ -103,7 +103,7 @@ static void put_value(struct schema *schema, const struct field *field, int null
         (void)fputs(", \"additionalProperties\": {\"type\": \"number\"}", out);
 }
 
-static void put_list(struct schema *schema, const struct field *field)
+static void put_list(struct schema *schema, const struct record_field *field)
 {
     FILE *out = schema->out;
     int null = field->bits & ELEMENTS_MAY_BE_NULL || field->shape == SHAPE_FIXED;
@@ -117,7 +117,7 @@ static void put_list(struct schema *schema, const struct field *field)
         (void)fprintf(out, ", \"minItems\": %d, \"maxItems\": %d", field->fixed, field->fixed);
 }
 
-static void put_field(struct schema *schema, const struct record *record, const struct field *field, int *count)
+static void put_field(struct schema *schema, const struct record *record, const struct record_field *field, int *count)
 {
     const char *about =
         comments_find(schema->comments, strncmp(record->name, "struct ", 7) ? record->name : record->name + 7, field->key);
@@ -143,7 +143,7 @@ static void put_field(struct schema *schema, const struct record *record, const 
 
 static void put_fields(struct schema *schema, const struct record *record, int *count)
 {
-    for (const struct field *field = record->field; field->key; field++)
+    for (const struct record_field *field = record->field; field->key; field++)
         if (field->kind == FIELD_INLINE)
             put_fields(schema, field->record, count);
         else if (field->kind != FIELD_COUNT)
@@ -152,7 +152,7 @@ static void put_fields(struct schema *schema, const struct record *record, int *
 
 static void put_required(FILE *out, const struct record *record, int *count, int optional)
 {
-    for (const struct field *field = record->field; field->key; field++)
+    for (const struct record_field *field = record->field; field->key; field++)
         if (field->kind == FIELD_INLINE) {
             put_required(out, field->record, count, optional || field->bits & IF_KNOWN);
         } else if (!optional && !(field->bits & IF_KNOWN) && field->kind != FIELD_COUNT) {
@@ -164,7 +164,7 @@ static void put_required(FILE *out, const struct record *record, int *count, int
 /* Keys that stand together: the first one with all others, each of them with the first. */
 static void put_groups(FILE *out, const struct record *record, int *count)
 {
-    for (const struct field *field = record->field; field->key; field++) {
+    for (const struct record_field *field = record->field; field->key; field++) {
         if (field->kind != FIELD_INLINE)
             continue;
         if (!(field->bits & IF_KNOWN)) {
@@ -177,7 +177,7 @@ static void put_groups(FILE *out, const struct record *record, int *count)
         (void)fprintf(out, "%s\"%s\": [", (*count)++ ? ", " : ", \"dependentRequired\": {", first);
         put_required(out, group, &others, 0);
         (void)fputc(']', out);
-        for (const struct field *other = group->field; other->key; other++)
+        for (const struct record_field *other = group->field; other->key; other++)
             if (other->kind != FIELD_INLINE && other->kind != FIELD_COUNT && strcmp(other->key, first) != 0)
                 (void)fprintf(out, ", \"%s\": [\"%s\"]", other->key, first);
     }

@@ -1,0 +1,55 @@
+/* Rows of the tables that describe a result, for the files that have such tables alone. */
+#ifndef ROTID_RECORD_ROWS_H
+#define ROTID_RECORD_ROWS_H
+
+#include "record/record.h"
+
+#define RECORD_ROW(S, M, KIND, SHAPE, BITS, ...)                                                                                 \
+    {                                                                                                                            \
+        .key = #M, .kind = (KIND), .shape = (SHAPE), .bits = (BITS), .offset = offsetof(S, M), __VA_ARGS__                       \
+    }
+#define COUNTED(S, COUNT, BY) .count = offsetof(S, COUNT), .counted_by = (BY)
+#define NUMBER(S, M, BITS)    RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
+#define INTEGER(S, M, BITS)   RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
+#define FLAG(S, M, BITS)      RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
+/* Of the member is_KEY, where the key is a word of C. */
+#define FLAG_IS(S, KEY, BITS)                                                                                                    \
+    {                                                                                                                            \
+        .key = #KEY, .kind = FIELD_FLAG, .bits = (BITS), .offset = offsetof(S, is_##KEY)                                         \
+    }
+#define TEXT(S, M, BITS)            RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
+#define TEXT_OF(S, M, BITS, WORDS)  RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
+#define WORD(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
+#define STRUCT(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INLINE(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INTERVAL(S, M, BITS)        RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
+#define INDICES(S, M, FIXED)        RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_FIXED, FROM_0, .fixed = (FIXED))
+#define NUMBERS(S, M, BITS)         RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define INTEGERS(S, M, BITS)        RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define TEXTS(S, M, BITS)           RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define STRUCTS(S, M, BITS, RECORD) RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
+/* As many as the member COUNT says, which an earlier row, of key BY, has set. */
+#define NUMBERS_BY(S, M, BITS, COUNT, BY)  RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
+#define INTEGERS_BY(S, M, BITS, COUNT, BY) RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
+/* Members with the numbers of rows and columns; where they are known already the matrix has to be of that size. */
+#define MATRIX(S, M, BITS, ROWS, COLUMNS)                                                                                        \
+    RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_MATRIX, BITS, .count = offsetof(S, ROWS), .columns = offsetof(S, COLUMNS))
+/* EACH: member with the number of components of each */
+#define MAPS(S, M, BITS, EACH)                                                                                                   \
+    RECORD_ROW(S, M, FIELD_MAP, SHAPE_LIST, BITS, .count = offsetof(S, n##M), .columns = offsetof(S, EACH))
+/* Rows of the same struct in a table of their own, whose keys stand together or not at all: IF_KNOWN, told by the first one. */
+#define ROWS(BITS, RECORD)                                                                                                       \
+    {                                                                                                                            \
+        .key = "", .kind = FIELD_INLINE, .bits = (BITS), .record = &(RECORD)                                                     \
+    }
+/* One such object, with as many components as the member nM says. */
+#define MAP(S, M, BITS)              RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
+#define WORDS(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
+#define COUNTS(S, M, BITS, WORDS)    RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
+#define COUNT_OF(S, M, ABOVE, COUNT) RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
+#define RECORD(S, FIELDS)                                                                                                        \
+    {                                                                                                                            \
+        .name = #S, .size = sizeof(S), .field = (FIELDS)                                                                         \
+    }
+
+#endif
