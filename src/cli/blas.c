@@ -15,10 +15,10 @@
 
 /* OpenBLAS maps this much for each thread that calls it (BUFFER_SIZE of x86-64 and arm64), and where it cannot have that it tries
  * again, for ever: its own threads as soon as it is loaded, the others in their first call. */
-#define BUFFER ((size_t)128 << 20)
-#define BESIDE ((size_t)32 << 20) /* left for what the program itself asks for */
-#define THREAD ((size_t)96 << 20) /* the stack of a thread and the heap that glibc reserves for it, 64 MiB */
-#define ALONE  "OPENBLAS_NUM_THREADS="
+#define BUFFER    ((size_t)128 << 20)
+#define LEFT_OVER ((size_t)32 << 20) /* left for what the program itself asks for */
+#define THREAD    ((size_t)96 << 20) /* the stack of a thread and the heap that glibc reserves for it, 64 MiB */
+#define ALONE     "OPENBLAS_NUM_THREADS="
 
 const char *build_blas(void)
 {
@@ -38,14 +38,14 @@ static int room_for(int wanted)
     void *piece[THREADS_MOST];
     int count = 0;
     while (count < wanted && count < THREADS_MOST) {
-        size_t size = BUFFER + (count ? THREAD : BESIDE);
+        size_t size = BUFFER + (count ? THREAD : LEFT_OVER);
         piece[count] = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (piece[count] == MAP_FAILED)
             break;
         count++;
     }
     for (int i = 0; i < count; i++)
-        (void)munmap(piece[i], BUFFER + (i ? THREAD : BESIDE));
+        (void)munmap(piece[i], BUFFER + (i ? THREAD : LEFT_OVER));
     return count;
 }
 
