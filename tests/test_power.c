@@ -46,17 +46,17 @@ static char *run(int cases, uint64_t seed, int *code)
     return text;
 }
 
-struct range {
+struct value_range {
     double least, most;
 };
 
-static void widen(struct range *range, double value)
+static void widen(struct value_range *range, double value)
 {
     range->least = fmin(range->least, value);
     range->most = fmax(range->most, value);
 }
 
-static void inside(struct range range, double least, double most)
+static void inside(struct value_range range, double least, double most)
 {
     double room = 0.1 * (most - least);
     if (!(range.least >= least && range.most <= most && range.least <= least + room && range.most >= most - room))
@@ -99,8 +99,8 @@ static void drawn_rotors_cover_the_range(void **state)
         TYPES
     };
     int seen[TYPES] = {0};
-    const struct range none = {INFINITY, -INFINITY};
-    struct range sections = none, sensors = none, slenderness = none, modes = none, frequency = none, shape = none;
+    const struct value_range none = {INFINITY, -INFINITY};
+    struct value_range sections = none, sensors = none, slenderness = none, modes = none, frequency = none, shape = none;
     (void)state;
     for (int i = 0; i < 400; i++) {
         struct pool pool;

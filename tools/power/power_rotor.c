@@ -11,7 +11,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-struct stretch {
+struct drawn_stretch {
     double length, outer, inner;
 };
 
@@ -19,7 +19,7 @@ struct stretch {
 struct drawn {
     struct hide_random random;
     int sections, left, right; /* sections before and behind the middle ones */
-    struct stretch section[MOST_SECTIONS];
+    struct drawn_stretch section[MOST_SECTIONS];
     double length, diameter, core_from, core_to; /* m */
     double steel_e, core_e, core_g, core_rho;
     int isotropic;        /* G follows from E */
@@ -63,7 +63,7 @@ static void draw_sections(struct drawn *d)
         sum[in_core] += weight[i] = between(d, 0.3, 1);
     }
     for (int i = 0; i < d->sections; i++) {
-        struct stretch *s = &d->section[i];
+        struct drawn_stretch *s = &d->section[i];
         int in_core = i >= d->left && i < d->left + middle, stepped = !in_core || d->sections == middle;
         s->length = d->length * weight[i] / sum[in_core] * (in_core ? core : 1 - core);
         s->outer = d->diameter * (i == widest ? 1 : between(d, stepped ? 0.35 : 0.85, 1));
@@ -94,7 +94,7 @@ static void draw_materials(struct drawn *d)
     d->core_g = d->core_e * between(d, 0.15, 0.4);
     d->core_rho = d->isotropic ? 7850 : between(d, 6800, 7750);
     for (int i = 0; i < d->sections; i++) {
-        const struct stretch *s = &d->section[i];
+        const struct drawn_stretch *s = &d->section[i];
         int steel = i < d->left || i >= d->sections - d->right;
         double o2 = s->outer * s->outer, i2 = s->inner * s->inner;
         d->mass += (steel ? 7850 : d->core_rho) * pi / 4 * (o2 - i2) * s->length;
