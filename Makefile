@@ -18,7 +18,7 @@
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, tables, universal files, plans and results, and suggest, on random input, FUZZ_SECONDS (600) each
-#   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
+#   make sweep      report, in a browser, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
 #   make frozen     outputs of every command on every deck beside those of another commit: REF=commit
 #   make mutate     makes the mistakes of tests/mutations one by one in a copy: does the named test fail? ROWS="covariance 118": of these
@@ -30,6 +30,7 @@
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
 # Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1, V=1: whole commands.
+#   D3=FILE         d3.min.js to draw figures with, in place of the modules of node-d3; D3= builds a program whose pages have none
 #   BLAS=openblas   or reference (libblas as it is installed), blis, or names of pkg-config; BLAS_CFLAGS and BLAS_LIBS for what
 #                   pkg-config does not know. Each in a BUILD of its own.
 
@@ -96,9 +97,13 @@ PROGRAM_SOURCES := $(foreach room,signal ema import result report export study p
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
+# Style and script of a page, and the parts of D3 that it draws with: of Debian's node-d3, or one file that D3 names. D3= is none.
+D3_PARTS := array collection color format interpolate path shape time time-format scale
+D3 ?= $(foreach part,$(D3_PARTS),$(wildcard /usr/share/nodejs/d3-$(part)/dist/d3-$(part).min.js))
+EMBEDDED := $(BUILD)/src/page/embedded.o
 # what the program and the tests link: with the names that librotid keeps to itself
 OBJECTS := $(BUILD)/rotid-objects.a
-PROGRAM_OBJECTS := $(call OBJECTS_OF,$(PROGRAM_SOURCES))
+PROGRAM_OBJECTS = $(call OBJECTS_OF,$(PROGRAM_SOURCES)) $(EMBEDDED)
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
@@ -125,6 +130,16 @@ $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(call tell,CC,$<)
 	$(QUIET)$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
+
+$(BUILD)/d3: FORCE
+	@mkdir -p $(@D)
+	@echo '$(D3)' | cmp -s - $@ || echo '$(D3)' > $@
+$(BUILD)/embedded.c: tools/embed src/page/page.css src/page/page.js $(D3) $(BUILD)/d3
+	@sh tools/embed src/page/page.css src/page/page.js $(D3) > $@
+$(EMBEDDED): $(BUILD)/embedded.c
+	@mkdir -p $(@D)
+	$(call tell,CC,$<)
+	$(QUIET)$(CC) $(ALL_CFLAGS) -c $< -o $@
 
 # The commit stands in every result, so the file that holds it follows it.
 EXTRA_blas = -DROTID_BLAS='"$(BLAS)"' -DROTID_OPENBLAS=$(if $(findstring openblas,$(BLAS)),1,0)
@@ -216,7 +231,7 @@ $(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 # These go from records of a hammer test on, which that program makes.
-$(BUILD)/tests/test_page_plain $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer
+$(BUILD)/tests/test_page $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
@@ -248,7 +263,7 @@ figures: all
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
 LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases api_memory limits page_input host \
-           diagnose_states study_run held_mesh ema_statistics diagnose_bounds page_figures accelerometer embedding study_program \
+           diagnose_states study_run held_mesh ema_statistics diagnose_bounds page_browser report_sweep accelerometer embedding study_program \
            solid_attached hidden_faults api_cancel install sensor_check run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of hidden_effects and chain.
@@ -281,7 +296,7 @@ bench-check: all $(BUILD)/hide
 # they call is in the others
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
                  diagnose_solid stiff_supports held_mesh suggest chain
-COUNT_MANY := ema_statistics accelerometer hide sensor_check solid_frequencies page_figures
+COUNT_MANY := ema_statistics accelerometer hide sensor_check solid_frequencies page_browser report_sweep
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \

@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "picture_check.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -77,8 +76,7 @@ int page_count(const char *folder, const char *prefix)
     struct dirent *entry;
     int count = 0;
     while (list && (entry = readdir(list)))
-        count += !strncmp(entry->d_name, prefix, strlen(prefix)) && strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..") &&
-                 strcmp(entry->d_name, ".files");
+        count += !strncmp(entry->d_name, prefix, strlen(prefix)) && strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
     if (list)
         (void)closedir(list);
     return count;
@@ -107,33 +105,15 @@ int page_run(const char *format, ...)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-const char *page_stand_in(const char *fails_on)
-{
-    static char setting[600];
-    char text[1200];
-    (void)snprintf(text, sizeof text,
-                   "#!/bin/sh\n"
-                   "[ \"$1\" = --version ] && { echo 'gnuplot 5.4 patchlevel 0'; exit 0; }\n"
-                   "shift 3\n"
-                   "for script; do name=${script%%.gp}\n"
-                   "case $name in *%s*) echo \"line 7: stand-in fails on $name\" >&2; exit 1;; esac\n"
-                   "for picture in $name.svg $name-narrow.svg; do echo '<svg viewBox=\"0 0 9 9\"><g id=\"gnuplot_canvas\">"
-                   "<g fill=\"none\"><path stroke=\"black\" d=\"M0,0 L9,9\"/></g></g></svg>' > $picture; done\n"
-                   "echo pdf > $name.pdf\ndone\n",
-                   fails_on ? fails_on : "@nothing@");
-    page_write_file("stand-in", text);
-    assert_int_equal(chmod(page_path("stand-in"), 0755), 0);
-    (void)snprintf(setting, sizeof setting, "GNUPLOT=%s", page_path("stand-in"));
-    return setting;
-}
-
 /* ------------------------------------------------------------------------------------------------ what a page has to be */
 
 #define MOST_OPEN 64
 #define MOST_IDS  20000
+#define DATA      "<script type=\"application/json\" id=\"data\">["
+#define SCRIPT    "<script>// https://d3js.org" /* the one that was embedded begins so */
 
 struct checker {
-    int problems, open, nid, nreference;
+    int problems, open, nid, nreference, scripts;
     char stack[MOST_OPEN][24];
     const char *id[MOST_IDS], *reference[MOST_IDS];
     int id_length[MOST_IDS], reference_length[MOST_IDS];
@@ -174,16 +154,10 @@ static void judge_attribute(struct checker *checker, const char *name, const cha
         }
     if (!strcmp(name, "href") && *value == '#')
         note(checker->reference, checker->reference_length, &checker->nreference, value + 1, length - 1);
-    else if (!strcmp(name, "href") && strncmp(value, "figures/", 8) != 0)
+    else if (!strcmp(name, "href"))
         problem(checker, "refers elsewhere", value);
-    if (!strcmp(name, "src")) {
-        char *picture = picture_of_uri(value);
-        if (!picture)
-            problem(checker, "loads what is no picture in the page", value);
-        else
-            checker->problems += picture_problems(picture);
-        free(picture);
-    }
+    if (!strcmp(name, "src"))
+        problem(checker, "loads", value);
     if (!strncmp(name, "on", 2) || !strcmp(name, "srcset") || !strcmp(name, "style"))
         problem(checker, "attribute that loads or runs", name);
     if (!strncmp(value, "url(#", 5))
@@ -236,7 +210,10 @@ static const char *judge_tag(struct checker *checker, const char *at)
     name[n] = 0;
     if (!n)
         problem(checker, "< that begins no element", tag);
-    if (!strcmp(name, "script") || !strcmp(name, "iframe") || !strcmp(name, "object") || !strcmp(name, "link"))
+    if (!closes && !strcmp(name, "script") && strncmp(tag, DATA, sizeof DATA - 1) != 0 &&
+        strncmp(tag, SCRIPT, sizeof SCRIPT - 1) != 0)
+        problem(checker, "script that is none of ours", tag);
+    if (!strcmp(name, "iframe") || !strcmp(name, "object") || !strcmp(name, "link"))
         problem(checker, "element that loads or runs", tag);
     at = judge_attributes(checker, at, &is_empty);
     if (closes) {
@@ -248,6 +225,10 @@ static const char *judge_tag(struct checker *checker, const char *at)
     }
     if (!closes && !strcmp(name, "style"))
         at = strstr(at, "</style>") ? strstr(at, "</style>") : at;
+    if (!closes && !strcmp(name, "script")) {
+        checker->scripts++;
+        at = strstr(at, "</script>") ? strstr(at, "</script>") : at;
+    }
     return at;
 }
 
@@ -266,14 +247,6 @@ static void judge_references(struct checker *checker)
         if (!found)
             problem(checker, "refers to what is not there", checker->reference[r]);
     }
-}
-
-/* Whether this stands in the digits of a picture, which mean nothing as a text. */
-static int in_picture(const char *html, const char *at)
-{
-    while (at > html && *at != '"')
-        at--;
-    return !strncmp(at, "\"data:", 6);
 }
 
 int page_problems_of_markup(const char *html)
@@ -296,21 +269,94 @@ int page_problems_of_markup(const char *html)
     if (checker.open)
         problem(&checker, "is not closed", checker.stack[checker.open - 1]);
     judge_references(&checker);
-    if (!strstr(html, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "))
-        problem(&checker, "has no policy that lets nothing run", html);
+    if (checker.scripts != 0 && checker.scripts != 2)
+        problem(&checker, "scripts more or less than the data and ours", html);
+    if (!strstr(
+            html,
+            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data: blob:; style-src 'sha256-"))
+        problem(&checker, "has no policy that lets nothing of others run", html);
     return checker.problems;
+}
+
+/* Blanks from an element on to its end, whatever it is of. */
+static void blank(char *text, const char *begin, const char *end)
+{
+    for (char *at = text; (at = strstr(at, begin));) {
+        char *last = strstr(at, end);
+        for (; at < last; at++)
+            *at = ' ';
+        at += last ? 1 : strlen(at);
+    }
 }
 
 int page_problems(const char *html)
 {
     static struct checker checker;
     checker.problems = page_problems_of_markup(html);
-    static const char *const never[] = {"http:", "https:", "javascript:", "@import", "rgb(", "NaN", "nan "};
+    static const char *const never[] = {"http:", "https:", "javascript:", "@import", "NaN", "nan "};
+    char *text = strdup(html);
+    assert_non_null(text);
+    blank(text, "<script", "</script>");
+    blank(text, "<pre>", "</pre>");
     for (size_t i = 0; i < sizeof never / sizeof *never; i++)
-        for (const char *at = html; (at = strstr(at, never[i])); at++)
-            if (!in_picture(html, at))
-                problem(&checker, "has no place on a page", at);
+        for (const char *at = text; (at = strstr(at, never[i])); at++)
+            problem(&checker, "has no place on a page", at);
+    free(text);
     return checker.problems;
+}
+
+/* ------------------------------------------------------------------------------------------------ a browser */
+
+const char *browser_name(void)
+{
+    static const char *const names[] = {"chromium", "chromium-browser", "google-chrome"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!page_run("command -v %s", names[i]))
+            return names[i];
+    return NULL;
+}
+
+const char *browser_dom(const char *name, const char *size, const char *more)
+{
+    assert_int_equal(
+        page_run(
+            "cd %s; timeout 120 %s --headless --no-sandbox --disable-gpu --user-data-dir=%s/browser --virtual-time-budget=4000 "
+            "--enable-logging=stderr --window-size=%s %s --dump-dom file://%s > %s.dom",
+            directory, browser_name(), directory, size, more, page_path(name), name),
+        0);
+    char dom[300];
+    (void)snprintf(dom, sizeof dom, "%s.dom", name);
+    return page_read(dom);
+}
+
+int browser_complaints(void)
+{
+    int count = 0;
+    for (const char *at = page_err; (at = strstr(at, ":CONSOLE")); at++) {
+        print_error("console: %.300s\n", at);
+        count++;
+    }
+    return count;
+}
+
+const char *browser_driven(const char *name, const char *size, const char *script)
+{
+    static char title[4000];
+    char *page = strdup(page_read(name)), *policy = page ? strstr(page, "http-equiv=\"Content-Security-Policy\"") : NULL;
+    assert_non_null(policy);
+    memcpy(policy, "data-nothing", 12);
+    char *end = strstr(page, "</body>");
+    assert_non_null(end);
+    FILE *out = fopen(page_path("driven.html"), "wb");
+    assert_non_null(out);
+    (void)fprintf(out, "%.*s<script>%s</script></body></html>", (int)(end - page), page, script);
+    assert_int_equal(fclose(out), 0);
+    free(page);
+    const char *dom = browser_dom("driven.html", size, ""), *from = strstr(dom, "<title>");
+    assert_int_equal(browser_complaints(), 0);
+    assert_non_null(from);
+    (void)snprintf(title, sizeof title, "%.*s", (int)(strstr(from, "</title>") - from - 7), from + 7);
+    return title;
 }
 
 cJSON *page_json(const char *name)
@@ -356,12 +402,11 @@ void page_write_json(const char *name, const cJSON *json)
 
 const char *page_made(const char *name)
 {
-    static char folder[64];
-    (void)snprintf(folder, sizeof folder, "page-%s/index.html", name);
-    assert_int_equal(page_run("cd %s; %s %s report %s -o page-%s", page_path(""), page_stand_in(NULL), ROTID_PROGRAM, name, name),
-                     0);
+    static char file[64];
+    (void)snprintf(file, sizeof file, "%s.html", name);
+    assert_int_equal(page_run("cd %s; %s report %s -o %s", page_path(""), ROTID_PROGRAM, name, file), 0);
     assert_string_equal(page_err, "");
-    const char *html = page_read(folder);
+    const char *html = page_read(file);
     assert_int_equal(page_problems(html), 0);
     return html;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "folder.h"
-#include "page/result.h"
+#include "page/page.h"
 #include "shell.h"
 
 #define DECK                                                                                                                     \
@@ -34,6 +34,8 @@ static struct result run(const char *command, const char *options)
     (void)shell(&test_pool, "%s %s %s %s --json %s", ROTID_PROGRAM, command, deck(), options, json);
     message_open(&messages, &test_pool);
     assert_status(page_result_read(&test_pool, json, &messages, &result), ROTID_OK);
+    cJSON_Delete(result.json);
+    result.json = NULL;
     return result;
 }
 

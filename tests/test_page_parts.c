@@ -1,27 +1,18 @@
-/* The parts of a page: numbers for people, colours that can be told apart, texts in scripts, pictures made ready, programs run.
- */
-#include <fcntl.h>
+/* The parts of a page: numbers for people, texts, one table shown in three ways, words in place of ids. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/clock.h"
-#include "page/document.h"
-#include "page/html.h"
-#include "page/human.h"
-#include "page/palette.h"
-#include "page/picture.h"
-#include "page/plot.h"
-#include "page/process.h"
+#include "page/page.h"
 #include "page_bench.h"
-#include "picture_check.h"
-#include "result/place.h"
+#include "report/html.h"
+#include "report/human.h"
 #include "support.h"
 
 #define MINUS "\xe2\x88\x92"
 #define SPACE "\xc2\xa0"
+#define DASH  "\xe2\x80\x93"
 
 static void numbers_are_written_for_people(void **state)
 {
@@ -50,7 +41,7 @@ static void numbers_are_written_for_people(void **state)
     assert_string_equal(human_fixed(pool, 0.00049, 4), "5e-4");
     assert_string_equal(human_fixed(pool, 0.00049, 3), "0.000");
     assert_string_equal(human_signed(pool, 2.5e-6, 8), "+2.50e-6");
-    assert_string_equal(human_interval(pool, 3e-8, (const double[]){2.9e-8, 3.1e-8}, "1"), 
+    assert_string_equal(human_interval(pool, 3e-8, (const double[]){2.9e-8, 3.1e-8}, "1"),
                         "3.000e-8 (95" SPACE "%: 2.900e-8 to 3.100e-8)");
     assert_string_equal(human_digits(pool, 0.023053, 3), "0.0231");
     assert_string_equal(human_digits(pool, 2314.4, 3), "2314");
@@ -62,62 +53,6 @@ static void numbers_are_written_for_people(void **state)
     assert_string_equal(human_seconds(pool, 0.0301), "30" SPACE "ms");
     assert_string_equal(human_seconds(pool, 600), "10" SPACE "min");
     assert_close(human_half_width_percent(-2, (double[]){-3, -1}), 50, 1e-15, 0);
-}
-
-/* Relative luminance and contrast as WCAG 2.1 has them. */
-static double luminance(unsigned rgb)
-{
-    static const double weight[3] = {0.2126, 0.7152, 0.0722};
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        double c = (double)(rgb >> (16 - 8 * i) & 255) / 255;
-        sum += weight[i] * (c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
-    }
-    return sum;
-}
-
-static double contrast(unsigned a, unsigned b)
-{
-    double x = luminance(a), y = luminance(b);
-    return x > y ? (x + 0.05) / (y + 0.05) : (y + 0.05) / (x + 0.05);
-}
-
-static const struct role *role_called(const char *name)
-{
-    const struct role *role = palette;
-    while (role->name && strcmp(role->name, name) != 0)
-        role++;
-    assert_non_null(role->name);
-    return role;
-}
-
-static void every_colour_reads_on_its_ground(void **state)
-{
-    (void)state;
-    static const char *const text[] = {"INK", "MUTED", "BLUE", "VERMILION", "GREEN", "PURPLE", "OCHRE"};
-    static const char *const grounds[] = {"PAPER", "BAND"};
-    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
-        for (size_t g = 0; g < 2; g++) {
-            const struct role *role = role_called(text[i]), *ground = role_called(grounds[g]);
-            assert_true(contrast(role->light, ground->light) >= 4.5);
-            assert_true(contrast(role->dark, ground->dark) >= 4.5);
-        }
-    static const char *const faces[] = {"STEEL", "SHEETS", "LEAF", "ROSE", "SAND", "SHADE"}; /* lines and words lie on them */
-    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++) {
-        assert_true(contrast(role_called("INK")->light, role_called(faces[i])->light) >= 4.5);
-        assert_true(contrast(role_called("INK")->dark, role_called(faces[i])->dark) >= 4.5);
-    }
-    for (int step = 0; step <= 10; step++) { /* numbers in the cells of a matrix */
-        const struct role *cell = role_called(palette_ramp(step / 10.0)), *number = role_called(palette_on_ramp(step / 10.0));
-        assert_true(contrast(cell->light, number->light) >= 4.5);
-        assert_true(contrast(cell->dark, number->dark) >= 4.5);
-    }
-    /* a colour names one role: a picture finds its dark one by that */
-    for (const struct role *role = palette; role->name; role++)
-        for (const struct role *other = palette; other < role; other++)
-            assert_true(other->light != role->light);
-    assert_string_equal(palette_ramp(NAN), "RAMP0");
-    assert_string_equal(palette_ramp(7), "RAMP10");
 }
 
 static void texts_are_escaped(void **state)
@@ -132,233 +67,166 @@ static void texts_are_escaped(void **state)
     assert_string_equal(text, "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot; \xc3\xa9 \xf0\x9f\x98\x80 \xef\xbf\xbd "
                               "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd \t \xef\xbf\xbd");
     free(text);
-    struct plot plot = {.pool = &test_pool};
-    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it\xe2\x80\x99s `rm` \"q\" \\'");
-    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b\xef\xbf\xbd \xc3\xa9\xe2\x80\x99\xe2\x80\x99'");
-    assert_string_equal(plot_quote(&plot, ""), "''");
-    assert_string_equal(plot_quote(&plot, "\xe2\x80\xae\xc2\x9b\x7f\xef\xbf\xbe."), /* turned round, C1, DEL, no character */
-                        "'\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd.'");
-    assert_string_equal(plot_quote(&plot, "100 %"), "'100 %'");
-    assert_string_equal(plot_quote_tick(&plot, "it's 100 %s"), "'it\xe2\x80\x99s 100 %%s'");
-    assert_string_equal(plot_number(&plot, NAN), "NaN");
-    assert_string_equal(plot_number(&plot, -1.5e-7), "-1.5e-07");
 }
 
-/* ------------------------------------------------------------------------------------------------ scripts */
-
-static void ranges_and_ticks_cover_what_is_drawn(void **state)
+/* What a stream holds after a table was written to it. */
+static const char *written(void (*write)(FILE *out, const struct table *table), const struct table *table)
 {
-    (void)state;
-    const double value[] = {3, NAN, -1, INFINITY, 7}, same[] = {5, 5}, small[] = {2e-3, 0, 40, -1, NAN};
-    struct plot_range range = plot_range_of(5, value, 0.1);
-    assert_close(range.from, -1.8, 1e-15, 0);
-    assert_close(range.to, 7.8, 1e-15, 0);
-    range = plot_range_of(2, same, 0);
-    assert_true(range.from < 5 && range.to > 5);
-    range = plot_range_of(0, NULL, 0);
-    assert_true(range.from == 0 && range.to == 1);
-    range = plot_decades(5, small, 9);
-    assert_true(range.from == -3 && range.to == 2);
-    range = plot_decades(5, small, 3);
-    assert_true(range.from == -1 && range.to == 2);
-    range = plot_decades(1, (const double[]){1}, 3);
-    assert_true(range.to == range.from + 1);
-    assert_close(plot_tic(2.03, 6), 0.2, 1e-12, 0);
-    assert_close(plot_tic(1, 5), 0.2, 1e-12, 0);
-    assert_close(plot_tic(7e-7, 6), 1e-7, 1e-12, 0);
-    assert_true(plot_tic(0, 5) > 0 && plot_tic(INFINITY, 5) > 0 && plot_tic(NAN, 5) > 0);
-    assert_true(plot_left(&(struct plot_range){-0.02, 0.01}, 0.005) > plot_left(&(struct plot_range){0, 5}, 1) + 20);
-    assert_true(plot_left(&(struct plot_range){-1e308, 1e308}, 1) < 1000); /* ends, and within the page */
-}
-
-/* Heights of the labels "one", "two", ... of a script. */
-static void labels_at_the_end_of_lines_do_not_overlap(void **state)
-{
-    (void)state;
-    static const char *const text[] = {"one", "two", "three", "four", "five", "six"};
-    static const char *const color[] = {"BLUE", "BLUE", "BLUE", "BLUE", "BLUE", "BLUE"};
-    static const double heights[][6] = {
-        {0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, {1, 1, 1, 1, 1, 1}, {0, 0, 0.01, 0.9, 2, -3}, {0.1, 0.9, 0.3, 0.5, NAN, 0.7}};
-    for (size_t c = 0; c < sizeof heights / sizeof *heights; c++) {
-        struct figure figure = {.id = "labels"};
-        struct plot plot;
-        double y[6];
-        assert_status(plot_open(&plot, &test_pool, &figure, "test"), ROTID_OK);
-        plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 260, .right = 80, .top = 10, .bottom = 50});
-        plot_panel(&plot, 0);
-        plot_end_labels(&plot, 6, text, heights[c], color);
-        assert_status(plot_close(&plot), ROTID_OK);
-        for (int i = 0; i < 6; i++) {
-            char quoted[16];
-            (void)snprintf(quoted, sizeof quoted, "'%s' at", text[i]);
-            const char *at = strstr(figure.script, quoted);
-            assert_non_null(at);
-            assert_int_equal(sscanf(at + strlen(quoted), " graph 1, graph %lf", &y[i]), 1); /* NOLINT */
-            assert_true(y[i] >= -1e-9 && y[i] <= 1 + 1e-9);
-            for (int j = 0; j < i; j++) {
-                assert_true(fabs(y[i] - y[j]) * 200 > 14.5);
-                if (fmin(fmax(heights[c][i], 0), 1) < fmin(fmax(heights[c][j], 0), 1)) /* in the order of the lines */
-                    assert_true(y[i] < y[j]);
-            }
-        }
-    }
-}
-
-/* ------------------------------------------------------------------------------------------------ pictures */
-
-static const char picture[] =
-    "<?xml version=\"1.0\"?>\n<svg \n viewBox=\"0 0 720 300\"\n xmlns=\"http://www.w3.org/2000/svg\"\n>\n<title>Gnuplot</title>\n"
-    "<rect x=\"0\" y=\"0\" width=\"720\" height=\"300\" fill=\"#ffffff\"/>\n"
-    "<path stroke='rgb(  0, 114, 178)' d='M1,2 L3,4'/>\n<path style='fill:none; stroke:rgb(91,98,107)' d='M0,0 L8,8'/>\n"
-    "<polygon fill = 'rgb(199, 214, 226)' points = '0,0 1,1'/>\n"
-    "<g stroke=\"none\" fill=\"black\" font-family=\"Arial\"><text>x &lt; 1 \xc2\xb5</text></g>\n</svg>\n";
-
-static void a_picture_follows_light_and_dark(void **state)
-{
-    (void)state;
-    const char *uri = picture_uri(&test_pool, picture);
-    assert_non_null(uri);
-    assert_int_equal(strspn(uri, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=:;,"), strlen(uri));
-    char *svg = picture_of_uri(uri), *style = svg ? strstr(svg, "<style>") : NULL,
-         *behind = style ? strstr(style, "</style>") : NULL;
-    assert_non_null(behind);
-    assert_int_equal(picture_problems(svg), 0);
-    /* what gnuplot drew, with a style behind its first tag */
-    assert_int_equal(strlen(svg), strlen(picture) + (size_t)(behind + 8 - style));
-    assert_memory_equal(svg, picture, (size_t)(style - svg));
-    assert_string_equal(behind + 8, picture + (style - svg));
-    *behind = 0;
-    static const char *const holds[] = {"@media screen and (prefers-color-scheme:dark){",
-                                        "[stroke=\"rgb(  0, 114, 178)\"]{stroke:#56b4e9}",
-                                        "[style*=\"stroke:rgb(91,98,107)\"]{stroke:#a3abb5!important}",
-                                        "[fill=\"#ffffff\"]{fill:#16181d}", "[fill=\"black\"]{fill:#e8eaed}"};
-    for (size_t i = 0; i < sizeof holds / sizeof *holds; i++)
-        page_says(style, "%s", holds[i]);
-    assert_null(strstr(style, "214"));     /* one off the colour of steel: no role */
-    assert_null(strstr(style, "#2bbf93")); /* nothing is green */
-    free(svg);
-    for (int more = 0; more < 4; more++) { /* any number of bytes */
-        char text[sizeof picture + 4];
-        (void)snprintf(text, sizeof text, "%s%.*s", picture, more, "\n\n\n");
-        char *again = picture_of_uri(picture_uri(&test_pool, text));
-        assert_non_null(again);
-        assert_string_equal(strstr(again, "<title>"), strstr(text, "<title>"));
-        free(again);
-    }
-    /* cut off anywhere, or with anything behind it, it is no picture */
-    for (size_t cut = 0; cut < sizeof picture - 2; cut++) {
-        char text[sizeof picture];
-        memcpy(text, picture, cut);
-        text[cut] = 0;
-        assert_null(picture_uri(&test_pool, text));
-    }
-    assert_null(picture_uri(&test_pool, "<svg></svg>more"));
-}
-
-/* The judge of all pictures finds what it is there for. */
-static void a_hostile_picture_is_seen(void **state)
-{
-    (void)state;
-    static const char *const hostile[] = {"<svg><script>1</script></svg>",
-                                          "<svg><g font-family=\"X\" onload=\"1\"/></svg>",
-                                          "<svg><use xlink:href='http://x/#a'/></svg>",
-                                          "<svg><path fill='url(//x)'/></svg>",
-                                          "<svg><a href='#x'/></svg>",
-                                          "<svg><g></svg>",
-                                          "<svg>\x01</svg>",
-                                          "<svg>&</svg>",
-                                          "<svg><g fill=none/></svg>",
-                                          "<svg><image href='#a'/></svg>"};
-    assert_int_equal(picture_problems(picture), 0);
-    print_message("ten pictures that are to be refused:\n");
-    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++)
-        assert_true(picture_problems(hostile[i]) > 0);
-}
-
-static void identifiers_of_a_page_occur_once(void **state)
-{
-    (void)state;
-    struct document document;
-    document_open(&document, &test_pool);
-    document_section(&document, "shapes", "One");
-    struct figure *first = document_figure(&document, "shapes", "First"),
-                  *second = document_figure(&document, "shapes", "Second"),
-                  *other = document_figure(&document, "shapes-of-others", "Third");
-    document_section(&document, "shapes", "Two");
-    assert_string_equal(first->id, "shapes-2");
-    assert_string_equal(second->id, "shapes-3");
-    assert_string_equal(other->id, "shapes-of-others");
-    assert_string_equal(document.last->id, "shapes-4");
-    document_paragraph(&document, "%s is <not> %d %%", "this & that", 5);
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    document.title = "Title";
-    document_write(out, &document, "made", "how");
-    (void)fclose(out);
-    assert_non_null(strstr(text, "<p>this &amp; that is &lt;not&gt; 5 %</p>"));
-    assert_int_equal(page_problems(text), 0);
+    write(out, table);
+    assert_int_equal(fclose(out), 0);
+    const char *kept = pool_copy_text(&test_pool, text);
     free(text);
-    assert_false(document.failed);
+    return kept;
 }
 
-/* ------------------------------------------------------------------------------------------------ programs */
-
-static int cancel_now(void *context)
+static void write_text(FILE *out, const struct table *table)
 {
-    (void)context;
-    return 1;
+    table_write_text(out, table, 80);
 }
 
-static void a_program_is_run_waited_for_and_ended(void **state)
+static void write_html(FILE *out, const struct table *table)
+{
+    table_write_html(out, table, 7);
+}
+
+static void a_table_is_shown_in_three_ways(void **state)
 {
     (void)state;
-    struct process_result run;
-    const char *const say[] = {"sh", "-c", "echo out; echo err >&2; read x || echo eof; exit 3", NULL};
-    assert_status(process_run(say, PROCESS_HERE, 10, NULL, &run), ROTID_OK);
-    assert_true(run.exit_code == 3 && !run.timed_out && !run.cancelled);
-    assert_string_equal(run.out, "out\neof\n");
-    assert_string_equal(run.err, "err\n");
-    /* more than is kept, on both streams: neither blocks */
-    const char *const flood[] = {"sh", "-c", "head -c 300000 /dev/zero | tr '\\0' a; head -c 300000 /dev/zero | tr '\\0' b >&2",
-                                 NULL};
-    assert_status(process_run(flood, PROCESS_HERE, 20, NULL, &run), ROTID_OK);
-    assert_true(run.exit_code == 0 && strlen(run.out) == PROCESS_TEXT - 1 && strlen(run.err) == PROCESS_TEXT - 1);
-    double begin = clock_seconds();
-    const char *const sleeper[] = {"sleep", "20", NULL};
-    assert_status(process_run(sleeper, PROCESS_HERE, 0.2, NULL, &run), ROTID_OK);
-    assert_true(run.timed_out && run.exit_code == -1);
-    const rotid_environment impatient = {.size = sizeof impatient, .cancelled = cancel_now};
-    assert_status(process_run(sleeper, PROCESS_HERE, 20, &impatient, &run), ROTID_OK);
-    assert_true(run.cancelled && clock_seconds() - begin < 10);
-    const char *const where[] = {"pwd", NULL};
-    char before[4096], after[4096];
-    int root = open("/", O_RDONLY | O_DIRECTORY);
-    assert_non_null(getcwd(before, sizeof before));
-    assert_status(process_run(where, root, 10, NULL, &run), ROTID_OK);
-    assert_string_equal(run.out, "/\n");
-    assert_non_null(getcwd(after, sizeof after));
-    assert_string_equal(before, after);
-    (void)close(root);
-    const char *const nobody[] = {"/nowhere/at/all", NULL};
-    assert_status(process_run(nobody, PROCESS_HERE, 1, NULL, &run), ROTID_ERROR_IO);
+    static const struct table_column columns[] = {{"part", NULL, TABLE_TEXT, 0},
+                                                  {"error", "%", TABLE_SIGNED, 2},
+                                                  {"none", NULL, TABLE_FIXED, 3},
+                                                  {"chance", NULL, TABLE_CHANCE, 2},
+                                                  {"mass", "kg", TABLE_TRIMMED, 4}};
+    struct table *table = table_open(&test_pool, "Masses & errors");
+    table_add_columns(table, 5, columns);
+    table->note = "The last row is not known.";
+    cell_text(table, "=left");
+    cell_number(table, -0.126);
+    cell_number(table, NAN);
+    cell_number(table, 1e-9);
+    cell_number(table, 60);
+    cell_text(table, "core \xe2\x82\xac");
+    cell_number(table, 12.5);
+    cell_number(table, NAN);
+    cell_number(table, 0.254);
+    cell_number(table, NAN);
+    assert_false(table->failed);
+    assert_int_equal(table_rows(table), 2);
+    assert_int_equal(table_column_is_shown(table, 2), 0); /* dashes alone */
+    /* columns end under their heads, in characters and not in bytes; a column without a value is not there */
+    assert_string_equal(written(write_text, table), "Masses & errors\n"
+                                                    "part    error [%]  chance  mass [kg]\n"
+                                                    "=left       " MINUS "0.13  <0.001         60\n"
+                                                    "core \xe2\x82\xac     +12.50    0.25          " DASH "\n"
+                                                    "The last row is not known.\n");
+    /* numbers as they are, and nothing that a spreadsheet runs */
+    assert_string_equal(written(table_write_csv, table), "part,error [%],none,chance,mass [kg]\n"
+                                                         "'=left,-0.126,,1e-9,60\n"
+                                                         "core \xe2\x82\xac,12.5,,0.254,\n");
+    const char *html = written(write_html, table);
+    page_says(html, "<caption id=\"table-7\"><span>Masses &amp; errors</span></caption>");
+    page_says(html, "<tr><th scope=\"col\">part</th><th scope=\"col\" class=\"n\">error [%%]</th>");
+    page_says(html, "<tr><th scope=\"row\">=left</th><td class=\"n\">" MINUS "0.13</td><td class=\"n\">&lt;0.001</td>");
+    page_says(html, "<p class=\"note\">The last row is not known.</p>");
+    assert_null(strstr(html, "none"));
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+static void an_interval_is_four_cells(void **state)
+{
+    (void)state;
+    struct table *table = table_open(&test_pool, "");
+    table_add_column(table, "unit", NULL, TABLE_TEXT, 0);
+    for (int i = 0; i < 3; i++)
+        table_add_column(table, "number", NULL, TABLE_DIGITS, 3);
+    cell_interval(table, 115.75e9, (const double[]){55.1e9, 176.4e9}, "Pa");
+    static const char *const text[] = {"GPa", "115.8", "55.1", "176.4"};
+    for (int j = 0; j < 4; j++)
+        assert_string_equal(table->cell[j].text, text[j]);
+    assert_close(table->cell[1].value, 115.75, 1e-14, 0);
+}
+
+static void ids_become_words_and_paths_names(void **state)
+{
+    (void)state;
+    static const char *const text[][2] = {{"The model lacks added_mass; it explains", "The model lacks added mass; it explains"},
+                                          {"stiffness_local of core, joint", "soft zone of core, joint"},
+                                          {"my_added_mass added_mass2 added_mass.inp core.added_mass", NULL},
+                                          {"(beam_theory)", "(error of beam theory)"},
+                                          {"rotid diagnose /home/a/rotor.inp --extended", "rotid diagnose rotor.inp --extended"},
+                                          {"added_mass of '/a/b.inp', /c/d/e", "added mass of 'b.inp', e"},
+                                          {"kg/m3, input/rotor.inp, and /or, https://x/y/z", NULL},
+                                          {"", NULL}};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+        assert_string_equal(plain_text(&test_pool, text[i][0]), text[i][1] ? text[i][1] : text[i][0]);
+    assert_null(plain_text(&test_pool, NULL));
+    assert_string_equal(plain_file("/a/b.inp"), "b.inp");
+    assert_string_equal(plain_file("a/b.inp"), "a/b.inp");
+    assert_string_equal(plain_cause(&test_pool, "step_stiffness"), "step stiffness");
+}
+
+/* Whoever adds a text to a page: outside of the section on provenance it is shown so. */
+static void every_text_of_a_page_is_shown_so(void **state)
+{
+    (void)state;
+    struct document document;
+    struct message_list messages;
+    const char *file;
+    message_open(&messages, &test_pool);
+    static const char *const text[] = {"list: added_mass of /a/b/c1.inp"}, *const name[] = {"fact"};
+    assert_status(document_open(&document, &test_pool), ROTID_OK);
+    document.title = document.subtitle = "";
+    document.now.text = "answer: beam_theory";
+    document.now.headline = "headline: support_extra";
+    document.now.next = "next: rotid diagnose /a/b/c2.inp";
+    document_answer(&document, NULL);
+    document_section(&document, "one", "One");
+    document_paragraph(&document, "paragraph: %s", "stiffness_local");
+    document_heading(&document, "heading: step_stiffness");
+    document_list(&document, 1, text);
+    document_facts(&document, 1, name, text);
+    struct table *table = table_open(&test_pool, "caption: layer_slip");
+    table_add_column(table, "head: tie_shear", NULL, TABLE_TEXT, 0);
+    cell_text(table, "cell: tie_tension");
+    table->note = "note: tie_stiffness";
+    document_table(&document, table);
+    document.verbatim = 1;
+    document_section(&document, "provenance", "Provenance");
+    document_paragraph(&document, "as it is: added_inertia /a/b/c3.inp");
+    document.verbatim = 0;
+    assert_false(document.failed);
+    assert_status(page_write(&document, 0, NULL, page_path("shown.html"), "made", &messages, &file), ROTID_OK);
+    document_close(&document);
+    const char *html = page_read("shown.html");
+    static const char *const shown[] = {"answer: error of beam theory",
+                                        "headline: extra support",
+                                        "next: rotid diagnose c2.inp",
+                                        "paragraph: soft zone",
+                                        "heading: step stiffness",
+                                        "<li>list: added mass of c1.inp",
+                                        "<dd>list: added mass of c1.inp",
+                                        "head: tie shear",
+                                        "cell: tie tension",
+                                        "caption: layer slip",
+                                        "note: tie stiffness",
+                                        "as it is: added_inertia /a/b/c3.inp"};
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (!strstr(html, shown[i]))
+            fail_msg("'%s' is not on the page:\n%s", shown[i], html);
+}
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(numbers_are_written_for_people),
-        TEST(every_colour_reads_on_its_ground),
-        TEST(texts_are_escaped),
-        TEST(ranges_and_ticks_cover_what_is_drawn),
-        TEST(labels_at_the_end_of_lines_do_not_overlap),
-        TEST(a_picture_follows_light_and_dark),
-        TEST(a_hostile_picture_is_seen),
-        TEST(identifiers_of_a_page_occur_once),
-        TEST(a_program_is_run_waited_for_and_ended),
+        cmocka_unit_test_setup_teardown(numbers_are_written_for_people, open_test_pool, close_test_pool),
+        cmocka_unit_test(texts_are_escaped),
+        cmocka_unit_test_setup_teardown(a_table_is_shown_in_three_ways, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(an_interval_is_four_cells, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(ids_become_words_and_paths_names, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(every_text_of_a_page_is_shown_so, open_test_pool, close_test_pool),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
 }

@@ -3,7 +3,7 @@
 #include "cli/arguments.h"
 #include "page/page.h"
 
-/* "rotid report a.json b.json -o page" as a user can repeat it. */
+/* "rotid report a.json b.json -o page.html" as a user can repeat it. */
 static const char *how_it_was_made(struct command *command)
 {
     const char *text = pool_format(&command->pool, "Made by rotid %s (%s): rotid report", ROTID_VERSION, build_commit);
@@ -12,37 +12,53 @@ static const char *how_it_was_made(struct command *command)
     return text ? pool_format(&command->pool, "%s -o %s", text, command->output) : NULL;
 }
 
-int command_report(struct command *command)
+static int read_results(struct command *command, struct result *result)
 {
-    struct pool *pool = &command->pool;
-    struct result *result = POOL_ARRAY(pool, struct result, command->nfile);
-    const rotid_environment environment = {.size = sizeof environment, .cancelled = command_cancelled};
-    struct document document;
-    struct page_written written;
-    int status = result ? ROTID_OK : ROTID_ERROR_MEMORY;
-    for (int i = 0; i < command->nfile && result; i++) {
-        int wrong = page_result_read(pool, command->file[i], &command->messages, &result[i]);
+    int status = ROTID_OK;
+    for (int i = 0; i < command->nfile; i++) {
+        int wrong = page_result_read(&command->pool, command->file[i], &command->messages, &result[i]);
         status = status ? status : wrong; /* all files are judged */
     }
-    if (status)
-        return command_fail(command, status);
+    return status;
+}
+
+static int write_page(struct command *command, struct result *result, const char **file)
+{
     const char *made_by = how_it_was_made(command);
-    document_open(&document, pool);
+    struct document document;
+    int status = document_open(&document, &command->pool);
+    if (status)
+        return status;
     page_compose(&document, command->nfile, result);
-    status = made_by ? page_write(&document, command->output, made_by, &environment, &command->messages, &written)
-                     : ROTID_ERROR_MEMORY;
+    status = command_cancelled(NULL) ? ROTID_STOP_CANCELLED
+             : made_by ? page_write(&document, command->nfile, result, command->output, made_by, &command->messages, file)
+                       : ROTID_ERROR_MEMORY;
+    document_close(&document);
+    return status;
+}
+
+int command_report(struct command *command)
+{
+    struct result *result = POOL_ARRAY(&command->pool, struct result, command->nfile);
+    const char *file = NULL;
+    int status = result ? read_results(command, result) : ROTID_ERROR_MEMORY, is_read = !status;
+    if (is_read)
+        status = write_page(command, result, &file);
+    for (int i = 0; i < command->nfile && result; i++)
+        cJSON_Delete(result[i].json);
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted; %s is as it was\n", command->output);
         return EXIT_DOUBTFUL;
     }
-    if (status == ROTID_ERROR_IO) {
-        command_print_messages(command);
-        return EXIT_INTERNAL;
-    }
-    if (status)
+    if (status && !(is_read && status == ROTID_ERROR_IO))
         return command_fail(command, status);
+    if (!*page_script && !status)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "no figures: this program was built without D3; tools/setup, then make, embeds it");
     command_print_messages(command);
+    if (status)
+        return EXIT_INTERNAL;
     if (!command->quiet)
-        (void)fprintf(terminal_out(), "%s/index.html\n", command->output);
-    return written.gnuplot && written.ndrawn < written.nfigure ? EXIT_DOUBTFUL : EXIT_DONE;
+        (void)fprintf(terminal_out(), "%s\n", file);
+    return EXIT_DONE;
 }

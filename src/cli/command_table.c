@@ -42,7 +42,7 @@ const struct command_entry command_table[] = {
      "rotid uff records.unv --verbose\n"
      "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},
-    {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page",
+    {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page.html",
      "json|jsonl", command_report, SEVERAL_FILES},
     {"study", "many runs from one plan, or of many decks, resumable",
      "rotid study plan.inp -o results.jsonl\n"

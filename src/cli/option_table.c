@@ -127,11 +127,9 @@ const struct option_row option_table[] = {
     {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
      .help = "dmig: the model condensed onto the sensors"},
 
-    {OUTPUT(.commands = "report", .value = "FOLDER", .files = "/",
-            .help = "for the page, index.html, and for scripts and pictures of its figures",
-            .more = "A folder that holds another page is left alone. Of an earlier page of rotid the figures go that the new one does not "
-                    "have; files that were changed or put there by hand stay, under the name with a tilde where the new page has one "
-                    "of that name. It may be a symbolic link; within it none is followed.")},
+    {OUTPUT(.commands = "report", .value = "FILE", .files = "html",
+            .help = "the page; a name that does not end in .html is a folder for index.html",
+            .more = "A page of rotid is replaced, another file is left alone. A folder that is missing is made.")},
 
     {OUTPUT(.commands = "study", .value = "FILE", .files = "jsonl",
             .help = "the results, a line of JSON a run; where the file exists, what is missing in it is computed")},

@@ -1,147 +1,102 @@
-#include "page/document.h"
-
+/* The page under construction, and the page as a file. */
+#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
-#include "page/html.h"
-#include "page/plain.h"
-#include "page/style.h"
+#include "page/page.h"
+#include "report/html.h"
+#include "report/output.h"
 
-/* Nothing runs and nothing is loaded, whatever should get into a page: its style and its pictures stand in it. */
-#define POLICY                                                                                                                   \
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "      \
-    "base-uri 'none'; form-action 'none'\">\n"
+#define FOLDED 12 /* rows: a longer table is folded by the script */
+/* What tells that a page is one of rotid: in its first KB. */
+#define MARK      "<meta name=\"generator\" content=\"rotid report"
+#define MARK_ROOM 1024
 
-void document_open(struct document *document, struct pool *pool)
+int document_open(struct document *document, struct pool *pool)
 {
-    *document = (struct document){.pool = pool, .title = "", .subtitle = "", .answer = ""};
+    *document = (struct document){.pool = pool, .title = "", .subtitle = "", .now = {.text = ""}, .state = -1};
+    document->body = open_memstream(&document->text, &document->length);
+    return document->body ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+void document_close(struct document *document)
+{
+    if (document->body)
+        (void)fclose(document->body);
+    document->body = NULL;
+    free(document->text);
+    document->text = NULL;
+}
+
+/* The text as the current section shows it. */
+static const char *shown(const struct document *document, const char *text)
+{
+    return document->verbatim || !text ? text : plain_text(document->pool, text);
+}
+
+static void element(const struct document *document, const char *name, const char *text)
+{
+    html_element(document->body, name, or_nothing(shown(document, text)));
+}
+
+void document_tile(struct document *document, const char *name, const char *value, const char *note)
+{
+    document->failed |= !name || !value;
+    if (name && value && document->now.ntiles < TILES_MOST)
+        document->now.tile[document->now.ntiles++] = (struct tile){name, value, note};
+}
+
+void document_answer(struct document *document, const char *of)
+{
+    struct answer *made = POOL_NEW(document->pool, struct answer), **at = &document->answers;
+    document->failed |= !made || !document->now.text;
+    if (made && document->now.text && *document->now.text) {
+        *made = document->now;
+        made->of = of;
+        while (*at && (*at)->tone >= made->tone)
+            at = &(*at)->following;
+        made->following = *at;
+        *at = made;
+    }
+    document->now = (struct answer){.text = ""};
 }
 
 /* Whether an identifier is this one, or this one with a number. */
 static int is_like(const char *id, const char *like)
 {
     size_t length = strlen(like);
-    if (strncmp(id, like, length) != 0)
-        return 0;
-    return !id[length] || (id[length] == '-' && id[length + 1] >= '0' && id[length + 1] <= '9');
+    return !strncmp(id, like, length) && (!id[length] || (id[length] == '-' && id[length + 1] >= '0' && id[length + 1] <= '9'));
 }
 
-static int count_id(const struct document *document, const char *id)
+void document_section(struct document *document, const char *id, const char *text)
 {
-    int count = 0;
-    for (const struct page_section *section = document->first; section; section = section->next) {
-        count += is_like(section->id, id);
-        for (const struct page_block *block = section->first; block; block = block->next)
-            count += block->figure && is_like(block->figure->id, id);
-    }
-    return count;
-}
-
-static const char *free_id(struct document *document, const char *id)
-{
-    int taken = count_id(document, id);
-    const char *free = taken ? pool_format(document->pool, "%s-%d", id, taken + 1) : id;
-    document->failed |= !free;
-    return free ? free : id;
-}
-
-void document_section(struct document *document, const char *id, const char *heading)
-{
-    struct page_section *section = POOL_NEW(document->pool, struct page_section);
-    if (!section) {
+    struct heading *heading = POOL_NEW(document->pool, struct heading);
+    int taken = 0;
+    for (const struct heading *other = document->first; other; other = other->following)
+        taken += is_like(other->id, id);
+    id = taken ? pool_format(document->pool, "%s-%d", id, taken + 1) : id;
+    text = document->of ? pool_format(document->pool, "%s: %s", text, document->of) : text;
+    if (!heading || !id || !text) {
         document->failed = 1;
         return;
     }
-    section->id = free_id(document, id);
-    section->heading = document->of ? pool_format(document->pool, "%s: %s", heading, document->of) : heading;
-    if (!section->heading) {
-        document->failed = 1;
-        section->heading = heading;
-    }
-    if (document->last)
-        document->last->next = section;
-    else
-        document->first = section;
-    document->last = section;
+    *heading = (struct heading){.id = id, .text = text};
+    *(document->last ? &document->last->following : &document->first) = heading;
+    document->last = heading;
+    (void)fprintf(document->body, "%s<section id=\"%s\">\n", document->in_section ? "</section>\n" : "", id);
+    document->in_section = 1;
+    element(document, "h2", text);
 }
 
-/* The text as the current section shows it. */
-static const char *shown(const struct document *document, const char *text)
+void document_heading(struct document *document, const char *text)
 {
-    return document->verbatim ? text : plain_text(document->pool, text);
-}
-
-static void show_table(const struct document *document, struct number_table *table)
-{
-    for (int j = 0; j < table->columns && !document->verbatim; j++) {
-        table->head[j] = shown(document, table->head[j]);
-        for (int i = 0; i < table->rows; i++)
-            table->cell[i * table->columns + j] = shown(document, table->cell[i * table->columns + j]);
-    }
-}
-
-void document_answer(struct document *document, const char *of)
-{
-    struct page_answer *made = POOL_NEW(document->pool, struct page_answer), **at = &document->answers;
-    document->failed |= !made;
-    if (made && *document->answer) {
-        *made = (struct page_answer){.tone = document->tone,
-                                     .of = of,
-                                     .headline = shown(document, document->headline),
-                                     .answer = shown(document, document->answer),
-                                     .next = shown(document, document->next)};
-        while (*at && (*at)->tone >= made->tone)
-            at = &(*at)->following;
-        made->following = *at;
-        *at = made;
-    }
-    document->tone = TONE_NONE;
-    document->headline = document->next = NULL;
-    document->answer = "";
-}
-
-static struct page_block *add_block(struct document *document)
-{
-    struct page_block *block = POOL_NEW(document->pool, struct page_block);
-    if (!block || !document->last) {
-        document->failed = 1;
-        return NULL;
-    }
-    if (document->last->last)
-        document->last->last->next = block;
-    else
-        document->last->first = block;
-    document->last->last = block;
-    return block;
-}
-
-/* Text of the page written piece by piece. */
-struct piece {
-    FILE *out;
-    char *text;
-    size_t length;
-};
-
-static FILE *open_piece(struct document *document, struct piece *piece)
-{
-    *piece = (struct piece){.out = open_memstream(&piece->text, &piece->length)};
-    document->failed |= !piece->out;
-    return piece->out;
-}
-
-static void close_piece(struct document *document, struct piece *piece)
-{
-    struct page_block *block = fclose(piece->out) == 0 ? add_block(document) : NULL;
-    if (block)
-        block->html = pool_copy_text(document->pool, piece->text);
-    document->failed |= !block || !block->html;
-    free(piece->text);
+    element(document, "h3", text);
 }
 
 void document_paragraph(struct document *document, const char *format, ...)
 {
-    struct piece piece;
     char *text = NULL;
     size_t length;
     FILE *plain = open_memstream(&text, &length);
@@ -153,185 +108,220 @@ void document_paragraph(struct document *document, const char *format, ...)
     va_start(arguments, format);
     (void)vfprintf(plain, format, arguments);
     va_end(arguments);
-    if (fclose(plain) == 0 && open_piece(document, &piece)) {
-        html_element(piece.out, "p", shown(document, text));
-        close_piece(document, &piece);
-    }
+    if (fclose(plain) == 0)
+        element(document, "p", text);
     free(text);
-}
-
-void document_heading(struct document *document, const char *text)
-{
-    struct piece piece;
-    if (!open_piece(document, &piece))
-        return;
-    html_element(piece.out, "h3", shown(document, text));
-    close_piece(document, &piece);
 }
 
 void document_list(struct document *document, int count, const char *const text[])
 {
-    struct piece piece;
-    if (!count || !open_piece(document, &piece))
-        return;
-    (void)fputs("<ul>\n", piece.out);
+    (void)fputs(count ? "<ul>\n" : "", document->body);
     for (int i = 0; i < count; i++)
-        html_element(piece.out, "li", text[i] ? shown(document, text[i]) : "");
-    (void)fputs("</ul>\n", piece.out);
-    close_piece(document, &piece);
+        element(document, "li", text[i]);
+    (void)fputs(count ? "</ul>\n" : "", document->body);
 }
 
 void document_facts(struct document *document, int count, const char *const name[], const char *const value[])
 {
-    struct piece piece;
-    if (!open_piece(document, &piece))
-        return;
-    (void)fputs("<dl>\n", piece.out);
+    (void)fputs("<dl>\n", document->body);
     for (int i = 0; i < count; i++)
         if (value[i]) {
-            (void)fputs("<div>", piece.out);
-            html_element(piece.out, "dt", name[i]);
-            html_element(piece.out, "dd", shown(document, value[i]));
-            (void)fputs("</div>\n", piece.out);
+            (void)fputs("<div>", document->body);
+            html_element(document->body, "dt", name[i]);
+            element(document, "dd", value[i]);
+            (void)fputs("</div>\n", document->body);
         }
-    (void)fputs("</dl>\n", piece.out);
-    close_piece(document, &piece);
+    (void)fputs("</dl>\n", document->body);
 }
 
-void document_table(struct document *document, const char *caption, struct number_table *table)
+void document_table(struct document *document, const struct table *table)
 {
-    struct piece piece;
-    char id[32];
-    if (!table || !open_piece(document, &piece)) {
-        document->failed |= !table;
+    if (!table || table->failed) {
+        document->failed = 1;
         return;
     }
-    (void)snprintf(id, sizeof id, "table-%d", ++document->ntable);
-    show_table(document, table);
-    html_table(piece.out, id, caption ? shown(document, caption) : "", table);
-    close_piece(document, &piece);
-}
-
-struct figure *document_figure(struct document *document, const char *id, const char *title)
-{
-    static const struct figure nothing = {.id = "", .title = "", .caption = "", .alt = "", .script = NULL};
-    id = free_id(document, id);
-    struct page_block *block = add_block(document);
-    struct figure *figure = POOL_NEW(document->pool, struct figure);
-    document->failed |= !figure;
-    if (!block || !figure) {
-        document->lost = nothing;
-        return &document->lost;
+    struct table own = *table;
+    struct table_cell *cell = POOL_ARRAY(document->pool, struct table_cell, own.ncells);
+    struct table_column *column = POOL_ARRAY(document->pool, struct table_column, own.ncolumns);
+    int folded = table_rows(table) > FOLDED;
+    document->failed |= (!cell && own.ncells) || (!column && own.ncolumns);
+    for (int i = 0; i < own.ncells && cell; i++) {
+        cell[i] = own.cell[i];
+        cell[i].text = cell[i].is_number ? cell[i].text : shown(document, cell[i].text);
     }
-    *figure = nothing;
-    figure->id = id;
-    figure->title = title;
-    block->figure = figure;
-    document->nfigure++;
-    return figure;
+    for (int j = 0; j < own.ncolumns && column; j++) {
+        column[j] = own.column[j];
+        column[j].name = shown(document, column[j].name);
+    }
+    if (document->failed)
+        return;
+    own.cell = cell;
+    own.column = column;
+    own.caption = shown(document, own.caption);
+    own.note = shown(document, own.note);
+    if (folded) {
+        (void)fprintf(document->body, "<details class=\"fold\" open=\"\"><summary>%d rows: ", table_rows(table));
+        html_text(document->body, own.caption);
+        (void)fputs("</summary>\n", document->body);
+    }
+    table_write_html(document->body, &own, ++document->ntables);
+    (void)fputs(folded ? "</details>\n" : "", document->body);
 }
 
-struct figure **document_figures(const struct document *document)
+void document_figures(struct document *document, const char *group)
 {
-    struct figure **list = POOL_ARRAY(document->pool, struct figure *, document->nfigure);
-    int count = 0;
-    for (const struct page_section *section = document->first; section && list; section = section->next)
-        for (const struct page_block *block = section->first; block; block = block->next)
-            if (block->figure)
-                list[count++] = block->figure;
-    return list;
+    (void)fprintf(document->body, "<div class=\"figures\" data-group=\"%s\" data-result=\"%d\"", group, document->result);
+    if (document->state >= 0)
+        (void)fprintf(document->body, " data-state=\"%d\"", document->state);
+    (void)fputs("></div>\n", document->body);
 }
 
+/* Nothing is loaded, and nothing runs but what was embedded when the program was built. */
 static void write_head(FILE *out, const struct document *document)
 {
-    (void)fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" POLICY DOCUMENT_MARK " " ROTID_VERSION
-                "\">\n"
+    (void)fputs(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
+        "content=\"default-src 'none'; img-src data: blob:; style-src 'sha256-",
+        out);
+    (void)fprintf(out, "%s'; ", page_style_hash);
+    if (*page_script)
+        (void)fprintf(out, "script-src 'sha256-%s'; require-trusted-types-for 'script'; ", page_script_hash);
+    (void)fputs("base-uri 'none'; form-action 'none'\">\n" MARK " " ROTID_VERSION "\">\n"
                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                 "<meta name=\"color-scheme\" content=\"light dark\">\n",
                 out);
     html_element(out, "title", document->title);
-    (void)fputs("<style>\n", out);
-    style_write(out);
-    (void)fputs("</style>\n</head>\n<body>\n", out);
+    (void)fprintf(out, "<style>%s</style>\n</head>\n<body>\n", page_style);
 }
 
-static void write_answer(FILE *out, const struct page_answer *answer)
+static void write_answer(FILE *out, const struct document *document, const struct answer *answer)
 {
     static const char *const words[] = {"plain", "good", "care", "bad"};
     static const char *const says[] = {NULL, "Can be relied on", "To be used with care", "Not to be relied on as it stands"};
-    (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer", words[answer->tone]);
-    if (answer->of) {
-        (void)fputs(": ", out);
-        html_text(out, answer->of);
-    }
+    const char *headline = answer->headline ? answer->headline : says[answer->tone];
+    (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer%s", words[answer->tone], answer->of ? ": " : "");
+    html_text(out, answer->of ? answer->of : "");
     (void)fputs("\">\n", out);
     if (answer->of)
         html_element(out, "p class=\"of\"", answer->of);
-    const char *headline = answer->headline ? answer->headline : says[answer->tone];
     if (headline)
-        html_element(out, "p class=\"tone\"", headline);
-    html_element(out, "p class=\"says\"", answer->answer);
+        html_element(out, "p class=\"tone\"", plain_text(document->pool, headline));
+    html_element(out, "p class=\"says\"", plain_text(document->pool, answer->text));
+    (void)fputs(answer->ntiles ? "<dl class=\"tiles\">\n" : "", out);
+    for (int i = 0; i < answer->ntiles; i++) {
+        (void)fputs("<div>", out);
+        html_element(out, "dt", answer->tile[i].name);
+        html_element(out, "dd class=\"large\"", answer->tile[i].value);
+        if (answer->tile[i].note)
+            html_element(out, "dd", answer->tile[i].note);
+        (void)fputs("</div>\n", out);
+    }
+    (void)fputs(answer->ntiles ? "</dl>\n" : "", out);
     if (answer->next)
-        html_element(out, "p class=\"next\"", answer->next);
+        html_element(out, "p class=\"next\"", plain_text(document->pool, answer->next));
     (void)fputs("</section>\n", out);
 }
 
-static void write_answers(FILE *out, const struct document *document)
+static void write_page(FILE *out, struct document *document, int count, const struct result *result, const char *made_by)
 {
+    write_head(out, document);
     (void)fputs("<header>\n", out);
     html_element(out, "h1", document->title);
     html_element(out, "p class=\"subtitle\"", document->subtitle);
     (void)fputs("</header>\n<main>\n", out);
-    for (const struct page_answer *answer = document->answers; answer; answer = answer->following)
-        write_answer(out, answer);
-}
-
-/* The texts of a figure, which its maker has filled in since it was added. */
-static void show_figure(const struct document *document, struct figure *figure)
-{
-    figure->title = shown(document, figure->title);
-    figure->caption = shown(document, figure->caption);
-    figure->alt = shown(document, figure->alt);
-    if (figure->table)
-        show_table(document, figure->table);
-}
-
-static void write_contents(FILE *out, const struct document *document)
-{
+    for (const struct answer *answer = document->answers; answer; answer = answer->following)
+        write_answer(out, document, answer);
+    if (!*page_script)
+        html_element(
+            out, "p class=\"hint\"",
+            "This rotid was built without D3, so the page has no figures. With D3 (tools/setup), make and the same command "
+            "they are there.");
     (void)fputs("<nav aria-label=\"Contents\"><ul>\n", out);
-    for (const struct page_section *section = document->first; section; section = section->next) {
-        (void)fprintf(out, "<li><a href=\"#%s\">", section->id);
-        html_text(out, section->heading);
+    for (const struct heading *heading = document->first; heading; heading = heading->following) {
+        (void)fprintf(out, "<li><a href=\"#%s\">", heading->id);
+        html_text(out, plain_text(document->pool, heading->text));
         (void)fputs("</a></li>\n", out);
     }
-    (void)fputs("</ul></nav>\n", out);
+    (void)fprintf(out, "</ul></nav>\n%s%s</main>\n<footer>\n", document->text, document->in_section ? "</section>\n" : "");
+    html_element(out, "p", made_by);
+    if (*page_script) {
+        (void)fputs("<details class=\"fold\"><summary>Licence of D3, which draws the figures</summary><pre>", out);
+        html_text(out, page_licence);
+        (void)fputs("</pre></details>\n", out);
+    }
+    (void)fputs("</footer>\n", out);
+    if (*page_script) {
+        data_write(out, document->pool, count, result);
+        (void)fprintf(out, "<script>%s</script>\n", page_script);
+    }
+    (void)fputs("</body>\n</html>\n", out);
 }
 
-void document_write(FILE *out, const struct document *document, const char *made_by, const char *hint)
+static int say(struct message_list *messages, const char *path, const char *what, int status)
 {
-    int number = 0;
-    write_head(out, document);
-    write_answers(out, document);
-    if (hint) {
-        (void)fputs("<aside class=\"hint\" aria-label=\"Figures\">", out);
-        html_element(out, "p", hint);
-        (void)fputs("</aside>\n", out);
+    message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "cannot write %s: %s", path, what);
+    return status;
+}
+
+/* Whether there is a file that rotid did not write, or no file at all but something else. */
+static const char *what_is_lost(const char *path)
+{
+    char text[MARK_ROOM + 1];
+    struct stat is;
+    if (lstat(path, &is) != 0)
+        return NULL;
+    if (!S_ISREG(is.st_mode))
+        return "it is no regular file, expected a new name or a page of rotid";
+    FILE *file = fopen(path, "r");
+    size_t length = file ? fread(text, 1, MARK_ROOM, file) : 0;
+    if (file)
+        (void)fclose(file);
+    text[length] = 0;
+    return is.st_size && !strstr(text, MARK) ? "the file that is there is no page of rotid, expected a new name" : NULL;
+}
+
+/* The file that a page goes into, its folder made; NULL with a message. */
+static const char *file_of(struct pool *pool, const char *path, struct message_list *messages, int *status)
+{
+    struct stat is;
+    size_t length = strlen(path);
+    int is_folder = stat(path, &is) == 0 && S_ISDIR(is.st_mode), is_file = length > 5 && !strcmp(path + length - 5, ".html");
+    *status = ROTID_ERROR_IO;
+    if (!length || !strcmp(path, "-")) {
+        (void)say(messages, path, "expected the name of a file or of a folder", *status);
+        return NULL;
     }
-    write_contents(out, document);
-    for (const struct page_section *section = document->first; section; section = section->next) {
-        (void)fprintf(out, "<section id=\"%s\">\n", section->id);
-        html_element(out, "h2", section->heading);
-        for (const struct page_block *block = section->first; block; block = block->next) {
-            if (block->figure) {
-                show_figure(document, block->figure);
-                html_figure(out, ++number, block->figure);
-            } else if (block->html) {
-                (void)fputs(block->html, out);
-            }
-        }
-        (void)fputs("</section>\n", out);
+    if (is_file && !is_folder) {
+        *status = ROTID_OK;
+        return path;
     }
-    (void)fputs("</main>\n<footer>\n", out);
-    html_element(out, "p", made_by);
-    (void)fputs("</footer>\n</body>\n</html>\n", out);
+    if (!is_folder && mkdir(path, 0777) != 0) {
+        (void)say(messages, path, errno == EEXIST ? "is a file, expected a folder, a new name, or one in .html" : strerror(errno),
+                  *status = errno == EEXIST ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_IO);
+        return NULL;
+    }
+    const char *file = pool_format(pool, "%s%sindex.html", path, path[length - 1] == '/' ? "" : "/");
+    *status = file ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return file;
+}
+
+int page_write(struct document *document, int count, const struct result *result, const char *path, const char *made_by,
+               struct message_list *messages, const char **file)
+{
+    struct output output;
+    int status;
+    if (document->failed || document->pool->out_of_memory || fflush(document->body) != 0 || ferror(document->body))
+        return ROTID_ERROR_MEMORY;
+    *file = file_of(document->pool, path, messages, &status);
+    if (!*file)
+        return status;
+    const char *lost = what_is_lost(*file);
+    if (lost)
+        return say(messages, *file, lost, ROTID_ERROR_ARGUMENT);
+    status = output_open(&output, *file);
+    if (!status) {
+        write_page(output.stream, document, count, result, made_by);
+        status = output_close(&output, document->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK);
+    }
+    return status == ROTID_ERROR_IO ? say(messages, *file, output_error(), status) : status;
 }

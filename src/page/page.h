@@ -1,22 +1,156 @@
-/* A page of results: composed, drawn and written. */
+/* Results as a page: one HTML file that holds the answer and the tables as text, the results as data, one style sheet and one
+ * script, page.js, which draws the figures from the data.
+ *
+ *   result_read      a file of JSON, every mistake with its place             read.c
+ *   page_compose     answer, tiles, sections, tables, places of figures       compose.c; a file for each kind of result
+ *   page_write       head with the policy, answers, body, data, script        document.c, data.c
+ *
+ * C draws nothing: where a figure may stand it writes an empty element with the name of a group of figures, and the script knows
+ * which figures belong there. Without the script, or without D3 when the program was built, answer and tables stand alone. */
 #ifndef ROTID_PAGE_PAGE_H
 #define ROTID_PAGE_PAGE_H
 
-#include "page/document.h"
-#include "page/result.h"
+#include <cJSON.h>
+#include <stdio.h>
 
-/* The page of results [count]: the first one is the main result, the others add their sections. */
-void page_compose(struct document *document, int count, const struct result *result);
+#include "base/message.h"
+#include "report/struct_table.h"
+#include "result/ema.h"
+#include "result/judgement.h"
+#include "result/result.h"
+#include "result/study.h"
+#include "result/transfer.h"
+#include "run/sensitivity.h"
 
-struct page_written {
-    int nfigure, ndrawn;
-    const char *gnuplot; /* its version, NULL: there is none */
+/* ---- reading */
+
+/* Reads a file that a command wrote with --json, or a file of results of a study. Statuses of result_read; the caller deletes
+ * result->json. */
+int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result);
+/* The deck of a result, of a modal analysis the measured file, else the file of the result; of an absolute path the last part. */
+const char *page_source(const struct result *result);
+/* How many states a result is of, 0 where its deck is one; the name of one; the result as one of its states has it. */
+int page_state_count(const struct result *result);
+const char *page_state_name(const struct result *result, int s);
+struct result page_result_of_state(struct pool *pool, const struct result *result, int s);
+
+/* ---- the page under construction. Whatever is added when memory is out is lost and marks the document. */
+
+enum tone { TONE_NONE, TONE_GOOD, TONE_CARE, TONE_BAD }; /* no judgement, to be relied on, with care, not at all */
+
+#define TILES_MOST 8
+
+struct tile { /* a number to design with, and how far it can be trusted */
+    const char *name, *value, *note;
 };
 
-/* Writes path/index.html and path/figures. What of the figures could not be drawn is said in warnings; the page has their numbers
- * then. ROTID_OK; ROTID_ERROR_ARGUMENT, ROTID_ERROR_IO, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED, with what is wrong in the
- * messages and nothing written. */
-int page_write(struct document *document, const char *path, const char *made_by, const rotid_environment *environment,
-               struct message_list *messages, struct page_written *written);
+struct answer { /* of one result */
+    struct answer *following;
+    enum tone tone;
+    const char *of;       /* whose it is, NULL of the only result */
+    const char *headline; /* NULL: the words of the tone */
+    const char *text, *next;
+    int ntiles;
+    struct tile tile[TILES_MOST];
+};
+
+struct heading {
+    struct heading *following;
+    const char *id, *text;
+};
+
+struct document {
+    struct pool *pool;
+    int failed;
+    const char *title, *subtitle;
+    struct answer now;      /* the answer that is being made */
+    struct answer *answers; /* the gravest first */
+    const char *of;         /* whose sections are added, told in their headings; NULL: that of the page */
+    int result, state;      /* index of the result and of its state (-1: none) whose figures are placed */
+    int verbatim;           /* texts are shown with folders and ids: of the provenance */
+    FILE *body;
+    char *text; /* of the body */
+    size_t length;
+    struct heading *first, *last;
+    int ntables, in_section;
+};
+
+int document_open(struct document *document, struct pool *pool); /* ROTID_OK or ROTID_ERROR_MEMORY */
+void document_close(struct document *document);
+/* Puts the answer that was made among those of the page. */
+void document_answer(struct document *document, const char *of);
+void document_tile(struct document *document, const char *name, const char *value, const char *note);
+/* What is added from here on belongs to this section. An id that is taken gets a number. */
+void document_section(struct document *document, const char *id, const char *heading);
+void document_heading(struct document *document, const char *text);
+void document_paragraph(struct document *document, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void document_list(struct document *document, int count, const char *const text[]);
+/* Names and their values; a value NULL is left out with its name. */
+void document_facts(struct document *document, int count, const char *const name[], const char *const value[]);
+/* A table; a long one is folded by the script. */
+void document_table(struct document *document, const struct table *table);
+/* The place of a group of figures of page.js, drawn from the current result and state. */
+void document_figures(struct document *document, const char *group);
+
+/* ---- words: texts never NULL, "" where memory is out */
+
+const char *or_nothing(const char *text);
+const char *plain_cause(struct pool *pool, const char *id);  /* "soft zone" of stiffness_local */
+const char *plain_text(struct pool *pool, const char *text); /* ids of causes in words, absolute paths without folders */
+const char *plain_file(const char *path);                    /* the last part of an absolute path */
+const char *cause_check(const char *id);                     /* how to look for a cause */
+const char *cause_name(struct pool *pool, const char *id, const char *target); /* "joint between core and right" */
+const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
+const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
+/* What became of a candidate: "named", "possible", "refused: ...". One list of rivals for table, figure and answer: those that
+ * the verdict lists. */
+const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
+/* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
+const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
+                            int causes);
+int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
+
+/* ---- what a page says of each kind of result: the answer, then the sections */
+
+void tile_parameter(struct document *document, const rotid_fitted_parameter *parameter, const char *note);
+void answer_identify(struct document *document, const struct result *result);
+void answer_diagnose(struct document *document, const struct result *result);
+void answer_study(struct document *document, const struct result *result);
+void answer_ema(struct document *document, const struct result *result);
+void answer_plain(struct document *document, const struct result *result);
+
+/* of a deck that is one state, or of one of its states */
+void section_agreement(struct document *document, const struct result *result);
+void section_modes(struct document *document, const struct result *result);
+void section_sensitivity(struct document *document, const struct result *result);
+void section_transfer(struct document *document, const struct result *result);
+/* of all states */
+void section_identify(struct document *document, const struct result *result);
+void section_trust(struct document *document, const struct result *result);
+void section_diagnose(struct document *document, const struct result *result);
+void section_suggest(struct document *document, const struct result *result);
+void section_study(struct document *document, const struct result *result);
+void section_ema(struct document *document, const struct result *result);
+void section_basis(struct document *document, int count, const struct result *result);
+void section_provenance(struct document *document, int count, const struct result *result);
+
+struct table *table_of_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit,
+                                    const char *caption);
+void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden);
+
+/* ---- the page */
+
+void page_compose(struct document *document, int count, const struct result *result);
+/* Writes the page into a file: path, or index.html in it where path is a folder or does not end in .html; a folder that is
+ * missing is made. *file is what was written. ROTID_OK; ROTID_ERROR_ARGUMENT, ROTID_ERROR_IO, ROTID_ERROR_MEMORY with what is
+ * wrong in the messages and nothing written. */
+int page_write(struct document *document, int count, const struct result *result, const char *path, const char *made_by,
+               struct message_list *messages, const char **file);
+/* The data block: what the script draws from. */
+void data_write(FILE *out, struct pool *pool, int count, const struct result *result);
+
+/* The style sheet and the script as `make` embeds them, with the SHA-256 of their bytes in base64; no script ("") where there was
+ * no D3. page_licence: of D3. */
+extern const char page_style[], page_style_hash[], page_script[], page_script_hash[], page_licence[];
 
 #endif

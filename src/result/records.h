@@ -17,7 +17,6 @@ void record_read(const struct json_place *at, const struct record *record, void 
 
 extern const struct record provenance_record; /* struct result_head up to command */
 extern const struct record deck_record;       /* the rest, where the command reads a deck */
-extern const struct record head_alone_record; /* struct result of a study, whose reader does the rest */
 
 extern const struct record sensitivity_record;  /* struct sensitivity */
 extern const struct record transfer_record;     /* struct transfer_result */

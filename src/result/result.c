@@ -36,9 +36,6 @@ static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_record
 static const struct record_field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
 static const struct record_field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
 
-static const struct record_field head_alone_fields[] = {PROVENANCE, {0}};
-const struct record head_alone_record = RECORD(struct result, head_alone_fields);
-
 static const struct {
     const char *command;
     struct record record;

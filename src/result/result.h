@@ -46,23 +46,21 @@ struct result {
     const char *file; /* as given */
     int nlacking;
     struct lacking lacking[LACKING_MOST];
-    struct study_outcome *studied; /* of a study, as the reader of studies makes it */
+    cJSON *json; /* as it stands there, of a file of results the list of its lines; deleted by whoever read it */
 };
 
-/* Who reads a study: its summary, and its file of results, which has a value a line. */
-struct result_reader {
-    void (*summary)(const struct json_place *root, struct result *result);
-    void (*lines)(const struct json_place *lines, struct result *result);
-};
+/* Who reads the file of results of a study, which has a value a line. */
+typedef void result_lines_reader(const struct json_place *lines, struct result *result);
 
 /* The result as JSON: a text to be freed with json_free of result/json_tree.h; NULL where memory is out, or was when the part of
  * the command was made and that is NULL. */
 char *result_json(const struct result *result);
 
-/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK;
+/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool, result->json does
+ * not. ROTID_OK;
  * ROTID_ERROR_IO: the file cannot be read; ROTID_ERROR_SYNTAX: no JSON, no such result, or one that contradicts itself;
  * ROTID_ERROR_MEMORY. The messages say what and where. */
-int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
+int result_read(struct pool *pool, const char *file, struct message_list *messages, result_lines_reader *read_lines,
                 struct result *result);
 
 /* What the lengths of its lists, the order of its candidates and the sizes of its rotor have to be for a result to be used: told

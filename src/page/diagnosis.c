@@ -1,0 +1,704 @@
+/* A diagnosis: the verdict in the words of the verdict itself, the tiles, then what a reader asks: what did the cause change,
+ * which causes are possible, is the measurement sound, where does the model miss it, which effects stay undetected. */
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "fit/interval.h"
+#include "page/page.h"
+#include "report/human.h"
+
+#define COUNT_OF(list)            ((int)(sizeof(list) / sizeof *(list)))
+#define OPEN(pool, caption, list) open_table(pool, caption, COUNT_OF(list), list)
+#define MOST_REASONS              16
+
+static struct table *open_table(struct pool *pool, const char *caption, int count, const struct table_column column[])
+{
+    struct table *table = table_open(pool, caption);
+    table_add_columns(table, count, column);
+    return table;
+}
+
+#define TINY  1e-12 /* zero but for rounding, in SI units */
+#define SMALL 1e-3  /* shown with a power of ten */
+#define LARGE 1e5
+
+/* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
+static const char *with_interval(struct pool *pool, const rotid_cause_value *value)
+{
+    struct human_unit shown = human_unit(value->value, value->unit);
+    double f = shown.factor, number = fabs(value->value) < TINY ? 0 : f * value->value,
+           half = f * (value->ci95[1] - value->ci95[0]) / 2;
+    const char *text[3], *space = *shown.text ? "\xc2\xa0" : "";
+    if (value->fixed || !isfinite(half) || (number == 0 && half < TINY))
+        return human_value(pool, number == 0 ? 0 : value->value, value->unit);
+    int power = number != 0 && (fabs(number) < SMALL || fabs(number) >= LARGE),
+        decimals = human_decimals(number, fmin(10 * half, fabs(number) > 0 ? 10 * fabs(number) : INFINITY));
+    const double part[3] = {number, f * value->ci95[0], f * value->ci95[1]};
+    for (int i = 0; i < 3; i++)
+        text[i] = power ? human_digits(pool, part[i], 2) : human_fixed(pool, part[i], decimals);
+    return or_nothing(pool_format(pool, "%s%s%s (95\xc2\xa0%%: %s to %s)", text[0], space, shown.text, text[1], text[2]));
+}
+
+/* "mass 22.22 kg (95 %: 18.96 to 25.48), z 0.8983 m (95 %: 0.8886 to 0.9080)" */
+static const char *cause_values(struct pool *pool, const rotid_cause *cause)
+{
+    const char *text = "";
+    for (int p = 0; p < cause->nparameters && text; p++) {
+        const rotid_cause_value *value = &cause->parameters[p];
+        text = pool_format(pool, "%s%s%s %s%s", text, p ? ", " : "", value->name, with_interval(pool, value),
+                           value->fixed ? " (given)" : "");
+    }
+    return or_nothing(text);
+}
+
+/* What has no effect of a size, where that is not zero and sizes are told as they are: 90 degrees of a cone; NaN else. */
+static double cause_falls_from(const char *id)
+{
+    const struct cause_kind *kind = catalogue_find(id);
+    if (!kind || kind->size < 0 || kind->size >= EFFECT_MOST_PARAMETERS || kind->parameter[kind->size].one_sided >= 0)
+        return NAN;
+    return kind->parameter[kind->size].neutral;
+}
+
+/* "in fewer than 1 of 1,000": how often chance does it; "" where p is not known. */
+static const char *words_chance(struct pool *pool, double p)
+{
+    if (!isfinite(p))
+        return "";
+    if (p < 0.001)
+        return "in fewer than 1 of 1,000";
+    if (p < 0.01)
+        return or_nothing(pool_format(pool, "in about %.0f of 1,000", 1000 * p));
+    return or_nothing(pool_format(pool, "in about %.0f of 100", 100 * p));
+}
+
+static const char *sentence_of(struct pool *pool, const char *text)
+{
+    return or_nothing(pool_format(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : ""));
+}
+
+struct reasons {
+    struct pool *pool;
+    int count;
+    const char *text[MOST_REASONS];
+};
+
+static void say(struct reasons *reasons, const char *text)
+{
+    if (reasons->count < MOST_REASONS && text && *text)
+        reasons->text[reasons->count++] = text;
+}
+
+/* "step_stiffness and added_mass" */
+static const char *names(struct pool *pool, const rotid_diagnosis *d)
+{
+    const char *text = "";
+    for (int i = 0; i < d->verdict.ncauses && text; i++)
+        text = pool_format(pool, "%s%s%s", text,
+                           !i                            ? ""
+                           : i + 1 == d->verdict.ncauses ? " and "
+                                                         : ", ",
+                           cause_label(pool, d, &d->verdict.causes[i]));
+    return or_nothing(text);
+}
+
+static const char *headline(struct pool *pool, const rotid_diagnosis *d, const char *shifts)
+{
+    switch (d->verdict.kind) {
+    case ROTID_ADEQUATE:
+        return *shifts ? pool_format(pool, "Adequate, but what these data do not show may move %s", shifts) : "Adequate";
+    case ROTID_NAMED:
+        return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "",
+                           shifts);
+    case ROTID_AMBIGUOUS:
+        return verdict_sets(&d->verdict) == 1
+                   ? "Ambiguous: no name can be given"
+                   : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, verdict_sets(&d->verdict)));
+    case ROTID_UNEXPLAINED:
+        return "Unexplained";
+    default:
+        return "Interrupted: no verdict";
+    }
+}
+
+/* How to look for all that was named. */
+static const char *checks(struct pool *pool, const rotid_diagnosis *d)
+{
+    const char *text = "";
+    for (int i = 0; i < d->verdict.ncauses && text; i++)
+        if (!strstr(text, cause_check(d->verdict.causes[i].id)))
+            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->verdict.causes[i].id));
+    return or_nothing(text);
+}
+
+static const char *next(struct pool *pool, const rotid_diagnosis *d, const char *deck)
+{
+    const char *text = d->verdict.next_measurement, *look = checks(pool, d);
+    if (d->verdict.kind == -1)
+        return pool_format(pool, "Next: run rotid diagnose %s to its end.", deck);
+    if (d->verdict.kind == ROTID_ADEQUATE)
+        return "Next: read the detection limits below before you rely on the moduli. Smaller effects may be present.";
+    if (d->verdict.kind == ROTID_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
+        text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe the verdict", text ? text : "");
+    return text ? pool_format(pool, "Next: %s.", text) : NULL;
+}
+
+/* How often chance does what was found, and what that rests on. */
+static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
+{
+    struct pool *pool = reasons->pool;
+    const rotid_round *round = d->nrounds ? d->rounds : NULL;
+    int assumed = d->noise.frequency_assumed || d->noise.shape_assumed;
+    if (round && isfinite(d->verdict.p_value))
+        say(reasons, pool_format(pool,
+                                 "A model that is right misses the measurement so far or further %s tests: the "
+                                 "misfit \xcf\x87\xc2\xb2 is %s, where a right model has about %d.",
+                                 words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
+    if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
+        say(reasons,
+            pool_format(pool,
+                        "No cause of the catalogue promises to lower it by more than %s; chance alone reaches %s in 3 of "
+                        "100 tests.",
+                        human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
+    if (assumed)
+        say(reasons, "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
+                     "verdict, so no cause is named: state *NOISE.");
+}
+
+static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
+{
+    struct pool *pool = reasons->pool;
+    const rotid_round *round = d->rounds;
+    int first, second, count, tried = 0;
+    if (!d->nrounds || d->verdict.kind == -1)
+        return;
+    const rotid_candidate *candidate = diagnosis_candidates(d, 0, &count);
+    diagnosis_leaders(d, 0, &first, &second);
+    for (int i = 0; i < count; i++)
+        tried += candidate[i].refitted;
+    if (d->verdict.kind == ROTID_NAMED && first >= 0 && second >= 0)
+        say(reasons,
+            pool_format(pool,
+                        "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
+                        human_count(pool, tried), candidate_words(pool, d, &candidate[first]),
+                        candidate_words(pool, d, &candidate[second]),
+                        human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
+                        human_trimmed(pool, round->required_margin, 3)));
+    else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
+        say(reasons, pool_format(pool,
+                                 "Of %s causes that were fitted all others were refused, for their size or because they predict "
+                                 "held-out modes worse.",
+                                 human_count(pool, tried)));
+    if (d->verdict.kind == ROTID_AMBIGUOUS && verdict_sets(&d->verdict) > 1 && isfinite(round->required_margin))
+        say(reasons, pool_format(pool,
+                                 "None of them leads the others by %s in the misfit, the lead that a name requires. Their order "
+                                 "is that of the fit, and the next test may reverse it.",
+                                 human_trimmed(pool, round->required_margin, 3)));
+    if (d->verdict.kind == ROTID_UNEXPLAINED)
+        say(reasons,
+            tried ? pool_format(pool, "%s %s fitted and refused; the evidence says why.",
+                                sentence_of(pool, human_count(pool, tried)), human_plural(tried, "cause was", "causes were"))
+                  : "No cause of the catalogue promises enough to be fitted.");
+}
+
+static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
+{
+    struct pool *pool = reasons->pool;
+    const char *moved = "";
+    int count = 0;
+    for (int p = 0; p < d->gain.nparameters && moved; p++) {
+        double percent = 100 * (d->gain.parameters[p].after / d->gain.parameters[p].before - 1);
+        if (isfinite(percent))
+            moved = pool_format(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->gain.parameters[p].name,
+                                human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
+    }
+    if (count && moved && d->verdict.kind != -1)
+        say(reasons, pool_format(pool, "The missing cause had biased the parameters; the extended model moves %s.", moved));
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    for (int p = 0; fit && p < fit->nparameters; p++)
+        if (!fit->parameters[p].identifiable)
+            say(reasons, pool_format(pool, "%s %s.", fit->parameters[p].name,
+                                     fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
+                                                                 : "is not determined by these data"));
+}
+
+/* What the FIT of the deck makes of the parameters beside the full model. */
+static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
+{
+    struct pool *pool = reasons->pool;
+    const rotid_identification *final = d->extended ? d->extended : d->base, *today = diagnosis_today(d);
+    const char *text = "";
+    int count = 0;
+    if (!today || !final)
+        return;
+    for (int p = 0; p < today->nparameters && text; p++)
+        for (int q = 0; q < final->nparameters && text; q++) {
+            double percent = 100 * (today->parameters[p].value / final->parameters[q].value - 1);
+            if (strcmp(today->parameters[p].name, final->parameters[q].name) != 0 || !isfinite(percent))
+                continue;
+            text = pool_format(pool, "%s%s%s = %s, %s\xc2\xa0%%", text, count++ ? "; " : "", today->parameters[p].name,
+                               human_value(pool, today->parameters[p].value, today->parameters[p].unit),
+                               human_signed(pool, percent, 1));
+        }
+    if (count && text)
+        say(reasons,
+            pool_format(pool,
+                        "The fit as the deck states it (%s, reduction %s) gives %s against the %s here, which is the full "
+                        "model judged by the likelihood.",
+                        today->functional, today->reduction, text, d->extended ? "extended model" : "model"));
+}
+
+static const char *interrupted(struct pool *pool, const rotid_diagnosis *d)
+{
+    if (!d->base)
+        return "The diagnosis was interrupted before the model was fitted: there is nothing to judge yet.";
+    return d->verdict.ncauses ? or_nothing(pool_format(
+                                    pool,
+                                    "The diagnosis was interrupted before a verdict. A round that was finished would name %s; "
+                                    "the rounds that did not run may speak against that.",
+                                    names(pool, d)))
+                              : "The diagnosis was interrupted before a verdict. The finished part stands below: it shows where "
+                                "the model misses "
+                                "the measurement, and does not say why.";
+}
+
+static void tile_pair(struct document *document, const char *name, const rotid_pair *pair, const char *note)
+{
+    struct pool *pool = document->pool;
+    if (!isfinite(pair->before) && !isfinite(pair->after))
+        return;
+    document_tile(
+        document, name,
+        isfinite(pair->after) && isfinite(pair->before)
+            ? pool_format(pool, "%s \xe2\x86\x92 %s", human_digits(pool, pair->before, 2), human_digits(pool, pair->after, 2))
+            : human_digits(pool, isfinite(pair->after) ? pair->after : pair->before, 2),
+        note);
+}
+
+/* A parameter under the causes that cannot be told apart: the leading one's value, and the interval that holds all intervals. */
+static void tile_spread(struct document *document, const rotid_verdict *v, int p)
+{
+    struct pool *pool = document->pool;
+    const rotid_spread *s = &v->spread[p];
+    const rotid_cause *lead = v->nalternative_causes ? v->alternative_causes : NULL;
+    double value = lead && p < lead->nidentified ? lead->identified[p].value : (s->lowest + s->highest) / 2;
+    const rotid_fitted_parameter whole = {
+        .name = s->name, .unit = s->unit, .value = value, .ci95 = {s->ci95[0], s->ci95[1]}, .identifiable = 1};
+    tile_parameter(
+        document, &whole,
+        pool_format(pool, "holds those of all %s causes; the value is that of the first", human_count(pool, verdict_sets(v))));
+}
+
+static void add_tiles(struct document *document, const rotid_diagnosis *d)
+{
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    const rotid_verdict *v = &d->verdict;
+    struct pool *pool = document->pool;
+    const char *both =
+        d->extended ? or_nothing(pool_format(pool, "without \xe2\x86\x92 with %s", plain_text(pool, names(pool, d)))) : NULL;
+    for (int p = 0; fit && p < d->base->nparameters && p < TILES_MOST - 3; p++) {
+        const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
+        double was = d->base->parameters[p].value;
+        if (p < v->nspread && verdict_sets(v) > 1)
+            tile_spread(document, v, p);
+        else if (value)
+            tile_parameter(document, value,
+                           d->extended ? pool_format(pool, "was %s", human_value(pool, was, value->unit)) : NULL);
+    }
+    tile_pair(document, "error of the frequencies, rms [%]", &d->gain.frequency_rms_percent, both);
+    if (isfinite(d->gain.holdout_frequency_rms_percent.before))
+        tile_pair(document, "held-out frequencies, rms [%]", &d->gain.holdout_frequency_rms_percent, both);
+    else
+        tile_pair(document, "modes left out in turn, rms [%]", &d->gain.mode_out_frequency_rms_percent, both);
+    tile_pair(document, "\xcf\x87\xc2\xb2 per degree of freedom", &d->gain.chi2_per_dof,
+              both ? both : "1 is what the noise leaves");
+}
+
+void answer_diagnose(struct document *document, const struct result *result)
+{
+    static const enum tone tones[] = {TONE_BAD, TONE_GOOD, TONE_CARE, TONE_CARE, TONE_BAD};
+    const rotid_diagnosis *d = result->diagnose;
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    struct pool *pool = document->pool;
+    int explained = d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after;
+    document->now.tone = tones[d->verdict.kind + 1];
+    if (d->verdict.kind == ROTID_ADEQUATE && fit && hidden_is_wide(fit, d->nhidden, d->hidden))
+        document->now.tone = TONE_CARE;
+    document->now.headline = headline(pool, d, explained && fit ? hidden_in_words(pool, fit, d->nhidden, d->hidden, 0) : "");
+    document->now.text =
+        d->verdict.kind < 0 || !d->verdict.sentence ? interrupted(pool, d)
+        : d->interrupted
+            ? pool_format(pool, "%s The diagnosis was interrupted afterwards: the rest of this page is not complete.",
+                          d->verdict.sentence)
+            : d->verdict.sentence;
+    document->now.next = next(pool, d, result->head.deck ? result->head.deck : "DECK");
+    if (d->base && d->verdict.kind >= 0)
+        add_tiles(document, d);
+}
+
+static void section_why(struct document *document, const rotid_diagnosis *d)
+{
+    struct reasons reasons = {.pool = document->pool};
+    on_chance(&reasons, d);
+    on_lead(&reasons, d);
+    on_parameters(&reasons, d);
+    on_today(&reasons, d);
+    if (!reasons.count)
+        return;
+    document_section(document, "trust", "Why");
+    document_list(document, reasons.count, reasons.text);
+}
+
+/* ---- parameters */
+
+/* "stiffness of right with added_mass": set of alternative i. */
+static const char *set_label(struct pool *pool, const rotid_diagnosis *d, int i)
+{
+    const rotid_verdict *v = &d->verdict;
+    const char *text = cause_label(pool, d, &v->alternative_causes[i]);
+    for (int k = i + 1; k < v->nalternative_causes && verdict_is_pair(v, k); k++)
+        text = pool_format(pool, "%s with %s", text ? text : "", cause_label(pool, d, &v->alternative_causes[k]));
+    return text ? text : "";
+}
+
+static struct table *values_of(struct pool *pool, const rotid_diagnosis *d)
+{
+    static const struct table_column columns[] = {{"parameter", NULL, TABLE_TEXT, 0},   {"if it is", NULL, TABLE_TEXT, 0},
+                                                  {"unit", NULL, TABLE_TEXT, 0},        {"value", NULL, TABLE_DIGITS, 4},
+                                                  {"95 % from", NULL, TABLE_DIGITS, 4}, {"to", NULL, TABLE_DIGITS, 4}};
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    const rotid_verdict *v = &d->verdict;
+    struct table *table = OPEN(pool, "Parameters and their 95 % intervals", columns);
+    for (int p = 0; p < d->base->nparameters; p++) {
+        const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
+        if (value) {
+            cell_text(table, value->name);
+            cell_text(table, !v->nalternative_causes ? "" : d->extended ? "the extended model" : "the model as it is");
+            cell_interval(table, value->value, value->ci95, value->unit);
+        }
+        for (int i = 0; i < v->nalternative_causes; i++) {
+            const rotid_cause *cause = &v->alternative_causes[i];
+            if (verdict_is_pair(v, i) || p >= cause->nidentified)
+                continue;
+            cell_text(table, cause->identified[p].name);
+            cell_text(table, set_label(pool, d, i));
+            cell_interval(table, cause->identified[p].value, cause->identified[p].ci95, cause->identified[p].unit);
+        }
+    }
+    return table;
+}
+
+/* What the dispute is worth, in a paragraph. */
+static void say_spread(struct document *document, const rotid_verdict *v)
+{
+    char figure[32];
+    for (int p = 0; p < v->nspread && verdict_sets(v) > 1; p++) {
+        const rotid_spread *s = &v->spread[p];
+        struct human_unit unit = human_unit(s->highest, s->unit);
+        document_paragraph(document, "%s lies between %s and %s%s%s, %s apart, depending on the cause.", s->name,
+                           human_digits(document->pool, s->lowest * unit.factor, 4),
+                           human_digits(document->pool, s->highest * unit.factor, 4), *unit.text ? "\xc2\xa0" : "", unit.text,
+                           percent_text(200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest), figure));
+    }
+}
+
+void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden)
+{
+    static const struct table_column columns[] = {{"parameter", NULL, TABLE_TEXT, 0},
+                                                  {"moved by", NULL, TABLE_TEXT, 0},
+                                                  {"cause", NULL, TABLE_TEXT, 0},
+                                                  {"its size", NULL, TABLE_TEXT, 0},
+                                                  {"z", "m", TABLE_TRIMMED, 3}};
+    struct pool *pool = document->pool;
+    struct table *table = OPEN(pool, "Causes below their detection limits that move the parameters most", columns);
+    char figure[32];
+    if (!count)
+        return;
+    for (int i = 0; i < count; i++) {
+        const rotid_fitted_parameter *value = fit_parameter(fit, hidden[i].parameter);
+        struct human_unit unit = human_unit(hidden[i].size, hidden[i].size_unit);
+        cell_text(table, hidden[i].parameter);
+        cell_text(table,
+                  value ? pool_copy_text(pool, linear_percent_text(100 * fabs(hidden[i].shift / value->value), figure)) : "");
+        cell_text(table, cause_name(pool, hidden[i].id, hidden[i].target));
+        cell_text(table, !strcmp(hidden[i].component, "presence")
+                             ? "there or not"
+                             : pool_format(pool, "%s %s%s%s", hidden[i].component,
+                                           human_digits(pool, fabs(hidden[i].size) * unit.factor, 2),
+                                           *unit.text ? "\xc2\xa0" : "", unit.text));
+        cell_number(table, hidden[i].z_m);
+    }
+    document_section(document, "hidden", "What may hide in the parameters");
+    document_paragraph(
+        document, "The model explains the measurement, and so would a model with one of these causes in it, of a size below its "
+                  "detection limit. The fit without the cause moves the parameter as far as this. The size is the smallest "
+                  "that shows in 9 of 10 tests at that place, or the largest that is physical, as its distance from no effect; a "
+                  "smaller one moves the parameter less in proportion.");
+    document_table(document, table);
+}
+
+static void section_parameters(struct document *document, const rotid_diagnosis *d)
+{
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    if (!d->base || !fit || d->verdict.kind < 0 || !d->base->nparameters)
+        return;
+    document_section(document, "verdict-parameters", "Parameters of the verdict");
+    say_spread(document, &d->verdict);
+    document_figures(document, "correlation");
+    document_table(document, values_of(document->pool, d));
+    if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
+        section_hidden(document, fit, d->nhidden, d->hidden);
+}
+
+/* ---- causes */
+
+static struct table *candidates_of(struct pool *pool, const rotid_diagnosis *d, int round)
+{
+    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
+                                                  {"drop expected", NULL, TABLE_DIGITS, 4},
+                                                  {"drop reached", NULL, TABLE_DIGITS, 4},
+                                                  {"p-value", NULL, TABLE_CHANCE, 2},
+                                                  {"BIC", NULL, TABLE_DIGITS, 5},
+                                                  {"modes left out", "%", TABLE_DIGITS, 3},
+                                                  {"sensors left out", NULL, TABLE_DIGITS, 3},
+                                                  {"held out", "%", TABLE_DIGITS, 3},
+                                                  {"what became of it", NULL, TABLE_TEXT, 0}};
+    int count;
+    const rotid_candidate *c = diagnosis_candidates(d, round, &count);
+    struct table *table = OPEN(pool, pool_format(pool, "Candidates of round %d, those that stay first", round + 1), columns);
+    for (int i = 0; i < count; i++, c++) {
+        const double cell[] = {c->predicted_drop, c->chi2_drop,      c->p_value,    c->bic,
+                               c->mode_out_rms,   c->sensor_out_rms, c->holdout_rms};
+        cell_text(table, c->suspect ? pool_format(pool, "%s (your suspicion)", candidate_words(pool, d, c))
+                                    : candidate_words(pool, d, c));
+        for (int j = 0; j < COUNT_OF(cell); j++)
+            cell_number(table, cell[j]);
+        cell_text(table, candidate_fate(pool, d, c));
+    }
+    return table;
+}
+
+static struct table *sizes_of(struct pool *pool, const rotid_diagnosis *d, int round)
+{
+    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
+                                                  {"size and place, 95 % interval", NULL, TABLE_TEXT, 0},
+                                                  {"most similar", NULL, TABLE_TEXT, 0},
+                                                  {"cosine", NULL, TABLE_FIXED, 2}};
+    int count;
+    const rotid_candidate *c = diagnosis_candidates(d, round, &count);
+    struct table *table =
+        OPEN(pool, pool_format(pool, "Sizes and places of the fitted candidates of round %d", round + 1), columns);
+    for (int i = 0; i < count; i++, c++) {
+        const char *values = cause_values(pool, &c->cause), *both = c->with ? cause_values(pool, c->with) : "";
+        if (!c->refitted)
+            continue;
+        cell_text(table, candidate_words(pool, d, c));
+        cell_text(table, pool_format(pool, "%s%s%s%s", values, *both && *values ? "; with " : "", both,
+                                     c->at_bound ? ", at a bound" : ""));
+        cell_text(table,
+                  c->collinear_with ? cause_name(pool, c->collinear_with, c->collinear_target ? c->collinear_target : "") : "");
+        cell_number(table, c->collinear_with ? c->cosine : (double)NAN);
+    }
+    return table;
+}
+
+static void section_evidence(struct document *document, const rotid_diagnosis *d)
+{
+    static const char *const kinds[] = {"no verdict", "the model is adequate", "a cause is named", "the data cannot tell",
+                                        "no cause explains the misfit"};
+    struct pool *pool = document->pool;
+    if (!d->nrounds)
+        return;
+    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "Causes that were tried" : "Possible causes");
+    document_figures(document, "causes");
+    for (int i = 0; i < d->nrounds; i++) {
+        const rotid_round *round = &d->rounds[i];
+        int fitted = 0, count;
+        const rotid_candidate *candidate = diagnosis_candidates(d, i, &count);
+        for (int k = 0; k < count; k++)
+            fitted += candidate[k].refitted;
+        document_paragraph(document, "Round %d: %s. The misfit \xcf\x87\xc2\xb2 before it is %s%s%s%s.", i + 1,
+                           kinds[round->kind + 1], human_digits(pool, round->chi2, 4),
+                           isfinite(round->threshold) ? "; chance alone lowers it by " : "",
+                           isfinite(round->threshold) ? human_digits(pool, round->threshold, 3) : "",
+                           isfinite(round->threshold) ? " in 3 of 100 tests" : "");
+        if (!fitted) {
+            document_paragraph(document, "Nothing promised enough to be fitted.");
+            continue;
+        }
+        document_table(document, candidates_of(pool, d, i));
+        document_table(document, sizes_of(pool, d, i));
+    }
+}
+
+static struct table *quality_of(struct pool *pool, const rotid_diagnosis *d)
+{
+    const rotid_gain *gain = &d->gain;
+    const struct {
+        const rotid_pair *pair;
+        const char *text;
+        double factor;
+    } rows[] = {{&gain->frequency_rms_percent, "fitted frequencies, error, rms [%]", 1},
+                {&gain->frequency_max_percent, "fitted frequencies, largest error [%]", 1},
+                {&gain->shape_rms, "fitted shapes, rms [% of the largest component]", 100},
+                {&gain->chi2_per_dof, "misfit \xcf\x87\xc2\xb2 per degree of freedom", 1},
+                {&gain->nco_min, "smallest NCO", 1},
+                {&gain->holdout_frequency_rms_percent, "modes held out by the deck, frequency, rms [%]", 1},
+                {&gain->holdout_shape_rms, "modes held out by the deck, shape, rms [%]", 100},
+                {&gain->mode_out_frequency_rms_percent, "modes left out in turn, frequency, rms [%]", 1},
+                {&gain->mode_out_shape_rms, "modes left out in turn, shape, rms [%]", 100},
+                {&gain->sensor_out_shape_rms, "sensors left out in turn, shape, rms [%]", 100}};
+    int after = d->extended != NULL;
+    struct table *table = table_open(pool, after ? "Quality before and after" : "Quality of the model");
+    table_add_column(table, "quality", NULL, TABLE_TEXT, 0);
+    table_add_column(table, after ? "without the cause" : "of the model", NULL, TABLE_DIGITS, 3);
+    if (after)
+        table_add_column(table, "with it", NULL, TABLE_DIGITS, 3);
+    for (int i = 0; i < COUNT_OF(rows); i++) {
+        if (!isfinite(rows[i].pair->before) && !isfinite(rows[i].pair->after))
+            continue;
+        cell_text(table, rows[i].text);
+        cell_number(table, rows[i].factor * rows[i].pair->before);
+        if (after)
+            cell_number(table, rows[i].factor * rows[i].pair->after);
+    }
+    return table;
+}
+
+/* ---- the rest */
+
+/* How to look for what was named, or for what cannot be told apart, each check once. */
+static void section_next(struct document *document, const rotid_diagnosis *d, const char *deck)
+{
+    struct pool *pool = document->pool;
+    int count = d->verdict.kind == -1 ? 0 : d->verdict.ncauses + d->verdict.nalternative_causes, n = 0;
+    const char **text = POOL_ARRAY(pool, const char *, count + 1);
+    if (!text) {
+        document->failed = 1;
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const rotid_cause *cause =
+            i < d->verdict.ncauses ? &d->verdict.causes[i] : &d->verdict.alternative_causes[i - d->verdict.ncauses];
+        const char *check = cause_check(cause->id);
+        int seen = !*check;
+        for (int j = 0; j < i; j++)
+            seen |= cause_check(
+                        (j < d->verdict.ncauses ? &d->verdict.causes[j] : &d->verdict.alternative_causes[j - d->verdict.ncauses])
+                            ->id) == check;
+        if (!seen)
+            text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
+    }
+    if (count && d->verdict.ncauses)
+        text[n++] =
+            pool_format(pool,
+                        "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
+                        "cause as a *CAUSE card, and rotid identify better.inp uses it.",
+                        deck);
+    if (!n)
+        return;
+    document_section(document, "look",
+                     d->verdict.ncauses ? "Inspect the rotor before you believe the verdict"
+                                        : "The measurement that would decide");
+    document_list(document, n, text);
+}
+
+static void section_findings(struct document *document, const rotid_diagnosis *d)
+{
+    static const struct table_column columns[] = {{"mode", NULL, TABLE_FIXED, 0},
+                                                  {"error of the frequency", "%", TABLE_SIGNED, 3}};
+    struct pool *pool = document->pool;
+    if (!d->ndata_findings && !d->nnumerical_findings)
+        return;
+    document_section(document, "findings", "Measurement and numbers");
+    for (int i = 0; i < d->ndata_findings; i++)
+        document_paragraph(document, "%s: %s. At the test: %s.", d->data_findings[i].id,
+                           d->data_findings[i].text ? d->data_findings[i].text : "found", cause_check(d->data_findings[i].id));
+    for (int i = 0; i < d->nnumerical_findings; i++) {
+        const rotid_numerical_finding *finding = &d->numerical_findings[i];
+        struct table *table = OPEN(pool, pool_format(pool, "%s: its error in each mode", finding->id), columns);
+        document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
+        for (int k = 0; k < finding->nmodes; k++) {
+            cell_number(table, finding->modes[k]);
+            cell_number(table, finding->error_percent[k]);
+        }
+        if (finding->nmodes)
+            document_table(document, table);
+    }
+}
+
+/* Two digits: more is not known of a size that would have shown. */
+static const char *size_of(struct pool *pool, double size, const char *unit)
+{
+    struct human_unit shown = human_unit(size, unit);
+    const char *text =
+        pool_format(pool, "%s%s%s", human_digits(pool, size * shown.factor, 2), *shown.text ? "\xc2\xa0" : "", shown.text);
+    return text ? text : "";
+}
+
+static void section_detection_limits(struct document *document, const rotid_diagnosis *d)
+{
+    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
+                                                  {"parameter", NULL, TABLE_TEXT, 0},
+                                                  {"smallest that would have shown", NULL, TABLE_TEXT, 0},
+                                                  {"where it shows best, z", "m", TABLE_DIGITS, 3},
+                                                  {"at the worst place", NULL, TABLE_TEXT, 0}};
+    struct pool *pool = document->pool;
+    struct table *table = OPEN(pool, "Detection limits: the smallest size of each cause that would have shown", columns);
+    if (!d->ndetectable)
+        return;
+    for (int i = 0; i < d->ndetectable; i++) {
+        const rotid_detectable *size = &d->detectable[i];
+        int none = size->beyond || !isfinite(size->smallest);
+        double neutral = cause_falls_from(size->id), shown = isfinite(neutral) ? neutral - size->smallest : size->smallest;
+        cell_text(table, cause_name(pool, size->id, size->target));
+        cell_text(table, size->parameter);
+        cell_text(table, none ? "no size within physical bounds"
+                              : pool_format(pool, "%s%s", size_of(pool, shown, size->unit), isfinite(neutral) ? " or less" : ""));
+        cell_number(table, none ? (double)NAN : size->z_m);
+        cell_text(table, isfinite(size->worst)          ? size_of(pool, size->worst, size->unit)
+                         : isfinite(size->z_m) && !none ? "no size"
+                                                        : "");
+    }
+    document_section(document, "limits", "Detection limits");
+    document_paragraph(document,
+                       "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
+                       "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
+    document_figures(document, "limits");
+    document_table(document, table);
+}
+
+void section_diagnose(struct document *document, const struct result *result)
+{
+    const rotid_diagnosis *d = result->diagnose;
+    if (d->base) {
+        document_section(document, "misfit",
+                         d->extended || d->verdict.kind == ROTID_ADEQUATE ? "Model and measurement" : "Where the model misses");
+        document_figures(document, "shapes");
+        document_figures(document, "agreement");
+        document_table(document,
+                       table_of_fitted_modes(document->pool, result, d->extended ? d->extended : d->base,
+                                             d->extended ? "Modes of the extended model"
+                                                         : "Modes: errors are predicted over measured frequency, less one"));
+        if (d->extended)
+            document_table(document,
+                           table_of_fitted_modes(document->pool, result, d->base, "Modes of the model without the cause"));
+    }
+    if (d->base && d->verdict.kind >= 0) {
+        document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality of the model");
+        document_figures(document, "gain");
+        document_table(document, quality_of(document->pool, d));
+    }
+    section_evidence(document, d);
+    section_why(document, d);
+    section_next(document, d, result->head.deck ? result->head.deck : "DECK");
+    section_parameters(document, d);
+    section_findings(document, d);
+    if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */
+        document_section(document, "places", "Where on the rotor");
+        document_figures(document, "places");
+    }
+    section_detection_limits(document, d);
+}

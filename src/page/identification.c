@@ -1,0 +1,270 @@
+/* The verdict on an identification in plain words, the tiles, and how far to trust it. */
+#include <math.h>
+#include <string.h>
+
+#include "fit/interval.h"
+#include "page/page.h"
+#include "report/human.h"
+
+#define MOST_REASONS      12
+#define NAMED             3    /* parameters that the answer names; the table has the others */
+#define POOR_PERCENT      2.0  /* error of a fitted frequency that a beam need not leave */
+#define CONDENSED_PERCENT 0.5  /* as `rotid frf` warns */
+#define SAME_POINT        1e-6 /* relative difference of objectives */
+
+struct reasons {
+    struct pool *pool;
+    int count;
+    enum tone tone;
+    const char *text[MOST_REASONS];
+};
+
+static void say(struct reasons *reasons, enum tone tone, const char *text)
+{
+    if (reasons->count < MOST_REASONS && text)
+        reasons->text[reasons->count++] = text;
+    reasons->tone = tone > reasons->tone ? tone : reasons->tone;
+}
+
+/* "core.E = 115.7 GPa (95 %: 55 to 176), core.G = ..." */
+static const char *values(struct pool *pool, const rotid_identification *fit)
+{
+    const char *text = "";
+    for (int p = 0; p < fit->nparameters && p < NAMED && text; p++) {
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
+        text = pool_format(pool, "%s%s%s = %s", text, p ? "; " : "", parameter->name,
+                           human_interval(pool, parameter->value, parameter->ci95, parameter->unit));
+    }
+    if (fit->nparameters > NAMED && text)
+        text = pool_format(pool, "%s; and %s more", text, human_count(pool, fit->nparameters - NAMED));
+    return text ? text : "";
+}
+
+static void on_convergence(struct reasons *reasons, const rotid_identification *fit)
+{
+    struct pool *pool = reasons->pool;
+    if (!strcmp(fit->status, "converged"))
+        say(reasons, TONE_GOOD,
+            pool_format(pool, "The fit converged in %s %s: %s.", human_count(pool, fit->iterations),
+                        human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason));
+    else if (!strcmp(fit->status, "at_bound"))
+        say(reasons, TONE_BAD,
+            "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
+    else
+        say(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
+    const char *held = "", *loose = "";
+    for (int p = 0; p < fit->nparameters && held && loose; p++) {
+        const char **list = fit->parameters[p].at_bound ? &held : &loose;
+        if (!fit->parameters[p].identifiable)
+            *list = pool_format(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameters[p].name);
+    }
+    if (held && *held)
+        say(reasons, TONE_BAD, pool_format(pool, "At a bound: %s.", held));
+    if (loose && *loose)
+        say(reasons, TONE_BAD, pool_format(pool, "Not determined by these data, alone or in a combination: %s.", loose));
+}
+
+static void on_baseline(struct reasons *reasons, const rotid_identification *fit)
+{
+    struct pool *pool = reasons->pool;
+    double best = INFINITY, furthest = 0;
+    const char *names = "";
+    int usable = 0;
+    for (int b = 0; b < fit->nbaseline && names; b++) {
+        if (!fit->baseline[b].usable || !isfinite(fit->baseline[b].objective))
+            continue;
+        best = fmin(best, fit->baseline[b].objective);
+        furthest = fmax(furthest, fabs(fit->baseline[b].objective / fit->objective - 1));
+        names = pool_format(pool, "%s%s%s", names, usable++ ? ", " : "", fit->baseline[b].algorithm);
+    }
+    if (!usable || !names)
+        return;
+    if (best < fit->objective * (1 - SAME_POINT))
+        say(reasons, TONE_BAD,
+            pool_format(pool, "NLopt (%s) found a point where the functional is lower: %s against %s.", names,
+                        human_digits(pool, best, 6), human_digits(pool, fit->objective, 6)));
+    else if (furthest <= SAME_POINT)
+        say(reasons, TONE_GOOD,
+            pool_format(pool,
+                        "NLopt (%s), started at the same point, ends at the same minimum; the functionals differ by %s at most.",
+                        names, human_digits(pool, furthest, 1)));
+    else
+        say(reasons, TONE_GOOD, pool_format(pool, "Not all of NLopt's minimisers (%s) got as far; none got further.", names));
+}
+
+static void on_misfit(struct reasons *reasons, const rotid_identification *fit, const char *deck)
+{
+    struct pool *pool = reasons->pool;
+    int worst = fit_worst_mode(fit), noisy = isfinite(fit_p_value(fit));
+    double rms = fit_rms_percent(fit, 0), held = fit_rms_percent(fit, 1);
+    const char *state = fit_state_of_mode(fit, worst < 0 ? 0 : worst);
+    if (worst >= 0)
+        say(reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
+            pool_format(pool,
+                        "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% "
+                        "in mode %d%s%s.",
+                        human_digits(pool, rms, 2),
+                        human_signed(pool, fit->modes[worst].error_percent, fabs(fit->modes[worst].error_percent) < 0.01 ? 5 : 2),
+                        fit->modes[worst].mode, state ? " of state " : "", state ? state : ""));
+    if (isfinite(held))
+        say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
+            pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
+    if (!noisy)
+        return;
+    if (fit_is_inadequate(fit))
+        say(reasons, TONE_BAD,
+            pool_format(
+                pool,
+                "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
+                "model lacks something, and its parameters have absorbed it. rotid diagnose %s looks for the cause.",
+                human_digits(pool, sqrt(fit->chi2_per_dof), 2), human_digits(pool, fit->chi2, 3), fit->dof, deck));
+    else
+        say(reasons, TONE_GOOD,
+            pool_format(pool, "The stated noise explains the misfit: \xcf\x87\xc2\xb2 = %s with %d degrees of freedom.",
+                        human_digits(pool, fit->chi2, 3), fit->dof));
+}
+
+static void on_intervals(struct reasons *reasons, const rotid_identification *fit)
+{
+    struct pool *pool = reasons->pool;
+    const char *wide = "";
+    double widest = 0;
+    int none = 0;
+    for (int p = 0; p < fit->nparameters && wide; p++) {
+        double half = human_half_width_percent(fit->parameters[p].value, fit->parameters[p].ci95);
+        if (!isfinite(half)) {
+            none++;
+            continue;
+        }
+        widest = fmax(widest, half);
+        wide = pool_format(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, *wide ? ", " : "", fit->parameters[p].name,
+                           human_digits(pool, half, 2));
+    }
+    if (none == fit->nparameters)
+        say(reasons, TONE_CARE, "No interval can be stated for any parameter.");
+    else
+        say(reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD,
+            pool_format(pool, "The 95\xc2\xa0%% intervals: %s%s.%s", wide ? wide : "", none ? ", none for the others" : "",
+                        isfinite(fit->chi2) ? fit->intervals_widened_by > 1
+                                                  ? " They are widened because the misfit exceeds the stated noise."
+                                                  : ""
+                                            : " They rest on the misfit that is left, since no noise is stated (*NOISE)."));
+}
+
+static void on_condensation(struct reasons *reasons, const rotid_identification *fit)
+{
+    double worst = 0;
+    int mode = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        if (!fit->modes[k].holdout && fabs(fit->reduction_error_percent[k]) > fabs(worst)) {
+            worst = fit->reduction_error_percent[k];
+            mode = fit->modes[k].mode;
+        }
+    if (strcmp(fit->reduction, "NONE") != 0 && fabs(worst) > CONDENSED_PERCENT)
+        say(reasons, TONE_CARE,
+            pool_format(
+                reasons->pool,
+                "Condensation (REDUCTION=%s) alone moves the frequency of mode %d by %s\xc2\xa0%%; the parameters absorb that. "
+                "REDUCTION=NONE avoids it.",
+                fit->reduction, mode, human_signed(reasons->pool, worst, 2)));
+}
+
+static void tile_number(struct document *document, const char *name, double value, const char *note)
+{
+    if (isfinite(value))
+        document_tile(document, name, human_digits(document->pool, value, 2), note);
+}
+
+void tile_parameter(struct document *document, const rotid_fitted_parameter *parameter, const char *note)
+{
+    struct pool *pool = document->pool;
+    struct human_unit unit = human_unit(parameter->value, parameter->unit);
+    double f = unit.factor, half = (parameter->ci95[1] - parameter->ci95[0]) / 2 * f;
+    int decimals = human_decimals(parameter->value * f, half);
+    const char *interval = isfinite(half)
+                               ? pool_format(pool, "95\xc2\xa0%%: %s to %s", human_fixed(pool, parameter->ci95[0] * f, decimals),
+                                             human_fixed(pool, parameter->ci95[1] * f, decimals))
+                               : "no interval can be stated";
+    document_tile(document, *unit.text ? pool_format(pool, "%s [%s]", parameter->name, unit.text) : parameter->name,
+                  human_fixed(pool, parameter->value * f, decimals),
+                  pool_format(pool, "%s%s%s", or_nothing(interval), note ? "; " : "", or_nothing(note)));
+}
+
+/* Why the fit can be trusted or not. */
+static struct reasons reasons_of(struct pool *pool, const struct result *result)
+{
+    const rotid_identification *fit = result->identify;
+    struct reasons reasons = {.pool = pool};
+    const char *deck = result->head.deck ? result->head.deck : "DECK";
+    on_convergence(&reasons, fit);
+    on_misfit(&reasons, fit, deck);
+    on_intervals(&reasons, fit);
+    on_condensation(&reasons, fit);
+    on_baseline(&reasons, fit);
+    if (*hidden_in_words(pool, fit, fit->nhidden, fit->hidden, 0))
+        say(&reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
+            pool_format(
+                pool,
+                "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose "
+                "%s says more.",
+                hidden_in_words(pool, fit, fit->nhidden, fit->hidden, 1), deck));
+    return reasons;
+}
+
+void answer_identify(struct document *document, const struct result *result)
+{
+    const rotid_identification *fit = result->identify;
+    struct pool *pool = document->pool;
+    const char *shifts = hidden_in_words(pool, fit, fit->nhidden, fit->hidden, 0);
+    document->now.text = values(pool, fit);
+    document->now.tone = reasons_of(pool, result).tone;
+    if (document->now.tone == TONE_GOOD)
+        document->now.headline = *shifts
+                                     ? pool_format(pool, "Can be relied on, but what these data do not show may move %s", shifts)
+                                     : "Can be relied on as far as the model is right";
+    for (int p = 0; p < fit->nparameters && p < TILES_MOST - 3; p++)
+        tile_parameter(document, &fit->parameters[p],
+                       fit->parameters[p].at_bound        ? "at its bound"
+                       : !fit->parameters[p].identifiable ? "not determined"
+                                                          : NULL);
+    tile_number(document, "error of the frequencies, rms [%]", fit_rms_percent(fit, 0), "of the fitted modes");
+    tile_number(document, "error of held-out frequencies, rms [%]", fit_rms_percent(fit, 1), "not fitted");
+    tile_number(document, "\xcf\x87\xc2\xb2 per degree of freedom", fit->chi2_per_dof,
+                pool_format(pool, "%d degrees of freedom; 1 is what the stated noise leaves", fit->dof));
+}
+
+void section_trust(struct document *document, const struct result *result)
+{
+    const struct reasons reasons = reasons_of(document->pool, result);
+    document_section(document, "trust", "How far to trust it");
+    document_list(document, reasons.count, reasons.text);
+    if (!fit_is_inadequate(result->identify)) /* else something shows already */
+        section_hidden(document, result->identify, result->identify->nhidden, result->identify->hidden);
+}
+
+void answer_plain(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    const char *text = "";
+    if (result->modes && result->modes->nmodes) {
+        const rotid_model_mode *mode = result->modes->modes;
+        text =
+            pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmodes,
+                        human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
+    } else if (result->suggest) {
+        text = result->suggest->sentence;
+    } else if (result->sensitivity) {
+        text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz,
+                           result->sensitivity->nparameters,
+                           human_plural(result->sensitivity->nparameters, "parameter", "parameters"));
+    } else if (result->frf) {
+        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->frf->nfunctions,
+                           human_plural(result->frf->nfunctions, "function", "functions"),
+                           human_trimmed(pool, result->frf->low_hz, 4), human_trimmed(pool, result->frf->high_hz, 5));
+    } else if (result->check) {
+        text = pool_format(pool, "A rotor of %s\xc2\xa0m and %s\xc2\xa0kg in %d %s",
+                           human_trimmed(pool, result->check->length_m, 4), human_trimmed(pool, result->check->mass_kg, 4),
+                           result->check->elements, human_plural(result->check->elements, "element", "elements"));
+    }
+    document->now.text = or_nothing(text);
+}

@@ -1,0 +1,131 @@
+/* What a page is made of: a result of a command, or the file of results of a study; and what a state has of it. */
+#include <string.h>
+
+#include "page/page.h"
+#include "result/records.h"
+#include "study/summary.h"
+
+/* The lines behind the first: each a run of this version, with the place of every mistake. */
+static void check_runs(const struct json_place *lines, const struct study_result *study)
+{
+    struct reader *reader = lines->reader;
+    char name[32];
+    struct json_place line = {.reader = reader, .above = lines, .key = name};
+    int number = 1;
+    for (const cJSON *json = lines->json->child ? lines->json->child->next : NULL; json && reader->status != ROTID_ERROR_MEMORY;
+         json = json->next) {
+        struct study_run run = {0};
+        int found = 0, wrong = reader->nwrong;
+        (void)snprintf(name, sizeof name, "line %d", ++number);
+        line.json = json;
+        if (!cJSON_IsObject(json)) {
+            place_wrong(&line, "is no run, expected an object");
+            continue;
+        }
+        record_read(&line, &study_run_record, &run);
+        for (int i = 0; i < study->ncells && !found && reader->nwrong == wrong; i++)
+            found = summary_same_cell(&run.cell, &study->cells[i].cell);
+        if (!found && reader->nwrong == wrong)
+            place_wrong(&line, "cell: is none of those that the file has, expected one of them");
+    }
+}
+
+/* A file of results of a study: its first line says what it is. */
+static void read_lines(const struct json_place *lines, struct result *result)
+{
+    struct reader *reader = lines->reader;
+    struct json_place head = place_first(lines, PLACE_OBJECT);
+    struct study_result *study = POOL_NEW(reader->pool, struct study_result);
+    struct header header;
+    if (!head.json || !place_has(&head, "rotid") || !place_has(&head, "studies")) {
+        place_wrong(lines, "has a value a line and is no file of results, expected one of rotid study, or one result");
+        return;
+    }
+    result->head = (struct result_head){.schema = RESULT_SCHEMA,
+                                        .command = "study",
+                                        .rotid = place_string(&head, "rotid"),
+                                        .commit = place_string(&head, "commit"),
+                                        .seed = place_number(&head, "seed"),
+                                        .blas = ""};
+    if (reader->status)
+        return;
+    int status = study ? summary_read(reader->pool, reader->file, reader->messages, &header, study) : ROTID_ERROR_MEMORY;
+    result->study = study;
+    if (status)
+        reader->status = status == ROTID_ERROR_MEMORY ? status : ROTID_ERROR_SYNTAX;
+    else
+        check_runs(lines, study);
+}
+
+int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result)
+{
+    return result_read(pool, file, messages, read_lines, result);
+}
+
+const char *page_source(const struct result *result)
+{
+    return plain_file(result->ema                               ? result->ema->source.file
+                      : result->head.deck && *result->head.deck ? result->head.deck
+                                                                : result->file);
+}
+
+int page_state_count(const struct result *result)
+{
+    return result->identify ? result->identify->nstates : result->nstates;
+}
+
+const char *page_state_name(const struct result *result, int s)
+{
+    return result->identify ? result->identify->states[s].name : result->states[s].name;
+}
+
+/* References go over the modes of all states. */
+static void take_references(struct pool *pool, struct result_head *head, int first)
+{
+    rotid_reference *reference = POOL_ARRAY(pool, rotid_reference, head->nreferences);
+    for (int i = 0; i < head->nreferences && reference; i++) {
+        int skip = first < head->references[i].nvalues ? first : head->references[i].nvalues;
+        reference[i] = head->references[i];
+        reference[i].values += skip;
+        reference[i].nvalues -= skip;
+    }
+    head->nreferences = reference ? head->nreferences : 0;
+    head->references = reference;
+}
+
+static rotid_identification *identification_of_state(struct pool *pool, const rotid_identification *fit, int s, int first)
+{
+    rotid_identification *own = POOL_NEW(pool, rotid_identification);
+    rotid_minimiser *baseline = POOL_ARRAY(pool, rotid_minimiser, fit->nbaseline);
+    if (!own || !baseline)
+        return NULL;
+    *own = fit_of_state(fit, s);
+    for (int b = 0; b < fit->nbaseline; b++) {
+        baseline[b] = fit->baseline[b];
+        baseline[b].npredicted_hz = baseline[b].predicted_hz ? own->nmodes : 0;
+        baseline[b].predicted_hz = baseline[b].predicted_hz ? baseline[b].predicted_hz + first : NULL;
+    }
+    own->nbaseline = fit->nbaseline;
+    own->baseline = baseline;
+    return own;
+}
+
+struct result page_result_of_state(struct pool *pool, const struct result *result, int s)
+{
+    struct result own = *result;
+    int first = 0;
+    own.nstates = 0;
+    own.states = NULL;
+    if (result->identify) {
+        for (int t = 0; t < s; t++)
+            first += result->identify->states[t].nmodes;
+        take_references(pool, &own.head, first);
+        own.identify = identification_of_state(pool, result->identify, s, first);
+        return own;
+    }
+    own.check = result->states[s].check;
+    own.modes = result->states[s].modes;
+    own.sensitivity = result->states[s].sensitivity;
+    own.frf = result->states[s].frf;
+    return own;
+}

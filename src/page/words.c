@@ -1,0 +1,185 @@
+/* Texts for a person: causes by name, files without their folders, what may hide in a parameter. */
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "fit/interval.h"
+#include "page/page.h"
+
+const char *or_nothing(const char *text)
+{
+    return text ? text : "";
+}
+
+/* Ids whose words a reader would have to turn round. */
+static const char *const names[][2] = {{"beam_theory", "error of beam theory"},
+                                       {"guyan_reduction", "Guyan condensation"},
+                                       {"stiffness_local", "soft zone"},
+                                       {"support_extra", "extra support"},
+                                       {"support_rotation", "extra rotational support"}};
+
+const char *plain_cause(struct pool *pool, const char *id)
+{
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(names[i][0], id))
+            return names[i][1];
+    char *words = pool_copy_text(pool, id);
+    for (char *c = words; c && *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+    return words ? words : "";
+}
+
+const char *plain_file(const char *path)
+{
+    const char *slash = path && *path == '/' ? strrchr(path, '/') : NULL;
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+static int in_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_' || c == '.' || c == '-' || c == '/';
+}
+
+/* Bytes of the folders of an absolute path at `text`, 0 where none stands there. */
+static size_t folders_at(const char *text)
+{
+    size_t length = strcspn(text, " \t\n\"'`,;()<>"), last = length;
+    while (last && text[last - 1] != '/')
+        last--;
+    return *text == '/' && last > 1 && last < length ? last : 0;
+}
+
+/* Bytes of the id of a cause at `text`, which becomes *words; 0 where none stands there. */
+static size_t cause_at(struct pool *pool, const char *text, const char **words)
+{
+    char id[64];
+    size_t length = strspn(text, "abcdefghijklmnopqrstuvwxyz_");
+    if (!length || length >= sizeof id || !memchr(text, '_', length) || isalnum((unsigned char)text[length]))
+        return 0;
+    if ((text[length] == '.' || text[length] == '-' || text[length] == '/') && isalnum((unsigned char)text[length + 1]))
+        return 0; /* a part of a name: added_mass.inp */
+    memcpy(id, text, length);
+    id[length] = 0;
+    if (!catalogue_find(id))
+        return 0;
+    *words = plain_cause(pool, id);
+    return length;
+}
+
+/* The next place from `text` on where something is to be changed: what it takes and what stands there instead; NULL of none. */
+static const char *next_change(struct pool *pool, const char *text, char before, size_t *takes, const char **words)
+{
+    for (; *text; before = *text++) {
+        if (in_word(before))
+            continue;
+        *words = "";
+        *takes = *text == '/' ? (before == ':' ? 0 : folders_at(text)) /* https: */
+                              : cause_at(pool, text, words);
+        if (*takes)
+            return text;
+    }
+    return NULL;
+}
+
+const char *plain_text(struct pool *pool, const char *text)
+{
+    size_t takes;
+    const char *words, *at = text ? next_change(pool, text, ' ', &takes, &words) : NULL, *done = "", *rest = text;
+    if (!at)
+        return text;
+    while (at && done) {
+        done = pool_format(pool, "%s%.*s%s", done, (int)(at - rest), rest, words);
+        rest = at + takes;
+        at = next_change(pool, rest, rest[-1], &takes, &words);
+    }
+    done = done ? pool_format(pool, "%s%s", done, rest) : NULL;
+    return done ? done : text;
+}
+
+const char *cause_check(const char *id)
+{
+    const struct cause_kind *kind = catalogue_find(id);
+    return kind ? kind->check : "";
+}
+
+const char *cause_name(struct pool *pool, const char *id, const char *target)
+{
+    int left = (int)strcspn(target, "|");
+    const char *name = plain_cause(pool, id);
+    if (!*target)
+        return name;
+    if (target[left])
+        return or_nothing(pool_format(pool, "%s between %.*s and %s", name, left, target, target + left + 1));
+    return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", name, target));
+}
+
+const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)
+{
+    return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
+}
+
+const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
+{
+    const char *label = cause_label(pool, d, &c->cause);
+    return c->with ? or_nothing(pool_format(pool, "%s with %s", label, cause_label(pool, d, c->with))) : label;
+}
+
+static int same_or_none(const char *a, const char *b)
+{
+    return a == b || (a && b && !strcmp(a, b));
+}
+
+static int same_cause(const rotid_cause *a, const rotid_cause *b)
+{
+    return !strcmp(a->id, b->id) && !strcmp(a->target, b->target) && same_or_none(a->name, b->name) &&
+           same_or_none(a->state, b->state);
+}
+
+static int is_among(const rotid_candidate *c, int count, const rotid_cause cause[])
+{
+    int found = 0;
+    for (int i = 0; i < count; i++)
+        found |= same_cause(&c->cause, &cause[i]);
+    return found;
+}
+
+const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
+{
+    const rotid_verdict *v = &d->verdict;
+    const rotid_round *round = c->round >= 1 && c->round <= d->nrounds ? &d->rounds[c->round - 1] : NULL;
+    if (round && round->kind == ROTID_NAMED && is_among(c, v->ncauses, v->causes) && !c->rejected_because)
+        return "named";
+    if (round && round->kind != ROTID_NAMED && c->refitted && is_among(c, v->nalternative_causes, v->alternative_causes))
+        return c->rejected_because ? or_nothing(pool_format(pool, "possible, but %s", c->rejected_because)) : "possible";
+    if (c->rejected_because)
+        return or_nothing(pool_format(pool, "refused: %s", c->rejected_because));
+    return c->refitted ? "not needed" : "not fitted";
+}
+
+const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
+{
+    const char *text = "";
+    char figure[32];
+    for (int p = 0; p < fit->nparameters && text; p++) {
+        const rotid_fitted_parameter *value = &fit->parameters[p];
+        const rotid_hidden *most = hidden_in(count, hidden, value);
+        if (!most)
+            continue;
+        text = pool_format(pool, "%s%s%s by %s", text, *text ? ", " : "", value->name,
+                           linear_percent_text(100 * fabs(most->shift / value->value), figure));
+        if (causes && text)
+            text = pool_format(pool, "%s (%s)", text, cause_name(pool, most->id, most->target));
+    }
+    return text ? text : "";
+}
+
+int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden)
+{
+    int wide = 0;
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_hidden *most = hidden_in(count, hidden, &fit->parameters[p]);
+        wide |= most && fabs(most->shift) > INTERVAL_WIDE * fabs(fit->parameters[p].value);
+    }
+    return wide;
+}
