@@ -64,7 +64,7 @@ _rotid_options=(
     '--format:export:words:matrix-market dmig'
     '--start:export::'
     '--condensed:export::'
-    '-o --output:report:files:/'
+    '-o --output:report:files:html'
     '-o --output:study:files:jsonl'
     '--shard:study:value:'
     '--timeout:study:value:'

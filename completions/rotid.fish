@@ -76,7 +76,7 @@ complete -c rotid -n '__fish_seen_subcommand_from export' -s o -l output -r -F -
 complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig' -d 'for SciPy and others, for Nastran'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'the model as the deck states it, not at identified parameters'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l condensed -d 'dmig: the model condensed onto the sensors'
-complete -c rotid -n '__fish_seen_subcommand_from report' -s o -l output -r -F -d 'for the page, index.html, and for scripts and pictures of its figures'
+complete -c rotid -n '__fish_seen_subcommand_from report' -s o -l output -r -F -d 'the page; a name that does not end in .html is a folder for index.html'
 complete -c rotid -n '__fish_seen_subcommand_from study' -s o -l output -r -F -d 'the results, a line of JSON a run; where the file exists, what is missing in it is computed'
 complete -c rotid -n '__fish_seen_subcommand_from study' -l shard -x -d 'each N-th run from the I-th on, for an array of jobs'
 complete -c rotid -n '__fish_seen_subcommand_from study' -l timeout -x -d 'a run that takes longer has failed'

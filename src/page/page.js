@@ -325,7 +325,7 @@
   }
   function drawPanels(list, is, width, top = 0) {
     const content = sv('g');
-    const left = Math.min(110, Math.max(...list.map((panel) => Math.max(...ticksOf(scaleOf(panel.y, 1, 0), panel.y, 5).map((v) => widthOf(tickText(panel.y, v))), 20)))) + 10;
+    const left = Math.min(110, Math.max(...list.map((panel) => Math.max(...ticksOf(scaleOf(panel.y, 1, 0), panel.y, Math.max(3, panel.height / 36)).map((v) => widthOf(tickText(panel.y, v))), 20)))) + 10;
     const right = width - 12;
     is.boxes = [];
     for (const panel of list) {
@@ -411,9 +411,10 @@
       draw: (width) => {
         const narrow = width < 520;
         const content = sv('g');
-        const longest = Math.max(...list.map((row) => widthOf(row.name)));
+        const bold = (row) => (row.strong ? 1.15 : 1); /* wider */
+        const longest = Math.max(...list.map((row) => widthOf(row.name) * bold(row)));
         const room = narrow ? width - 8 : Math.min(width * 0.42, longest + 14);
-        const names = list.map((row) => wrapped(row.name, room - 8));
+        const names = list.map((row) => wrapped(row.name, (room - 8) / bold(row)));
         const step = names.map((lines) => (narrow ? 15 * lines.length + 20 : Math.max(22, 15 * lines.length + 6)));
         const left = narrow ? 4 : room;
         const gap = 18;
@@ -937,8 +938,8 @@
         for (const v of x.ticks(width / 90)) content.append(line(x(v), low, x(v), low + 4, 'muted'), text(x(v), low + 17, num(v), { 'text-anchor': 'middle', class: 'quiet' }));
         content.append(text((left + width) / 2, low + 33, 'z [m]', { 'text-anchor': 'middle', class: 'quiet' }));
         for (let k = 0; k <= 10; k++) content.append(sv('rect', { x: left + k * 12, y: low + 42, width: 12, height: 10, fill: color('ramp'), 'fill-opacity': (0.05 + 0.095 * k).toFixed(3) }));
-        content.append(text(left + 140, low + 51, '0 to 1: energy over the largest (root)', { class: 'quiet' }));
-        return { content, height: low + 60 };
+        content.append(text(left, low + 66, '0 to 1: energy over the largest (root)', { class: 'quiet' }));
+        return { content, height: low + 74 };
       },
     };
     return figure(is);
