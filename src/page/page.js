@@ -1244,6 +1244,7 @@
   }
   const footer = document.querySelector('footer');
   results.forEach((entry, i) => footer.prepend(el('div', { class: 'tools' }, button(`JSON of ${entry.file.split('/').pop()}`, () => save(`result-${i + 1}.json`, 'application/json', JSON.stringify(entry.runs ? entry : entry.result, null, 1))))));
+  footer.append(el('p', {}, 'The data of the figures stand in this page as the result has them, lists of more than 24 numbers with six digits.'));
   const folds = [...document.querySelectorAll('details.fold')];
   folds.forEach((fold) => { fold.open = false; });
   addEventListener('beforeprint', () => folds.forEach((fold) => { fold.open = !fold.closest('footer'); }));
