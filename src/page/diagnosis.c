@@ -678,13 +678,6 @@ void section_diagnose(struct document *document, const struct result *result)
                          d->extended || d->verdict.kind == ROTID_ADEQUATE ? "Model and measurement" : "Where the model misses");
         document_figures(document, "shapes");
         document_figures(document, "agreement");
-        document_table(document,
-                       table_of_fitted_modes(document->pool, result, d->extended ? d->extended : d->base,
-                                             d->extended ? "Modes of the extended model"
-                                                         : "Modes: errors are predicted over measured frequency, less one"));
-        if (d->extended)
-            document_table(document,
-                           table_of_fitted_modes(document->pool, result, d->base, "Modes of the model without the cause"));
     }
     if (d->base && d->verdict.kind >= 0) {
         document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality of the model");
@@ -696,6 +689,17 @@ void section_diagnose(struct document *document, const struct result *result)
     section_next(document, d, result->head.deck ? result->head.deck : "DECK");
     section_parameters(document, d);
     section_findings(document, d);
+    if (d->base) {
+        document_section(document, "modes-compared", "Mode by mode");
+        document_figures(document, "matrices");
+        document_table(document,
+                       table_of_fitted_modes(document->pool, result, d->extended ? d->extended : d->base,
+                                             d->extended ? "Modes of the extended model"
+                                                         : "Modes: errors are predicted over measured frequency, less one"));
+        if (d->extended)
+            document_table(document,
+                           table_of_fitted_modes(document->pool, result, d->base, "Modes of the model without the cause"));
+    }
     if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */
         document_section(document, "places", "Where on the rotor");
         document_figures(document, "places");

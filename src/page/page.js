@@ -465,7 +465,7 @@
         content.append(text(left, 11, is.across || '', { class: 'quiet' }));
         columnNames.forEach((name, j) => {
           const x = left + (j + 0.5) * size;
-          content.append(tall ? text(0, 0, name, { transform: `translate(${x + 4} ${top - 5}) rotate(-90)` }) : text(x, top - 6, name, { 'text-anchor': 'middle' }));
+          content.append(tall ? text(0, 0, wrapped(name, 112)[0], { transform: `translate(${x + 4} ${top - 5}) rotate(-90)` }) : text(x, top - 6, name, { 'text-anchor': 'middle' }));
         });
         rowNames.forEach((name, i) => {
           content.append(text(left - 6, top + (i + 0.5) * high + 4, wrapped(name, left - 10)[0], { 'text-anchor': 'end' }));
@@ -1201,7 +1201,8 @@
       const made = motionOfFits(r.extended ? 'the extended model' : r.base ? 'the model' : 'the identified model', geometry, fitsOf(entry, r));
       return [made || (geometry && rotor(geometry, (r.base || r).parameters))];
     },
-    agreement: (entry, r) => ((r.base || r).states?.length ? [stateFrequencies(r.extended || r.base || r)] : [frequencies({ ...entry, result: r }), ...correlations({ ...entry, result: r })]),
+    agreement: (entry, r) => ((r.base || r).states?.length ? [stateFrequencies(r.extended || r.base || r)] : [frequencies({ ...entry, result: r })]),
+    matrices: (entry, r) => correlations({ ...entry, result: r }),
     states: (entry, r) => [stateFrequencies(r)],
     parameters: (entry, r) => [parameterIntervals(r), correlation(r)],
     fit: (entry, r) => fitFigures(r),

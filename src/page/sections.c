@@ -140,6 +140,7 @@ void section_agreement(struct document *document, const struct result *result)
     document_section(document, "agreement", "Model and measurement");
     document_figures(document, "shapes");
     document_figures(document, "agreement");
+    document_figures(document, "matrices");
     document_table(document, table_of_fitted_modes(document->pool, result, result->identify,
                                                    "Modes: errors are predicted over measured frequency, less one"));
 }
