@@ -18,6 +18,7 @@
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, tables, universal files, plans and results, and suggest, on random input, FUZZ_SECONDS (600) each
+#   make check-pages   pages in Chromium: figures, buttons, phone, print, hostile texts; make test does so where Chromium is there
 #   make sweep      report, in a browser, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
 #   make frozen     outputs of every command on every deck beside those of another commit: REF=commit
@@ -235,6 +236,11 @@ $(BUILD)/tests/test_page $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
+
+# In a browser, where there is one: once more behind tools/setup --ci, which installs Chromium.
+.PHONY: check-pages
+check-pages: all $(BUILD)/tests/test_page_browser $(BUILD)/tests/test_report_sweep
+	@sh tools/run-tests $(BUILD)/tests/test_page_browser $(BUILD)/tests/test_report_sweep
 
 SWEEP_PAYLOADS ?= 2000
 .PHONY: sweep
