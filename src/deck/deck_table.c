@@ -275,7 +275,7 @@ static void take_column(struct taking *t, int of_rows, int of_modes, int column,
 {
     struct deck_reader *reader = t->reader;
     const struct field *name = &t->table->row[0].field[column];
-    const struct table_column plain = {"", t->kind->value[1].si, 0};
+    const struct csv_column plain = {"", t->kind->value[1].si, 0};
     char unit[TABLE_CELL_LENGTH];
     double in_si = 0;
     (void)table_names(name->text, &plain, unit);

@@ -88,7 +88,7 @@ static int is_listed(const char *name, const char *list)
     return 0;
 }
 
-int table_names(const char *text, const struct table_column *column, char unit[TABLE_CELL_LENGTH])
+int table_names(const char *text, const struct csv_column *column, char unit[TABLE_CELL_LENGTH])
 {
     char name[NAME_LENGTH], *last;
     normalise(text, name, unit);
@@ -130,14 +130,14 @@ int table_numbers(const char *text, struct table_numbered *numbered)
 /* Whether any card has a column of that name, or a table that rotid has written. */
 static int is_known(const char *name)
 {
-    static const struct table_column written = {"condensed|reduction|mesh|measured|error|nco|x|y", NULL, 0};
+    static const struct csv_column written = {"condensed|reduction|mesh|measured|error|nco|x|y", NULL, 0};
     char unit[TABLE_CELL_LENGTH];
     struct table_numbered numbered;
     for (const struct table_kind *kind = table_kinds; kind->card; kind++) {
-        for (const struct table_column *c = kind->value; c->names; c++)
+        for (const struct csv_column *c = kind->value; c->names; c++)
             if (table_names(name, c, unit))
                 return 1;
-        for (const struct table_column *c = kind->key; c->names; c++)
+        for (const struct csv_column *c = kind->key; c->names; c++)
             if (table_names(name, c, unit))
                 return 1;
     }
@@ -145,7 +145,7 @@ static int is_known(const char *name)
 }
 
 /* The column of the header that is called so, -1: none, -2 after an error. */
-static int find_column(struct deck_reader *reader, const struct data_line *header, const struct table_column *column,
+static int find_column(struct deck_reader *reader, const struct data_line *header, const struct csv_column *column,
                        double *in_si)
 {
     int found = -1;
@@ -172,9 +172,9 @@ static int find_column(struct deck_reader *reader, const struct data_line *heade
 static void list_names(const struct table_kind *kind, int length, char *list)
 {
     *list = 0;
-    for (const struct table_column *c = kind->key; c->names; c++)
+    for (const struct csv_column *c = kind->key; c->names; c++)
         (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%.*s, ", (int)strcspn(c->names, "|"), c->names);
-    for (const struct table_column *c = kind->value; c->names; c++)
+    for (const struct csv_column *c = kind->value; c->names; c++)
         (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%s%.*s", c == kind->value ? "" : ", ",
                        (int)strcspn(c->names, "|"), c->names);
 }

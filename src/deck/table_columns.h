@@ -7,7 +7,7 @@
 
 #define TABLE_MOST_VALUES 8
 
-struct table_column {
+struct csv_column {
     const char *names; /* in lower case, separated by bars; the first is that of messages */
     const char *si;    /* unit that its numbers have inside, as for deck_unit_factor; NULL: none */
     int may_lack;
@@ -17,8 +17,8 @@ struct table_column {
 struct table_kind {
     const char *card;
     int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
-    struct table_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
-    struct table_column key[3];                   /* what else a row says; ended by one without names */
+    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
+    struct csv_column key[3];                   /* what else a row says; ended by one without names */
 };
 
 /* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
@@ -47,7 +47,7 @@ int table_find_columns(struct deck_reader *reader, const struct table_text *tabl
                        struct table_columns *columns);
 
 /* Whether a name of the header is that of a column; *unit: what stands in brackets or behind it, "" where nothing does. */
-int table_names(const char *name, const struct table_column *column, char unit[TABLE_CELL_LENGTH]);
+int table_names(const char *name, const struct csv_column *column, char unit[TABLE_CELL_LENGTH]);
 
 /* Whether it is a numbered one. */
 int table_numbers(const char *name, struct table_numbered *numbered);

@@ -87,7 +87,7 @@ static struct table *parameters_of(struct pool *pool, const rotid_identification
     return table;
 }
 
-static struct table *states_of(struct pool *pool, const rotid_identification *fit)
+static struct table *table_of_states(struct pool *pool, const rotid_identification *fit)
 {
     static const struct table_column columns[] = {{"state", NULL, TABLE_TEXT, 0},      {"modes", NULL, TABLE_FIXED, 0},
                                                   {"residuals", NULL, TABLE_FIXED, 0}, {"rms error, fitted", "%", TABLE_FIXED, 3},
@@ -152,7 +152,7 @@ void section_identify(struct document *document, const struct result *result)
     if (fit->nstates) {
         document_section(document, "states", "All states together");
         document_figures(document, "states");
-        document_table(document, states_of(document->pool, fit));
+        document_table(document, table_of_states(document->pool, fit));
     }
     document_section(document, "parameters", "What was identified");
     document_figures(document, "parameters");

@@ -88,15 +88,6 @@ const char *human_signed(struct pool *pool, double value, int decimals)
     return fixed(pool, value, decimals, "+");
 }
 
-const char *human_power(struct pool *pool, int exponent)
-{
-    static const char *const digit[] = {"\xe2\x81\xb0", "\xc2\xb9",     "\xc2\xb2",     "\xc2\xb3",     "\xe2\x81\xb4",
-                                        "\xe2\x81\xb5", "\xe2\x81\xb6", "\xe2\x81\xb7", "\xe2\x81\xb8", "\xe2\x81\xb9"};
-    int e = exponent < 0 ? -exponent : exponent;
-    return or_nothing(pool_format(pool, "10%s%s%s%s", exponent < 0 ? "\xe2\x81\xbb" : "", e >= 100 ? digit[e / 100 % 10] : "",
-                                  e >= 10 ? digit[e / 10 % 10] : "", digit[e % 10]));
-}
-
 const char *human_digits(struct pool *pool, double value, int digits)
 {
     char text[64];

@@ -21,8 +21,6 @@ int human_decimals(double value, double spread);
  * digits that the decimals show. Signed: a plus in front too. */
 const char *human_fixed(struct pool *pool, double value, int decimals);
 const char *human_signed(struct pool *pool, double value, int decimals);
-/* 10^exponent: "10\u207b\u00b3". */
-const char *human_power(struct pool *pool, int exponent);
 /* With a number of significant digits; very large and small ones as 1.2e-7, as decks have them. */
 const char *human_digits(struct pool *pool, double value, int digits);
 
