@@ -236,7 +236,7 @@ static void what_is_no_number_is_a_dash(void **state)
     assert_non_null(strstr(text, "measured mode 1 at 1184 Hz is mode 2 of the model by its shape\n"));
 }
 
-static const char *cell_text(void (*put)(FILE *, int, int, double), int width, int digits, double value)
+static const char *printed_cell(void (*put)(FILE *, int, int, double), int width, int digits, double value)
 {
     static char kept[512];
     char *made = NULL;
@@ -255,20 +255,20 @@ static void cells_keep_their_width(void **state)
     (void)state;
     static const double values[] = {NAN, INFINITY, -INFINITY, 0, 1, -1, 1e20, -1e20, 1e300, -1e300, 1e-300};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        assert_int_equal(strlen(cell_text(number_cell, 12, 2, values[i])), 12);
-        assert_int_equal(strlen(cell_text(signed_cell, 12, 2, values[i])), 12);
-        assert_int_equal(strlen(cell_text(digits_cell, 12, 4, values[i])), 12);
-        assert_int_equal(strlen(cell_text(power_cell, 12, 4, values[i])), 12);
+        assert_int_equal(strlen(printed_cell(number_cell, 12, 2, values[i])), 12);
+        assert_int_equal(strlen(printed_cell(signed_cell, 12, 2, values[i])), 12);
+        assert_int_equal(strlen(printed_cell(digits_cell, 12, 4, values[i])), 12);
+        assert_int_equal(strlen(printed_cell(power_cell, 12, 4, values[i])), 12);
     }
-    assert_string_equal(cell_text(number_cell, 8, 2, 1234.567), " 1234.57");
-    assert_string_equal(cell_text(number_cell, 8, 2, 123456789), " 1.2e+08");
-    assert_string_equal(cell_text(signed_cell, 9, 1, -2.5e20), " -2.5e+20");
-    assert_string_equal(cell_text(number_cell, 0, 2, 123456.789), "123456.79");
-    assert_string_equal(cell_text(digits_cell, 5, 3, NAN), "    -");
-    assert_string_equal(cell_text(digits_cell, 8, 4, 44459), "   44459"); /* 4.446e+04 would touch its neighbour */
-    assert_string_equal(cell_text(digits_cell, 8, 4, -4445900), "-4.4e+06");
-    assert_string_equal(cell_text(digits_cell, 10, 4, 44459), " 4.446e+04");
-    assert_string_equal(cell_text(digits_cell, 9, 4, 1.2346e-7), "1.235e-07");
+    assert_string_equal(printed_cell(number_cell, 8, 2, 1234.567), " 1234.57");
+    assert_string_equal(printed_cell(number_cell, 8, 2, 123456789), " 1.2e+08");
+    assert_string_equal(printed_cell(signed_cell, 9, 1, -2.5e20), " -2.5e+20");
+    assert_string_equal(printed_cell(number_cell, 0, 2, 123456.789), "123456.79");
+    assert_string_equal(printed_cell(digits_cell, 5, 3, NAN), "    -");
+    assert_string_equal(printed_cell(digits_cell, 8, 4, 44459), "   44459"); /* 4.446e+04 would touch its neighbour */
+    assert_string_equal(printed_cell(digits_cell, 8, 4, -4445900), "-4.4e+06");
+    assert_string_equal(printed_cell(digits_cell, 10, 4, 44459), " 4.446e+04");
+    assert_string_equal(printed_cell(digits_cell, 9, 4, 1.2346e-7), "1.235e-07");
 }
 
 int main(void)
