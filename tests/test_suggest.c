@@ -551,11 +551,11 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
                       cards[] = "** proposed\n*STATE, NAME=again\n*NOISE, FREQUENCY=0.001\n";
     char *text;
     (void)state;
-    assert_int_equal(deck_add_state(&test_pool, old, "disc", cards, &text), 0);
+    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "disc", cards, &text), 0);
     assert_int_equal(strncmp(text, old, sizeof old - 1), 0);
     assert_string_equal(text + sizeof old - 1, "** proposed\n*STATE, NAME=again\n*DISK, NAME=d\n0.5, 3\n*SET\nbar.length, "
                                                "0.9\n*NOISE, FREQUENCY=0.001\n");
-    assert_int_equal(deck_add_state(&test_pool, old, "bare", cards, &text), 0);
+    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "bare", cards, &text), 0);
     assert_string_equal(text + sizeof old - 1, cards);
 }
 
@@ -590,7 +590,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
                                   .averages = 1};
         char *cards, *text, failure[ROTID_FAILURE_LENGTH];
         assert_int_equal(deck_write_test(&test_pool, &job, &test, &cards), 0);
-        assert_int_equal(deck_add_state(&test_pool, old, NULL, cards, &text), 0);
+        assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, NULL, cards, &text), 0);
         assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */

@@ -2,28 +2,11 @@
 
 #include "cli/command.h"
 #include "deck/deck_proposed.h"
-#include "file/open.h"
 #include "report/table.h"
-
-#define MOST_BYTES (64L << 20) /* beyond what a deck may have */
-
-/* The text of the deck as its user wrote it; NULL where it is no plain file any more, or memory is out. */
-static char *read_deck(struct pool *pool, const char *path)
-{
-    struct stat about;
-    FILE *file = file_open_regular(path, &about);
-    size_t length = file && about.st_size > 0 && about.st_size < MOST_BYTES ? (size_t)about.st_size : 0;
-    char *text = length ? pool_get(pool, length + 1, 1) : NULL;
-    if (text && fread(text, 1, length, file) != length)
-        text = NULL;
-    if (file)
-        (void)fclose(file);
-    return text && strlen(text) == length ? text : NULL;
-}
 
 static int write_extended(struct command *command, const rotid_suggestion *s, int code)
 {
-    char *text = NULL, *deck;
+    char *text = NULL;
     if (!command->extended)
         return code;
     if (!s->ntests || !s->tests[0].cards) {
@@ -31,13 +14,17 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
                      s->ntests ? "no deck can say the first of the tests: name its supports" : "there is no test to propose");
         return EXIT_DOUBTFUL;
     }
-    deck = read_deck(&command->pool, command->deck);
-    if (!deck) {
-        terminal_say("rotid: %s is not written: cannot read %s again\n", command->extended, command->deck);
+    int status =
+        deck_propose(&command->pool, command->deck, command->extended, s->state, &s->tests[0], &command->messages, &text);
+    if (status == ROTID_ERROR_MEMORY)
+        return command_fail(command, status);
+    if (status) {
+        command_print_messages(command);
+        terminal_say("rotid: %s is not written: %s\n", command->extended,
+                     status == ROTID_ERROR_IO ? "cannot read the deck again, or there is no such folder"
+                                              : "the deck with the test in it would not be read as it is meant");
         return EXIT_INTERNAL;
     }
-    if (deck_add_state(&command->pool, deck, s->state, s->tests[0].cards, &text))
-        return command_fail(command, ROTID_ERROR_MEMORY);
     return command_write_file(command, command->extended, text, code);
 }
 

@@ -99,6 +99,11 @@ struct job_place {
     int line, column;
 };
 
+/* The units that the deck states numbers in, in SI; 0: SI. The job itself is in SI. */
+struct job_units {
+    double length, mass, stiffness, frequency;
+};
+
 /* Four things that change for different reasons, each a struct of its own: the rotor (a cause is added to it), what was measured
  * (the measurement chain is corrected, a mode is left out), what is searched (a cause brings its parameters, a refit other
  * starts) and the options. A second state of the same rotor is a second measurement; another model is another option. */
@@ -117,6 +122,7 @@ struct job {
     struct job_measurement measurement;
     struct job_unknowns unknowns;
     struct job_options options;
+    struct job_units units;
 };
 
 /* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line

@@ -115,7 +115,7 @@ static int judge(struct promises *run, const char *deck, const char *state, cons
     char *text = NULL;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = deck_add_state(&pool, deck, NULL, state, &text);
+    int status = deck_add_state(&pool, "", deck, NULL, NULL, state, &text);
     if (!status)
         status = read_states(&pool, text, &states);
     if (!status)
