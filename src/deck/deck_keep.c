@@ -392,6 +392,11 @@ static char *read_deck(struct pool *pool, const char *path)
 int deck_keep(struct pool *pool, const struct diagnosis *d, const struct states *states, const struct deck_write_options *options,
               const char *from, char **text)
 {
+    int same = 0, status = reads_as(pool, *text, *text, &same);
+    if (status || !same) {
+        *text = NULL;
+        return status ? status : ROTID_ERROR_ARGUMENT;
+    }
     struct keeping k = {.pool = pool, .d = d, .job = &states->state->job, .options = options};
     if (states->nstate != 1 || d->given.nstate != 1 || states->state->name || !(k.deck = read_deck(pool, from)))
         return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
@@ -403,7 +408,8 @@ int deck_keep(struct pool *pool, const struct diagnosis *d, const struct states 
         k.own_data = attempt < 2;
         k.noise = attempt == 1 && *noise ? noise : NULL;
         k.noise_end = k.noise ? next_card(noise) : NULL;
-        int same = 0, status = compose(&k, &kept);
+        status = compose(&k, &kept);
+        same = 0;
         if (!status)
             status = reads_as(pool, kept, *text, &same);
         if (status == ROTID_ERROR_MEMORY)
