@@ -71,14 +71,16 @@ static int check_value(struct deck_reader *reader, const struct data_line *line,
 static void set_parameter(struct deck_reader *reader, const struct data_line *line)
 {
     struct job *job = reader->job;
-    const char *name = line->field[0].text, *unit;
+    const char *name = line->field[0].text, *unit = NULL;
     struct parameter parameter;
     double value;
     int found = deck_find_parameter(reader, &line->field[0], &parameter, &unit);
     if (found && found != 3 && (found == 2 || !deck_cause_explains(reader, name, line->field[0].place)))
         deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length", name);
-    if (found || deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "value", ANY, &value) ||
-        check_value(reader, line, parameter, value))
+    if (found || deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "value", ANY, &value))
+        return;
+    value *= deck_in_si(reader, unit ? unit : "");
+    if (check_value(reader, line, parameter, value))
         return;
     if (parameter.kind == PARAMETER_G)
         job->rotor.group[parameter.index].material.isotropic = 0;
