@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/random.h"
@@ -609,6 +610,139 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
     }
 }
 
+/* Where files of these tests lie; the last one is written elsewhere. */
+static const char *file_of(const char *name)
+{
+    return pool_format(&test_pool, "%s/%s", directory, name);
+}
+
+static void put_file(const char *name, const char *text)
+{
+    FILE *file = fopen(file_of(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static int read_path(const char *path, struct states *states)
+{
+    struct message_list messages;
+    message_open(&messages, &test_pool);
+    return deck_read_states(&test_pool, path, NULL, 0, NULL, &messages, states);
+}
+
+/* The deck of a file with a test in it: statuses of deck_propose, after which `notes` are its own. */
+static int propose(const char *from, const char *to, const char *home, enum test_kind kind, const char *cards,
+                   struct message_list *notes, char **text)
+{
+    static int number[] = {1, 2};
+    static double z[] = {0.1, 0.4, 0.7}, hz[] = {199, 548};
+    struct states states;
+    char *own;
+    const struct test test = {.kind = kind,
+                              .modes = 2,
+                              .number = number,
+                              .nsensor = 3,
+                              .sensor = z,
+                              .frequency_std = 0.001,
+                              .shape_std = 0.01,
+                              .mass = 0.5,
+                              .z = 0.25,
+                              .averages = 1,
+                              .hz = hz};
+    int moves = kind == TEST_MASS || kind == TEST_MOVED;
+    rotid_suggested_test suggested = {.id = test_id(kind),
+                                      .nsensors_m = 3,
+                                      .sensors_m = z,
+                                      .mass_kg = kind == TEST_MASS ? 0.5 : (double)NAN,
+                                      .z_m = moves ? 0.25 : (double)NAN};
+    assert_int_equal(read_path(from, &states), 0);
+    assert_int_equal(deck_write_test(&test_pool, &states.state[states.nstate - 1].job, &test, &own), 0);
+    suggested.cards = cards ? cards : own;
+    message_open(notes, &test_pool);
+    return deck_propose(&test_pool, from, to, home, &suggested, notes, text);
+}
+
+/* What is proposed for a deck stands in its units, finds its files from the other folder, gets a name of its own and goes with
+ * the files that the deck includes. Each of these was once written as something else. */
+static void what_is_proposed_reads_as_it_is_meant(void **state)
+{
+    static const char *const shaft_mm = "*UNITS, LENGTH=MM, MASS=G, STIFFNESS=N/MM, FREQUENCY=KHZ\n*MATERIAL, NAME=steel\n"
+                                        "*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+                                        "800, 30, 0, 80\n*SPRING, NAME=foam\n100, 0.5\n*SPRING, NAME=felt\n700, 0.4\n"
+                                        "*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\nfoam.k, 0.01, 100, 0.5\n",
+                             *modes = "*MODES\n1, 0.2\n2, 0.55\n";
+    static const enum test_kind kinds[] = {TEST_MASS, TEST_STIFF, TEST_FREE, TEST_MOVED};
+    const char *path[] = {"units.inp", "table.inp", "named.inp", "included.inp", "chosen.inp"};
+    const char *to = file_of("next/next.inp");
+    struct message_list notes;
+    char *text;
+    (void)state;
+    assert_int_equal(mkdir(file_of("next"), 0700), 0);
+    put_file("units.inp", pool_format(&test_pool, "%s%s", shaft_mm, modes));
+    put_file("modes.csv", "mode,frequency [kHz]\n1,0.2\n2,0.55\n");
+    put_file("table.inp", pool_format(&test_pool, "%s*MODES,\n File = modes.csv ** of today\n", shaft_mm));
+    put_file("named.inp",
+             pool_format(&test_pool, "%s*STATE, NAME=Mass\n%s*STATE, NAME=heavy\n*DISK\n500, 90\n%s", shaft_mm, modes, modes));
+    put_file("shaft.inc", shaft_mm);
+    put_file("modes.inc", "** measured with care\n*DISK\n500, 90\n*MODES, FILE=modes.csv\n");
+    put_file("included.inp", "*INCLUDE, FILE=shaft.inc\n** the hammer\n*INCLUDE, FILE=modes.inc\n");
+    put_file("chosen.inp",
+             pool_format(&test_pool, "%s*FIT, STATE=one\n*STATE, NAME=one\n%s*STATE, NAME=two\n%s", shaft_mm, modes, modes));
+    for (int i = 0; i < 4; i++)
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+            struct states states;
+            const char *home = i == 2 ? "heavy" : NULL;
+            if (propose(file_of(path[i]), to, home, kinds[k], NULL, &notes, &text))
+                fail_msg("%s %s: %s", path[i], test_id(kinds[k]), notes.count ? notes.item[0].text : "no message");
+            put_file("next/next.inp", pool_format(&test_pool, "%s*MODES\n1, 0.199\n2, 0.548\n", text));
+            assert_int_equal(read_path(to, &states), 0);
+            assert_int_equal(states.nstate, i == 2 ? 3 : 2);
+            const struct rotor *was = &states.state[states.nstate - 2].job.rotor,
+                               *rotor = &states.state[states.nstate - 1].job.rotor;
+            assert_close(states.state[0].job.measurement.frequency_hz[0], 200, 1e-12, 0);
+            assert_int_equal(rotor->ndisk, was->ndisk + (kinds[k] == TEST_MASS));
+            if (kinds[k] == TEST_MASS) {
+                assert_close(rotor->disk[rotor->ndisk - 1].position, 0.25, 1e-12, 0);
+                assert_close(rotor->disk[rotor->ndisk - 1].mass, 0.5, 1e-12, 0);
+                assert_non_null(strstr(text, "\n250, 500\n"));
+            }
+            if (kinds[k] == TEST_STIFF)
+                assert_close(rotor->spring[1].lateral, 4000, 1e-12, 0);
+            if (kinds[k] == TEST_MOVED)
+                assert_close(rotor->spring[2].position, 0.25, 1e-12, 0);
+            assert_close(rotor->sensor[1].position, 0.4, 1e-12, 0);
+            assert_non_null(strstr(text, "** 2, 0.548\n"));
+            assert_int_equal(!!strstr(text, "*STATE, NAME=mass_2\n"), i == 2 && kinds[k] == TEST_MASS);
+            if (i == 3) {
+                assert_non_null(strstr(text, "/shaft.inc\n"));
+                assert_non_null(strstr(text, "** measured with care\n"));
+            }
+        }
+    /* in the same folder paths stay */
+    assert_int_equal(propose(file_of("table.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
+    assert_non_null(strstr(text, "*MODES,\n File = modes.csv ** of today\n"));
+    /* cards of something else are not handed out: SI in millimetres, and a state that is not read */
+    assert_int_equal(
+        propose(file_of("units.inp"), to, NULL, TEST_MASS,
+                "** proposed\n*STATE, NAME=mass\n*DISK, NAME=known_mass\n0.25, 0.5\n*SENSORS\n1, 100\n2, 400\n3, 700\n"
+                "** *MODES\n** 1, 0.2\n",
+                &notes, &text),
+        ROTID_ERROR_SYNTAX);
+    assert_null(text);
+    assert_non_null(strstr(notes.item[0].text, "the cards of the test mass would be read as another one"));
+    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_SYNTAX);
+    assert_null(text);
+    assert_int_equal(propose(file_of("units.inp"), file_of("nowhere/x.inp"), NULL, TEST_MASS, NULL, &notes, &text),
+                     ROTID_ERROR_IO);
+    static const char *const made[] = {"modes.csv", "shaft.inc", "modes.inc", "next/next.inp"};
+    for (size_t i = 0; i < sizeof path / sizeof *path; i++)
+        remove(file_of(path[i]));
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+        remove(file_of(made[i]));
+    assert_int_equal(rmdir(file_of("next")), 0);
+}
+
 static int open_directory(void **state)
 {
     (void)state;
@@ -635,6 +769,7 @@ int main(void)
         TEST(states_that_share_out_the_modes_say_the_same),
         TEST(the_deck_of_a_test_is_the_deck_and_a_state),
         TEST(the_deck_of_a_test_like_a_state_has_its_cards),
+        TEST(what_is_proposed_reads_as_it_is_meant),
     };
     return cmocka_run_group_tests(tests, open_directory, close_directory);
 }

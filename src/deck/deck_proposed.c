@@ -505,29 +505,44 @@ static int is_at(const struct rotor *rotor, double z, double wanted)
     return fabs(z - wanted) <= 1e-9 * rotor_length(rotor);
 }
 
-/* The springs of a state beside those of the state it is made like. */
-static int has_springs(const struct rotor *rotor, const struct rotor *like, const rotid_suggested_test *test)
+/* The stiffness of a support: the start of an unknown, or as the rotor has it. */
+static double stiffness_of(const struct job *job, enum parameter_kind kind, int spring)
 {
-    int moved = !strcmp(test->id, test_id(TEST_MOVED)), softened = 0;
-    double factor = !strcmp(test->id, test_id(TEST_STIFF))  ? TEST_STIFFER
-                    : !strcmp(test->id, test_id(TEST_FREE)) ? TEST_SOFTER
-                                                            : 1;
-    const struct spring *last = &rotor->spring[rotor->nspring - 1];
-    if (rotor->nspring != like->nspring + moved)
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        if (job->unknowns.parameter[p].kind == kind && job->unknowns.parameter[p].index == spring)
+            return job->unknowns.bounds[p].start;
+    return kind == PARAMETER_SPRING_K ? job->rotor.spring[spring].lateral : job->rotor.spring[spring].rotational;
+}
+
+/* Whether a support is `factor` times as stiff as it was. */
+static int is_as_stiff(const struct job *job, int spring, const struct spring *was, double factor)
+{
+    return is_near(stiffness_of(job, PARAMETER_SPRING_K, spring), was->lateral * factor) &&
+           is_near(stiffness_of(job, PARAMETER_SPRING_K_ROT, spring), was->rotational * factor);
+}
+
+/* The springs of a state beside those of the state that it is made like: one that moves is hardly there, and there is another. */
+static int has_springs(const struct job *job, const struct rotor *like, const rotid_suggested_test *test)
+{
+    const struct rotor *rotor = &job->rotor;
+    int moves = !strcmp(test->id, test_id(TEST_MOVED)), moved = 0, last = rotor->nspring - 1;
+    double stiff = !strcmp(test->id, test_id(TEST_STIFF)) ? TEST_STIFFER : 1, soft = TEST_SOFTER;
+    int changes = stiff > 1 || !strcmp(test->id, test_id(TEST_FREE));
+    if (rotor->nspring != like->nspring + moves)
         return 0;
     for (int s = 0; s < like->nspring; s++) {
-        const struct spring *spring = &rotor->spring[s], *was = &like->spring[s];
-        double own = factor;
-        if (moved && !softened && is_near(spring->lateral, was->lateral * TEST_SOFTER * TEST_SOFTER)) {
-            own = TEST_SOFTER * TEST_SOFTER;
-            softened = is_at(rotor, last->position, test->z_m) && is_near(last->lateral, was->lateral) &&
-                       is_near(last->rotational, was->rotational);
-        }
-        if (!is_near(spring->lateral, was->lateral * own) || !is_near(spring->rotational, was->rotational * own) ||
-            spring->position != was->position)
+        const struct spring *was = &like->spring[s];
+        if (rotor->spring[s].position != was->position)
+            return 0;
+        if (moves && !moved && is_as_stiff(job, s, was, soft * soft) && is_as_stiff(job, last, was, 1) &&
+            is_at(rotor, rotor->spring[last].position, test->z_m))
+            moved = 1;
+        else if (changes && !is_as_stiff(job, s, was, stiff > 1 ? stiff : soft))
+            return 0;
+        else if (!changes && (rotor->spring[s].lateral != was->lateral || rotor->spring[s].rotational != was->rotational))
             return 0;
     }
-    return softened == moved;
+    return moved == moves;
 }
 
 /* Whether the job is that of a state `like` it with what the test changes. */
@@ -541,7 +556,7 @@ static int is_test(struct pool *pool, const struct job *job, const struct job *l
     for (int s = 0; s < test->nsensors_m; s++)
         if (!is_at(rotor, rotor->sensor[s].position, test->sensors_m[s]))
             return 0;
-    if (rotor->ndisk != like->rotor.ndisk + mass || !has_springs(rotor, &like->rotor, test))
+    if (rotor->ndisk != like->rotor.ndisk + mass || !has_springs(job, &like->rotor, test))
         return 0;
     if (mass && (!is_near(rotor->disk[rotor->ndisk - 1].mass, test->mass_kg) ||
                  !is_at(rotor, rotor->disk[rotor->ndisk - 1].position, test->z_m)))
