@@ -268,7 +268,8 @@ static void reading_ends_and_limits_of_files_are_errors(void **state)
 
 /* ---- decks that are small and ask for much */
 
-#define SHAFT "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.05, 0"
+#define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
+#define SHAFT STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.05, 0"
 
 static void decks_that_ask_for_much_are_refused_soon(void **state)
 {
@@ -291,8 +292,18 @@ static void decks_that_ask_for_much_are_refused_soon(void **state)
     (void)shell(&test_pool,
                 "cd %s && printf '" SHAFT "\n*MODES\n' > deck && seq 1 1000 | awk '{ print $1 \", \" 100 * $1 }' >> deck",
                 folder);
-    output = shell(&test_pool, "cd %s && timeout 10 " ROTID_PROGRAM " check deck", folder);
-    assert_non_null(strstr(output, "fewer than 8 for half a wave of mode 1000, and more elements would have to be stated"));
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && timeout 10 " ROTID_PROGRAM " identify deck", folder), 2);
+    assert_non_null(strstr(output, "deck:109:1: *MODES has a data line too many"));
+    (void)shell(&test_pool, "cd %s && printf '" SHAFT "\n*MODES\n101, 300\n' > deck", folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && " LIMITED "modes deck", folder), 2);
+    assert_non_null(strstr(output, "deck:9:1: mode is 101, expected a whole number from 1 to 100"));
+    (void)shell(&test_pool, /* a layer that the masses of the rest drown in: the room of the block iteration was passed */
+                "cd %s && printf '" STEEL "*SHAFT, NAME=left, MATERIAL=steel\n0.30, 0.05, 0\n*SHAFT, NAME=core, MATERIAL=steel\n0.40, 0.10, 0\n*LAYER, NAME=stack, GROUP=core, "
+                "MATERIAL=steel\n2e5, 0.1\n*FIT, MODEL=SOLID\n' > deck",
+                folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && " LIMITED "check deck", folder), 2);
+    assert_non_null(strstr(output, "deck:11:1: warning: outer diameter [m] is 2e5, 2e+05 m, outside of what rotors have"));
+    assert_non_null(strstr(output, "deck:6:1: a solid of this rotor has too many unknowns"));
     (void)shell(&test_pool, "cd %s && rm -r *", folder);
 }
 
