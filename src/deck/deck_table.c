@@ -12,10 +12,10 @@ struct taking {
     struct table_text *table;
     const struct table_kind *kind;
     struct table_columns columns;
-    struct deck_text *to;    /* cards go there */
-    int first;               /* the cards of this table begin there */
+    struct deck_text *to;         /* cards go there */
+    int first;                    /* the cards of this table begin there */
     double mode[DECK_MOST_MODES]; /* of each of them, where it has one */
-    double asked;            /* MODE of the card, NaN where all modes of the table are taken */
+    double asked;                 /* MODE of the card, NaN where all modes of the table are taken */
 };
 
 static struct table_text *open_table(struct deck_reader *reader, const struct card *card)
