@@ -128,11 +128,11 @@ rotid_environment command_environment(const struct command *command, double *las
 
 /* A write beyond the largest size of a file is an error, and how a child ended can be waited for, whatever was inherited. */
 void command_set_signals(void);
-/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time,
- * ends the program. Before, while decks are read and nothing is written, the first one ends it. computes: the program also ends
- * by the first one where a second passes and command_cancelled was not called, or five and the command has not ended, unless a
- * file is open for writing. */
-void command_watch_signals(int computes);
+/* From now on the first SIGINT or SIGTERM makes command_cancelled say so. Where the command has
+ * not ended 0.9 s later, the program ends by that signal, after the file that is open for writing if there is one. A second
+ * signal, not at the same time, ends the program at once. Before, while decks are read and nothing is written, the first one
+ * does. */
+void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
 

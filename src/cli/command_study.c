@@ -119,7 +119,7 @@ int study_conduct(struct command *command, const struct study *study, study_comp
                                            arguments->shards ? arguments->shard : 1, arguments->shards ? arguments->shards : 1);
     struct study_record record;
     int code = EXIT_DONE;
-    command_watch_signals(0);
+    command_watch_signals();
     int status = record_open(&command->pool, command->output, &header, arguments->retry_failed, &command->messages, &record);
     if (status)
         return refuse_study(command, status);
@@ -146,7 +146,7 @@ int study_conduct(struct command *command, const struct study *study, study_comp
 static int merge(struct command *command)
 {
     struct merge merged;
-    command_watch_signals(0);
+    command_watch_signals();
     int status = merge_results(&command->pool, command->nfile, command->file, command->output, &command->messages, &merged);
     if (status)
         return refuse_study(command, status);
@@ -161,8 +161,10 @@ int command_study(struct command *command)
     struct study study;
     if (command->study.merge)
         return merge(command);
-    if (command->study.summary)
+    if (command->study.summary) {
+        command_watch_signals();
         return report(command, command->deck, EXIT_DONE);
+    }
     int code = study_prepare(command, &study);
     return code ? code : study_conduct(command, &study, in_processes, NULL);
 }

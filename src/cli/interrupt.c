@@ -1,4 +1,5 @@
 #include <signal.h>
+#include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -7,10 +8,12 @@
 
 #define SAME_NS 200000000L /* timeout(1) sends its signal to the process and to its group: two within 0.2 s are one request */
 
-#define DEAF_S  1 /* after the signal: what has not asked by then is in a library */
-#define GRACE_S 5 /* after the signal: what has asked brings its results together until then */
+/* What has not ended after the first time does so then, or at the end of a file that is being written: no file is left
+ * half-written. */
+#define PATIENCE_US 900000
+#define AGAIN_US    50000
 
-static volatile sig_atomic_t interrupted, noticed, ends_itself, seconds;
+static volatile sig_atomic_t interrupted;
 static struct timespec first;
 
 static long since_first(void)
@@ -26,27 +29,24 @@ static void end_by(int signal_number)
     (void)raise(signal_number);
 }
 
-/* The first asks the computation to end; where that does not look, in a library or a file, the second ends the program. */
+/* The first signal asks the command to end and sets the clock of end_late; the second one ends the program. */
 static void interrupt(int signal_number)
 {
+    static const struct itimerval clock = {{0, AGAIN_US}, {0, PATIENCE_US}};
     if (!interrupted) {
         (void)clock_gettime(CLOCK_MONOTONIC, &first);
         interrupted = signal_number;
-        if (ends_itself)
-            (void)alarm(DEAF_S);
+        (void)setitimer(ITIMER_REAL, &clock, NULL);
     } else if (since_first() >= SAME_NS) {
         end_by(signal_number);
     }
 }
 
-/* Once a second after the first signal: no file is left half-written. */
-static void look_again(int unused)
+static void end_late(int unused)
 {
     (void)unused;
-    seconds++;
-    if (!output_is_open() && (!noticed || seconds >= GRACE_S))
+    if (!output_is_open())
         end_by((int)interrupted);
-    (void)alarm(DEAF_S);
 }
 
 void command_set_signals(void)
@@ -56,12 +56,10 @@ void command_set_signals(void)
     (void)sigaction(SIGCHLD, &standard, NULL); /* who starts the program may ignore it, and then no child says how it ended */
 }
 
-void command_watch_signals(int computes)
+void command_watch_signals(void)
 {
-    struct sigaction action = {.sa_handler = interrupt}, again = {.sa_handler = look_again, .sa_flags = SA_RESTART};
-    ends_itself = computes;
-    if (computes)
-        (void)sigaction(SIGALRM, &again, NULL);
+    struct sigaction action = {.sa_handler = interrupt}, late = {.sa_handler = end_late, .sa_flags = SA_RESTART};
+    (void)sigaction(SIGALRM, &late, NULL);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
 }
@@ -69,7 +67,5 @@ void command_watch_signals(int computes)
 int command_cancelled(void *unused)
 {
     (void)unused;
-    if (interrupted)
-        noticed = 1;
     return interrupted;
 }

@@ -39,8 +39,8 @@ static int run(struct command *command)
     int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
     if (code)
         return code;
-    if (c->run != command_study) /* which reads its decks itself */
-        command_watch_signals(c->flags & READS_DECK);
+    if (c->run != command_study) /* a study reads its decks itself */
+        command_watch_signals();
     return c->run(command);
 }
 

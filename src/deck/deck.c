@@ -238,15 +238,7 @@ static void choose_mesh(struct deck_reader *reader)
     if (!reader->nopen)
         return;
     reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
-    if (reader->out_of_memory || reader->job->options.solid) /* that has a mesh of its own */
-        return;
-    if (c.elements >= MESH_CHOICE_LARGEST && isnan(c.error))
-        deck_note(
-            reader, place,
-            "%d elements of at most %.3g mm are chosen where none are stated, no more than that: fewer than %d for half a wave "
-            "of mode %d, and more elements would have to be stated",
-            c.elements, 1000 * c.length_m, MESH_CHOICE_PER_WAVE, c.mode);
-    if (isfinite(c.error))
+    if (!reader->out_of_memory && isfinite(c.error) && !reader->job->options.solid) /* that has a mesh of its own */
         deck_note(reader, place,
                   "%d elements of at most %.3g mm are chosen where none are stated: modes 1 to %d lie within %.2g %% of a fine "
                   "mesh, %s %.2g %%%s",

@@ -161,7 +161,7 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
         }
         while (*end == ' ')
             end++;
-        if (bad || (*end && *end != ',') || first < 1 || last > 1000) {
+        if (bad || (*end && *end != ',') || first < 1 || last > DECK_MOST_MODES) {
             deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6",
                        option->name, option->value);
             return 1;

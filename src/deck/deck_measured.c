@@ -101,7 +101,7 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         return;
     }
     reader->modes_card = card;
-    int count = deck_lines(reader, card, 1, 1000, layout);
+    int count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout);
     job->measurement.number = POOL_ARRAY(reader->pool, int, card->nline);
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
     job->measurement.damping = POOL_ARRAY(reader->pool, double, card->nline);
@@ -115,7 +115,7 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         const struct data_line *line = &card->line[i];
         int number = 0;
         double hz = 1, damping = NAN, std = NAN;
-        int bad = deck_count(reader, line, 4, layout) || deck_integer(reader, line, 0, "mode", 1, 1000, &number);
+        int bad = deck_count(reader, line, 4, layout) || deck_integer(reader, line, 0, "mode", 1, DECK_MOST_MODES, &number);
         bad |= deck_number(reader, line, 1, "frequency [Hz]", POSITIVE, &hz);
         if (deck_has(line, 2))
             bad |= deck_number(reader, line, 2, "damping ratio", NOT_NEGATIVE, &damping);

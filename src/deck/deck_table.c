@@ -6,18 +6,16 @@
 
 #include "deck/table_columns.h"
 
-#define MOST_MODES 1000 /* as of *MODES */
-
 struct taking {
     struct deck_reader *reader;
     const struct card *card; /* that names the table */
     struct table_text *table;
     const struct table_kind *kind;
     struct table_columns columns;
-    struct deck_text *to;    /* cards go there */
-    int first;               /* the cards of this table begin there */
-    double mode[MOST_MODES]; /* of each of them, where it has one */
-    double asked;            /* MODE of the card, NaN where all modes of the table are taken */
+    struct deck_text *to;         /* cards go there */
+    int first;                    /* the cards of this table begin there */
+    double mode[DECK_MOST_MODES]; /* of each of them, where it has one */
+    double asked;                 /* MODE of the card, NaN where all modes of the table are taken */
 };
 
 static struct table_text *open_table(struct deck_reader *reader, const struct card *card)
@@ -206,11 +204,11 @@ static struct card *card_of_mode(struct taking *t, const struct field *mode)
     for (int c = 0; c < count; c++)
         if (t->mode[c] == number)
             return &t->to->card[t->first + c];
-    if (count == MOST_MODES) {
-        deck_error(t->reader, mode->place, "the table has more than %d modes, expected fewer", MOST_MODES);
+    if (count == DECK_MOST_MODES) {
+        deck_error(t->reader, mode->place, "the table has more than %d modes, expected fewer", DECK_MOST_MODES);
         t->table->bad = 1;
     }
-    struct card *card = count < MOST_MODES ? new_card(t, mode->place) : NULL;
+    struct card *card = count < DECK_MOST_MODES ? new_card(t, mode->place) : NULL;
     if (!card)
         return NULL;
     t->mode[count] = number;

@@ -12,6 +12,7 @@
 #define DECK_MOST_INCLUDES 16          /* depth */
 #define DECK_MOST_FILES    1000        /* included ones: few lines in each of them include thousands more */
 #define DECK_MOST_CARDS    5000        /* names are compared with each other */
+#define DECK_MOST_MODES    100         /* and the highest number: a spectrum costs the cube of the number of modes */
 
 struct place {
     const char *file;

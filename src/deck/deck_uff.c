@@ -256,6 +256,9 @@ static int import_modes(struct import *import)
     int bad = 0, numbered = uff_modes_are_numbered(count, chosen);
     for (int k = 0; k < count; k++) {
         job->measurement.number[k] = numbered ? chosen[k]->number : k + 1;
+        if (job->measurement.number[k] > DECK_MOST_MODES && !bad++)
+            deck_error(reader, in_file(import, chosen[k]->line), "the number of a mode is %d, expected 1 to %d",
+                       job->measurement.number[k], DECK_MOST_MODES);
         job->measurement.frequency_hz[k] = uff_mode_frequency(chosen[k]);
         job->measurement.damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
         job->measurement.frequency_std[k] = NAN;

@@ -81,14 +81,14 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
 {
     const struct job *job = w->job;
     double last = 0;
-    if (job->measurement.nmode > 1000)
+    if (job->measurement.nmode > DECK_MOST_MODES)
         refuse_writing(w);
     if (job->measurement.nmode)
         deck_put(w, "*MODES\n");
     for (int k = 0; k < job->measurement.nmode; k++) {
         double hz = job->measurement.frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
         int damped = job->measurement.damping[k] >= 0 && job->measurement.damping[k] < 1;
-        if (job->measurement.number[k] > 1000)
+        if (job->measurement.number[k] > DECK_MOST_MODES)
             refuse_writing(w);
         if (k && hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
             hz = nextafter(hz, INFINITY);

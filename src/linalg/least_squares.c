@@ -6,8 +6,9 @@
 
 /* dgels: min(m, n) + max(1, m, n) * block; the workspace is stated, not asked for, so that callers can size theirs ahead */
 #define BLOCK  16
-#define LONGER 1.1 /* than the radius: as near as it matters */
-#define TURNS  100 /* of Newton's iteration, which needs about five: it is monotonous, and quadratic near its end */
+#define LONGER 1.1  /* than the radius: as near as it matters */
+#define MOST   1000 /* of the exponent of that unit, which has an inverse */
+#define TURNS  100  /* of Newton's iteration, which needs about five: it is monotonous, and quadratic near its end */
 
 size_t least_squares_workspace(int m, int n)
 {
@@ -15,17 +16,30 @@ size_t least_squares_workspace(int m, int n)
     return rows * (size_t)n + rows + (size_t)n + rows * BLOCK;
 }
 
-/* For one mu. R is left in the upper triangle of work, leading dimension m + n. */
+/* The power of two that brings the largest scale to 1: dgels scales matrices beyond 1e-292 ... 1e292 by a factor of its own and
+ * leaves the R of the scaled one. */
+static double unit_of(int n, const double *scale)
+{
+    double largest = 0;
+    int exponent;
+    for (int j = 0; j < n; j++)
+        largest = fmax(largest, scale[j]);
+    (void)frexp(largest, &exponent);
+    return ldexp(1, -(exponent > MOST ? MOST : exponent < -MOST ? -MOST : exponent));
+}
+
+/* For one mu, (unit J)(h / unit) = -r. unit R is left in the upper triangle of work, leading dimension m + n. */
 static int solve_damped(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
-                        double mu, double *h, double *work)
+                        double unit, double mu, double *h, double *work)
 {
     int rows = m + n;
     double *stack = work, *right = stack + (ptrdiff_t)rows * n, *lapack = right + rows, root = sqrt(mu);
     for (int j = 0; j < n; j++) {
         double *column = stack + (ptrdiff_t)j * rows;
-        memcpy(column, jacobian + (ptrdiff_t)j * m, (size_t)m * sizeof(double));
+        for (int i = 0; i < m; i++)
+            column[i] = unit * jacobian[i + (ptrdiff_t)j * m];
         memset(column + m, 0, (size_t)n * sizeof(double));
-        column[m + j] = hypot(root * scale[j], floor[j]);
+        column[m + j] = hypot(root * (unit * scale[j]), unit * floor[j]);
     }
     for (int i = 0; i < m; i++)
         right[i] = -r[i];
@@ -33,10 +47,11 @@ static int solve_damped(int m, int n, const double *jacobian, const double *r, c
     int lwork = (int)(least_squares_workspace(m, n) - (size_t)rows * (size_t)n - (size_t)rows);
     if (LAPACKE_dgels_work(LAPACK_COL_MAJOR, 'N', rows, n, 1, stack, rows, right, rows, lapack, lwork))
         return 1;
-    memcpy(h, right, (size_t)n * sizeof(double));
-    for (int j = 0; j < n; j++)
+    for (int j = 0; j < n; j++) {
+        h[j] = unit * right[j];
         if (!isfinite(h[j]))
             return 1;
+    }
     return 0;
 }
 
@@ -57,13 +72,13 @@ double least_squares_length(int n, const double *scale, const double *h)
     return largest * sqrt(sum);
 }
 
-/* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with R of the last solution */
-static double length_slope(int m, int n, const double *scale, const double *h, double *work)
+/* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with unit R of the last solution */
+static double length_slope(int m, int n, const double *scale, double unit, const double *h, double *work)
 {
     int rows = m + n;
     double *q = work + (ptrdiff_t)rows * n, sum = 0;
     for (int j = 0; j < n; j++)
-        q[j] = scale[j] * (scale[j] * h[j]);
+        q[j] = unit * scale[j] * (scale[j] * h[j]);
     if (LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'U', 'T', 'N', n, 1, work, rows, q, n))
         return 0;
     for (int j = 0; j < n; j++)
@@ -74,13 +89,14 @@ static double length_slope(int m, int n, const double *scale, const double *h, d
 int least_squares_damped_step(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
                               double radius, double *mu, double *h, double *length, double *work)
 {
+    const double unit = unit_of(n, scale);
     for (int turn = 0;; turn++) {
-        if (solve_damped(m, n, jacobian, r, scale, floor, *mu, h, work))
+        if (solve_damped(m, n, jacobian, r, scale, floor, unit, *mu, h, work))
             return 1;
         *length = least_squares_length(n, scale, h);
         if (!(*length > LONGER * radius))
             return 0;
-        double raise = *length * *length / length_slope(m, n, scale, h, work) * (*length - radius) / radius;
+        double raise = *length * *length / length_slope(m, n, scale, unit, h, work) * (*length - radius) / radius;
         if (turn == TURNS)
             return 1;
         *mu += raise > 0 && isfinite(raise) ? raise : 99 * *mu; /* where the slope is lost below or above all numbers */

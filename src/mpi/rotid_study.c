@@ -20,7 +20,7 @@
 
 #define AHEAD           2   /* runs of a rank */
 #define COMPUTING_RANKS 16  /* with more, rank 0 only writes and hands out */
-#define GRACE           5.0 /* s for the others to answer once the job has been told to end */
+#define GRACE           0.3 /* s for the others to answer once the job has been told to end */
 
 enum { TAG_RUN = 1, TAG_LINE };
 
@@ -275,7 +275,7 @@ int main(int argc, char **argv)
     struct command command = {0};
     MPI_Init(&argc, &argv);
     command_set_signals();
-    command_watch_signals(0);
+    command_watch_signals();
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     char **words = POOL_ARRAY(&command.pool, char *, argc + 2); /* rotid-study PLAN is rotid study PLAN */

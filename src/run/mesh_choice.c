@@ -4,8 +4,9 @@
 
 #include "run/spectrum.h"
 
-#define ROUNDS 4   /* the second one mostly ends it */
-#define MARGIN 0.9 /* of h: what h^2 leaves out */
+#define FIRST_PER_WAVE 8   /* elements for half a wave of the highest mode */
+#define ROUNDS         4   /* the second one mostly ends it */
+#define MARGIN         0.9 /* of h: what h^2 leaves out */
 
 /* Elements no longer than h. Returns their number. */
 static int divide(struct rotor *rotor, int count, const int *section, double h)
@@ -46,18 +47,15 @@ int mesh_choose(struct pool *pool, struct job *job, int count, const int *sectio
         free += job->rotor.segment[section[i]].length;
     choice->is_noise_known = isfinite(noise);
     choice->wanted = choice->is_noise_known ? MESH_CHOICE_SHARE * noise : MESH_CHOICE_ERROR;
-    double h = length / (MESH_CHOICE_PER_WAVE * (choice->mode + 1)), least = free / MESH_CHOICE_LARGEST;
-    choice->error = NAN;
-    if (h <= least) /* whatever the error is, there is nothing to choose; hundreds of modes take a minute */
-        choice->elements = divide(&job->rotor, count, section, least);
-    for (int round = 0; round < ROUNDS && !choice->elements; round++) {
+    double h = length / (FIRST_PER_WAVE * (choice->mode + 1)), least = free / MESH_CHOICE_LARGEST;
+    for (int round = 0; round < ROUNDS; round++) {
         h = fmax(h, least);
-        int elements = divide(&job->rotor, count, section, h);
+        choice->elements = divide(&job->rotor, count, section, h);
         int status = mesh_error(pool, job, choice->mode, &choice->error);
         if (status)
             return status;
-        if (!(choice->error > choice->wanted) || h <= least || round == ROUNDS - 1)
-            choice->elements = elements;
+        if (!(choice->error > choice->wanted) || h <= least)
+            break;
         h *= MARGIN * sqrt(choice->wanted / choice->error);
     }
     for (int i = 0; i < count; i++) {
