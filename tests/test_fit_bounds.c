@@ -256,7 +256,6 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
     assert_null(result);
     assert_status(rotid_fit(&model, NULL, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
     assert_status(rotid_fit(&model, fit.parameter, NULL, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_fit(&model, fit.parameter, &fit.measured, NULL, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
     assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);
     paper_fit_close(&fit);
 }

@@ -289,7 +289,7 @@ static void what_is_refused_is_named(void **state)
     refused(pair.host[1].model.n = 1, 2, 3, "state[1]: model->n is 1, expected 2 or more");
     refused(pair.data[0].measured.nmode = 0, 2, 3, "state[0]: measured->nmode is 0, expected 1 or more");
     refused(pair.options.functional = 9, 2, 3,
-            "options->functional is 9, expected ROTID_HYBRID, ROTID_HYBRID_F or ROTID_LIKELIHOOD");
+            "options->functional is 9, expected ROTID_LIKELIHOOD, ROTID_HYBRID or ROTID_HYBRID_F");
     refused((void)0, 2, 2, "state[1]: parameter is NULL and model->nparam is 3, expected at most nparam = 2");
     refused(pair.state[1].parameter = beyond, 2, 3, "state[1]: parameter[1] is 3, expected an unknown, 0 ... 2 (nparam - 1)");
     refused(pair.state[0].parameter = below, 2, 3, "state[0]: parameter[1] is -1, expected an unknown, 0 ... 2 (nparam - 1)");

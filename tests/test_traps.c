@@ -114,8 +114,8 @@ enum { EXTREMES = sizeof extreme / sizeof *extreme };
 
 static void say(void)
 {
-    survived +=
-        rotid_version() != NULL && rotid_status_text(-1) != NULL && rotid_status_name(3) != NULL && rotid_verdict_name(2) != NULL;
+    survived += rotid_version() != NULL && rotid_status_text(-1) != NULL && rotid_status_name(3) != NULL &&
+                rotid_verdict_name(2) != NULL && rotid_status_converged(2);
 }
 
 static void sections(void)
@@ -258,7 +258,7 @@ static const struct {
     void (*call)(void);
     const char *routines;
 } table[] = {
-    {say, "rotid_version rotid_status_text rotid_status_name rotid_verdict_name "},
+    {say, "rotid_version rotid_status_text rotid_status_name rotid_status_converged rotid_verdict_name "},
     {sections, "rotid_shear_coefficient_annulus rotid_shear_coefficient_rectangle rotid_equivalent_cylinder "},
     {elements, "rotid_element_stiffness rotid_element_geometric rotid_element_mass "},
     {correlations, "rotid_mac rotid_nco "},
