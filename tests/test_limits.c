@@ -302,7 +302,7 @@ static void every_command_obeys_within_a_second(void **state)
         int code, ms;
         const char *took =
             shell(&test_pool,
-                  "cd %s && { exec 3> slow; sleep 8; } 2> /dev/null & slow=$!; { exec 3< "
+                  "cd %s; { exec 3> slow; sleep 8; } 2> /dev/null & slow=$!; { exec 3< "
                   "blocked; sleep 8; } 2> /dev/null & blocked=$!; begun=$(date +%%s%%N); timeout -s TERM -k 8 0.25 " ROTID_PROGRAM
                   " %s --quiet > said 2>&1; echo $? $((($(date +%%s%%N) - begun) / 1000000)); kill $slow $blocked; "
                   "tail -3 said >&2",
