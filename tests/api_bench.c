@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 
 #define MODES   5
 #define SENSORS 11

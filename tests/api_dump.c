@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "record/record.h"
-#include "result/records.h"
+#include "result/result.h"
 #include "support.h"
 
 static void put_text(FILE *out, const char *name, const char *text)

@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_COMPILERS_H
 #define ROTID_TESTS_COMPILERS_H
 
-#include "base/pool.h"
+#include "base/base.h"
 
 /* The compiler that the environment names in CC, CXX or FC, else cc, c++, gfortran. */
 const char *compiler(const char *variable);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 int pool_setup(void **state)
 {

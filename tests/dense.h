@@ -5,8 +5,7 @@
 
 #include "support.h"
 
-#include "base/pool.h"
-#include "base/random.h"
+#include "base/base.h"
 
 /* A pool as the state of a cmocka test. */
 int pool_setup(void **state);

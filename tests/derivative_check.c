@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "dense.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 
 static double largest(int n, const double *x)
 {

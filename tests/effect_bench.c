@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "paper_rotor.h"
 
 static const double pi = 3.14159265358979323846;

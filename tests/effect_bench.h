@@ -3,7 +3,7 @@
 #define ROTID_TESTS_EFFECT_BENCH_H
 
 #include "beam/beam.h"
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 #include "support.h"
 
 #define BENCH_EFFECTS 3

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "support.h"
 
 int either_band_wide;

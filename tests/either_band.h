@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_EITHER_BAND_H
 #define ROTID_TESTS_EITHER_BAND_H
 
-#include "linalg/eigen.h"
+#include "linalg/linalg.h"
 
 /* 0: narrow; 1: wide, the matrices stored with zeros beside them */
 extern int either_band_wide;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 static const double pi = 3.14159265358979323846;

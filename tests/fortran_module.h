@@ -3,7 +3,7 @@
 #ifndef ROTID_TESTS_FORTRAN_MODULE_H
 #define ROTID_TESTS_FORTRAN_MODULE_H
 
-#include "base/pool.h"
+#include "base/base.h"
 
 /* All names and types are in lower case. */
 struct fortran_variable {

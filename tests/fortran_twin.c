@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 
 struct comparison {
     struct pool *pool;

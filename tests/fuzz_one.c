@@ -7,14 +7,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "api/deck_handle.h"
+#include "api/api.h"
 #include "deck/deck.h"
-#include "deck/deck_write.h"
-#include "result/json_tree.h"
 #include "result/result.h"
-#include "study/plan.h"
-#include "study/stamp.h"
-#include "study/summary.h"
+#include "study/study.h"
 #include "uff/uff.h"
 
 static void require(int condition)

@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include "base/pool.h"
+#include "base/base.h"
 
 /* A type without a name: base "double", "size_t", "unsigned long", "rotid_message", "void" (never "struct rotid_message"). */
 struct header_type {

@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_HEADER_TOKENS_H
 #define ROTID_TESTS_HEADER_TOKENS_H
 
-#include "base/pool.h"
+#include "base/base.h"
 
 enum token_kind { TOKEN_END, TOKEN_NAME, TOKEN_NUMBER, TOKEN_TEXT, TOKEN_MARK };
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/clock.h"
+#include "base/base.h"
 #include "deck/deck.h"
 
 char *hidden_read(const char *path)

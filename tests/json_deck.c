@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/deck_handle.h"
-#include "result/json_tree.h"
+#include "api/api.h"
 #include "result/result.h"
 #include "support.h"
 

@@ -3,7 +3,7 @@
 #define ROTID_TESTS_JSON_DECK_H
 
 #include "json_value.h"
-#include "run/job.h"
+#include "run/run.h"
 
 struct json_deck {
     struct pool pool; /* for the test */

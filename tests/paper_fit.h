@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_PAPER_FIT_H
 #define ROTID_TESTS_PAPER_FIT_H
 
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 #include "paper_rotor.h"
 #include "support.h"

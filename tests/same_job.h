@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_SAME_JOB_H
 #define ROTID_TESTS_SAME_JOB_H
 
-#include "run/job.h"
+#include "run/run.h"
 
 /* All numbers to the last bit, but standard deviations of frequencies within one unit of the last place. */
 void assert_same_job(const struct job *a, const struct job *b);

@@ -2,7 +2,7 @@
 #ifndef ROTID_TESTS_SHELL_H
 #define ROTID_TESTS_SHELL_H
 
-#include "base/pool.h"
+#include "base/base.h"
 
 /* Runs a command by sh, with both its streams in one. *output (NULL allowed): what it wrote, on the pool. Returns its exit code,
  * 128

@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 const struct material rig_steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
 

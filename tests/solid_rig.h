@@ -3,7 +3,7 @@
 #ifndef SOLID_RIG_H
 #define SOLID_RIG_H
 
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "solid/solid.h"
 #include "support.h"
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "support.h"
 
 double complex struck_pole(const struct struck_mode *mode)

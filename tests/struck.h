@@ -6,7 +6,7 @@
 #include <complex.h>
 #include <stdint.h>
 
-#include "signal/transfer.h"
+#include "signal/signal.h"
 
 #define PI 3.14159265358979323846
 

@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "json_value.h"
-#include "result/json_tree.h"
-#include "study/run.h"
+#include "result/result.h"
+#include "study/study.h"
 #include "support.h"
 
 extern char **environ;

@@ -5,7 +5,6 @@
 #include <cJSON.h>
 #include <sys/types.h>
 
-#include "study/jobs.h"
 #include "study/study.h"
 
 /* Three cylinders of steel with six measured modes near those of the model and twelve sensors; E of the core and of the left end

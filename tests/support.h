@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/pool.h"
+#include "base/base.h"
 #include "rotid.h"
 
 #ifndef ROTID_SOURCE_DIR

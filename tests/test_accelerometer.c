@@ -6,9 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "deck/deck_write.h"
 #include "diagnose/diagnose.h"
 #include "exact.h"
 #include "folder.h"

@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "fit/baseline.h"
+#include "fit/fit.h"
 #include "paper_fit.h"
 
 static void test_pool_says_when_memory_is_out_and_stays_usable(void **state)

@@ -9,8 +9,8 @@
 
 #include "api_bench.h"
 #include "api_dump.h"
-#include "base/clock.h"
-#include "fit/baseline.h"
+#include "base/base.h"
+#include "fit/fit.h"
 #include "paper_fit.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"

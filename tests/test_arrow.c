@@ -5,9 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/arrow.h"
-#include "linalg/matrix.h"
-#include "modal/prediction.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 #define N 37

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
-#include "base/order.h"
+#include "base/base.h"
 
 /* ---- an allocator that hands out dirty memory and sees writes behind a block */
 

@@ -3,10 +3,7 @@
 #include <math.h>
 
 #include "beam/beam.h"
-#include "beam/element.h"
-#include "linalg/eigen.h"
-#include "linalg/factor.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "support.h"
 
 static const double pi = 3.14159265358979323846;

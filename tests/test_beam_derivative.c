@@ -2,8 +2,8 @@
  * beam_build refuses. */
 #include <math.h>
 
-#include "linalg/matrix.h"
-#include "model/discrete.h"
+#include "linalg/linalg.h"
+#include "model/model.h"
 #include "paper_rotor.h"
 #include "support.h"
 

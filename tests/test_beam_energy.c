@@ -2,9 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "model/discrete.h"
+#include "linalg/linalg.h"
+#include "model/model.h"
 #include "paper_rotor.h"
 #include "support.h"
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "diagnose/bootstrap.h"
-#include "fit/quantile.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
 #include "support.h"
 
 static double dot(int n, const double *a, const double *b)

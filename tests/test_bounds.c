@@ -2,8 +2,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "fit/bounds.h"
-#include "fit/quantile.h"
+#include "fit/fit.h"
 #include "support.h"
 
 static const double chi = 0.05;

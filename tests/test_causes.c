@@ -2,7 +2,7 @@
  * frequencies: test_causes_exact.c. */
 #include <math.h>
 
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 #include "effect_bench.h"
 
 static const double pi = 3.14159265358979323846;

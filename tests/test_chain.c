@@ -7,12 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "hammer_bench.h"
 #include "import/import.h"
-#include "run/identify.h"
+#include "run/run.h"
 
 #define RUNS  3 /* of the coverage in the suite, which make chain counts */
 #define FINER 4 /* elements, for the coverage */
@@ -216,8 +216,8 @@ static void below_1500_hz(struct hammer_options *options)
     options->drift = 1e-4;
 }
 
-/* E and G of the stack of the shipped motor, a layer of LAMINATED on a through shaft, drawn beside what the deck states; a drift of 0.01 % from
- * point to point is what the poles' standard deviations do not know of. */
+/* E and G of the stack of the shipped motor, a layer of LAMINATED on a through shaft, drawn beside what the deck states; a drift
+ * of 0.01 % from point to point is what the poles' standard deviations do not know of. */
 static void moduli_of_a_stack_on_a_through_shaft_lie_in_their_intervals(void **state)
 {
     (void)state;

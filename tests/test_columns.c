@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/columns.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 #include "effect_bench.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 
 #define SENSORS 13
 #define MODES   5

@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/text.h"
-#include "cli/arguments.h"
+#include "base/base.h"
+#include "cli/cli.h"
 #include "folder.h"
 #include "shell.h"
 #include "support.h"

@@ -2,9 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "fit/covariance.h"
-#include "fit/quantile.h"
+#include "base/base.h"
+#include "fit/fit.h"
 #include "support.h"
 
 #define M 30

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/decide.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 #include "support.h"
 
 #define MODES 6

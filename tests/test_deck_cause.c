@@ -6,14 +6,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 #include "folder.h"
-#include "modal/functional.h"
+#include "modal/modal.h"
 #include "model/model.h"
-#include "run/identify.h"
+#include "run/run.h"
 #include "support.h"
 
 #define EVERY_CAUSE ROTID_SOURCE_DIR "/tests/data/decks/every_cause.inp"

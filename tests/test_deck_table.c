@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "deck/deck.h"
-#include "deck/table_columns.h"
 #include "folder.h"
-#include "report/csv.h"
+#include "report/report.h"
 #include "support.h"
 #include "uff/uff.h"
 

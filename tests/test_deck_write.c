@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
-#include "deck/deck_write.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "folder.h"
-#include "run/identify.h"
+#include "run/run.h"
 #include "same_job.h"
 #include "support.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck_write.h"
+#include "deck/deck.h"
 #include "folder.h"
 #include "read_states.h"
 #include "same_job.h"

@@ -7,8 +7,7 @@
 
 #include "deck/deck.h"
 #include "folder.h"
-#include "run/compare.h"
-#include "run/identify.h"
+#include "run/run.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

@@ -2,8 +2,8 @@
 #include "support.h"
 
 #include "json_deck.h"
-#include "model/deflection.h"
-#include "run/spectrum.h"
+#include "model/model.h"
+#include "run/run.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT                                                                                                                    \

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#include "linalg/matrix.h"
-#include "modal/prediction.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 /* The left spring is stiff enough to be felt by the bending modes. */

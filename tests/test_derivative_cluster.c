@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "linalg/matrix.h"
-#include "modal/functional.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 
 enum { each = 3, most = 9, most_spans = 11 }; /* masses of a span; of three spans; more than a cluster has members */
 

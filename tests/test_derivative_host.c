@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "modal/prediction.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 
 /* ---- K(x) = K0 + x1 K1 + x1 x2 K2, M(x) = M0 + x2^2 M1, all of them dense */
 

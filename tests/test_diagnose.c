@@ -7,12 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
 #include "folder.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 #include "support.h"
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
-#include "deck/deck_write.h"
 #include "diagnose/diagnose.h"
 #include "folder.h"
 #include "support.h"

@@ -6,14 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "deck/deck_extended.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
-#include "run/identify.h"
+#include "run/run.h"
 
 #define SENSORS 9
 #define MODES   4

@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/deck_handle.h"
+#include "api/api.h"
 #include "deck/deck.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/changed.h"
-#include "diagnose/refit.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 #include "hidden_states.h"
-#include "run/spectrum.h"
+#include "run/run.h"
 
 #define ROTOR                                                                                                                    \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"                                         \

@@ -2,11 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/factors.h"
-#include "beam/hinge.h"
-#include "beam/lumped.h"
+#include "beam/beam.h"
 #include "effect_bench.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 static const struct cause_kind *const physical[] = {&cause_step_stiffness,
                                                     &cause_stiffness_gradient,

@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 /* ---- the matrices */
 

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 /* Residuals relative to |K| + |lambda| |M|, phi' M phi = I, lambda ascending. */
 static void check_pairs(struct pool *pool, int n, const double *k, const double *m, int count, const double *lambda,

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 #define MOST_MASTERS 80

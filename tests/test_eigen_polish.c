@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linalg/band.h"
-#include "linalg/eigen_polish.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "model/model.h"
 
 enum { count = 9 };

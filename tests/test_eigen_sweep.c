@@ -1,6 +1,6 @@
 /* Eigenpairs of matrices whose eigenvalues are stated: K = S Q D Q' S, M = S^2 with block rotations Q, over numbers of rows, half
  * bands, counts, clusters and scales of 1e12. Meant for the address sanitizer too: each solver owns a workspace. */
-#include "base/random.h"
+#include "base/base.h"
 #include "dense.h"
 
 #include <float.h>

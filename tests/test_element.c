@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/element.h"
+#include "beam/beam.h"
 #include "support.h"
 
 static const struct element elements[] = {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ema/real_mode.h"
+#include "ema/ema.h"
 #include "ema_truth.h"
 #include "support.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/order.h"
+#include "base/base.h"
 #include "ema_truth.h"
 #include "support.h"
 

@@ -4,8 +4,7 @@
 #include <math.h>
 
 #include "beam/beam.h"
-#include "linalg/factor.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "paper_rotor.h"
 #include "support.h"
 

@@ -2,8 +2,8 @@
  * paper's rotor and on the paper's own assumption (19b). docs/errata.md lists the numbers. */
 #include <math.h>
 
-#include "base/random.h"
-#include "modal/functional.h"
+#include "base/base.h"
+#include "modal/modal.h"
 #include "model/model.h"
 #include "paper_rotor.h"
 #include "support.h"

@@ -3,12 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "beam/beam.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "linalg/reduction.h"
-#include "modal/eigenvector_derivative.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "paper_rotor.h"
 #include "support.h"
 

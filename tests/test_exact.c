@@ -3,12 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "exact.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 #include "paper_rotor.h"
-#include "run/spectrum.h"
+#include "run/run.h"
 
 static const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
 

@@ -5,7 +5,7 @@
 
 #include "export/export.h"
 #include "exported.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 /* A writer's output as a stream to read. */
 static FILE *written(int (*write)(FILE *, const struct export_model *), const struct export_model *model)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "dense.h"
 #include "host_beam.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_fit.h"
 
 /* With one modulus held at a bound the other is found by golden section on an objective of our own. */

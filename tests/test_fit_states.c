@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "dense.h"
-#include "modal/joint.h"
+#include "modal/modal.h"
 
 static const struct {
     int functional, reduction;

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_fit.h"
 
 static const double truth[PAPER_MOST_PARAMETERS] = {1.157e11, 0.316e11, 7380.66, 150e3, 9790};

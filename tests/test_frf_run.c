@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "run/frf_run.h"
+#include "run/run.h"
 #include "support.h"
 
 #define MODES  4

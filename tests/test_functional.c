@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "modal/functional.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 static const double two_pi = 6.28318530717958647692;

@@ -4,8 +4,7 @@
 #include <math.h>
 
 #include "paper_rotor.h"
-#include "run/job.h"
-#include "run/sensitivity.h"
+#include "run/run.h"
 
 /* A free steel bar: with G tied to E every eigenvalue is proportional to E, condensed or not. */
 static void make_bar(struct job *job, struct group *group, struct segment *segment, struct sensor *sensor, int nsensor)

@@ -9,7 +9,7 @@
 
 #include "deck/deck.h"
 #include "model/model.h"
-#include "run/identify.h"
+#include "run/run.h"
 
 #define SENSORS 9
 #define MODES   4

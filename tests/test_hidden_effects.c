@@ -1,6 +1,6 @@
 /* The diagnosis on hidden effects (hidden.h: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes): fixed cases of
- * every kind; faults of the data alone are in test_hidden_faults. Of what is clear or small every third row, unless ROTID_LONG is set
- * (make test-long). tools/power does the same with fresh ones by the thousand. */
+ * every kind; faults of the data alone are in test_hidden_faults. Of what is clear or small every third row, unless ROTID_LONG is
+ * set (make test-long). tools/power does the same with fresh ones by the thousand. */
 #include "support.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 #include "hidden.h"
 
 static const struct {

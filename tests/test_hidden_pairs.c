@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2
@@ -26,7 +26,9 @@ static const struct {
     {BOTH, 2, {"stiffness:group=left,factor=0.92", "stiffness:group=right,factor=0.93"}},
     {BOTH, 3, {"stiffness_local:depth=0.5,z=0.857,width=0.04,shape=gaussian", "added_mass:mass=10,z=1.6"}},
     {BOTH, 5, {"joint:at=left.end,flexibility=2e-9", "density:group=core,factor=0.92"}},
-    {BOTH, 4, {"stiffness:group=left,factor=0.7", "joint:at=core.end,flexibility=9e-9"}}, /* too large for columns without effects */
+    {BOTH,
+     4,
+     {"stiffness:group=left,factor=0.7", "joint:at=core.end,flexibility=9e-9"}}, /* too large for columns without effects */
     {ALONE, 6, {"stiffness_gradient:group=core,slope=0.4"}},
     {ALONE, 7, {"stiffness_local:depth=0.6,z=0.857,width=0.04,shape=gaussian"}},
     {ALONE, 8, {"stiffness:group=left,factor=2.2"}}, /* beyond the usual bounds */

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 #include "hidden.h"
 
 #define MOST 2
@@ -23,15 +23,52 @@ static const struct {
     int sensor;
 } table[] = {
     /* before any fit the second-order part of the effect looks like noise of 1.8 times the stated one */
-    {"input/paper_rotor.inp", 20, 6, 1, 0.001, 0.015, 1, {"stiffness_local:depth=0.93,z=1.2,width=0.05"}, "stiffness_local", NULL, 0},
+    {"input/paper_rotor.inp",
+     20,
+     6,
+     1,
+     0.001,
+     0.015,
+     1,
+     {"stiffness_local:depth=0.93,z=1.2,width=0.05"},
+     "stiffness_local",
+     NULL,
+     0},
     /* beside the model without it mode 7 looks like none, and mode 8 like 7 */
-    {"tests/data/supported_rotor.inp", 20, 8, 7020, 0.0006, 0.01, 1,
-     {"stiffness_local:depth=0.9341,z=1.3128,width=0.053457"}, "stiffness_local", NULL, 0},
-    {"input/paper_rotor.inp", 20, 6, 2, 0.001, 0.015, 2,
-     {"stiffness_local:depth=0.8,z=1.0,width=0.05", "sensor_gain:sensor=7,gain=1.3"}, "stiffness_local", "sensor_gain", 7},
+    {"tests/data/supported_rotor.inp",
+     20,
+     8,
+     7020,
+     0.0006,
+     0.01,
+     1,
+     {"stiffness_local:depth=0.9341,z=1.3128,width=0.053457"},
+     "stiffness_local",
+     NULL,
+     0},
+    {"input/paper_rotor.inp",
+     20,
+     6,
+     2,
+     0.001,
+     0.015,
+     2,
+     {"stiffness_local:depth=0.8,z=1.0,width=0.05", "sensor_gain:sensor=7,gain=1.3"},
+     "stiffness_local",
+     "sensor_gain",
+     7},
     /* a bad fit, and three modes */
-    {"input/paper_rotor.inp", 12, 3, 3, 0.001, 0.015, 2,
-     {"stiffness_local:depth=0.8,z=1.0,width=0.05", "duplicate_channel:sensor=9,of=8"}, NULL, "duplicate_channel", 9},
+    {"input/paper_rotor.inp",
+     12,
+     3,
+     3,
+     0.001,
+     0.015,
+     2,
+     {"stiffness_local:depth=0.8,z=1.0,width=0.05", "duplicate_channel:sensor=9,of=8"},
+     NULL,
+     "duplicate_channel",
+     9},
 };
 
 #define COUNT ((int)(sizeof table / sizeof *table))

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "support.h"
 
 #define MODES     6

@@ -10,7 +10,7 @@
 #include "folder.h"
 #include "hide/hide.h"
 #include "read_states.h"
-#include "run/identify.h"
+#include "run/run.h"
 #include "support.h"
 
 #define COMMON                                                                                                                   \

@@ -15,8 +15,7 @@
 
 #include "api_bench.h"
 #include "api_dump.h"
-#include "base/host.h"
-#include "base/parallel.h"
+#include "base/base.h"
 #include "paper_fit.h"
 
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)

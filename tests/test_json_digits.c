@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "result/json_tree.h"
+#include "base/base.h"
+#include "result/result.h"
 
 static void same_as_printf(double value)
 {

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "json_deck.h"
-#include "result/json_tree.h"
-#include "run/spectrum.h"
+#include "result/result.h"
+#include "run/run.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT                                                                                                                    \

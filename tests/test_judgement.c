@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diagnose/spread.h"
-#include "fit/interval.h"
-#include "report/table.h"
-#include "result/judgement.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
+#include "report/report.h"
+#include "result/result.h"
 #include "support.h"
 
 static void errors_of_fitted_modes_and_of_those_held_out_stand_apart(void **state)

@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "beam/quantities.h"
-#include "beam/shear_coefficient.h"
+#include "beam/beam.h"
 #include "deck/deck.h"
 #include "effect_bench.h"
 #include "folder.h"

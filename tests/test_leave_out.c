@@ -2,12 +2,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "diagnose/leave_out.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
 #include "effect_bench.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
-#include "run/identify.h"
+#include "run/run.h"
 
 #define SENSORS 9
 #define MODES   5

@@ -6,10 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/factor.h"
-#include "linalg/least_squares.h"
-#include "linalg/matrix.h"
-#include "linalg/symmetric.h"
+#include "linalg/linalg.h"
 
 static const struct structure {
     int n, kd, nfar, far[6];

@@ -1,11 +1,11 @@
 /* The positions of all sensors at once: each kind of fault is found in shapes of the oracle with its size, sound lines and single
  * sensors are left alone, and the card puts right what the hidden fault did. */
-#include "diagnose/line_check.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_rotor.h"
 #include "rotor_shapes.h"
 

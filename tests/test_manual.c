@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "deck/card_table.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "shell.h"
 #include "support.h"
 #include "tables/generated.h"

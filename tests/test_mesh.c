@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "beam/beam.h"
-#include "beam/mesh.h"
 #include "support.h"
 
 /* Two segments of 1 m and 0.5 m with 10 and 4 elements: nodes at 0, 0.1, ..., 1, 1.125, ..., 1.5. The arrays have room for the

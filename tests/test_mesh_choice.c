@@ -4,10 +4,9 @@
 #include <string.h>
 
 #include "deck/deck.h"
-#include "deck/deck_write.h"
 #include "exact.h"
 #include "folder.h"
-#include "run/mesh_choice.h"
+#include "run/run.h"
 
 #define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 

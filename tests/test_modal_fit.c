@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "ema/modal_fit.h"
-#include "ema/refine.h"
+#include "base/base.h"
+#include "ema/ema.h"
 #include "support.h"
 
 #define LINES    400

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "effect_bench.h"
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 #include "model/model.h"
 #include "paper_rotor.h"
 

@@ -1,11 +1,11 @@
 /* The level of the noise in residuals whose physical columns come from the oracle: right level, stated too low or too high,
  * coloured, with hidden effects, with faulty sensors. Seeds are fixed; rates are asserted against their binomial bounds. */
-#include "diagnose/noise_check.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_rotor.h"
 #include "rotor_shapes.h"
 

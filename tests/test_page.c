@@ -7,7 +7,7 @@
 
 #include <cJSON.h>
 
-#include "base/clock.h"
+#include "base/base.h"
 #include "json_value.h"
 #include "page_bench.h"
 #include "support.h"

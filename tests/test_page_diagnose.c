@@ -10,7 +10,7 @@
 #include "json_value.h"
 #include "page/page.h"
 #include "page_bench.h"
-#include "result/cause_place.h"
+#include "result/result.h"
 #include "support.h"
 
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"

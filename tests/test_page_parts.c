@@ -6,8 +6,7 @@
 
 #include "page/page.h"
 #include "page_bench.h"
-#include "report/html.h"
-#include "report/human.h"
+#include "report/report.h"
 #include "support.h"
 
 #define MINUS "\xe2\x88\x92"

@@ -9,7 +9,7 @@
 #include "json_value.h"
 #include "page/page.h"
 #include "page_bench.h"
-#include "study/stamp.h"
+#include "study/study.h"
 #include "study_bench.h"
 #include "support.h"
 

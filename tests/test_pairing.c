@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "modal/pairing.h"
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 /* ---- correlation */

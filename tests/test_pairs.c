@@ -2,11 +2,9 @@
  * their order. */
 #include <math.h>
 
-#include "base/random.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/decide.h"
-#include "diagnose/discrepancy.h"
-#include "diagnose/pairs.h"
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 #include "support.h"
 
 #define ROWS  20

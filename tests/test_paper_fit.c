@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "fit/baseline.h"
+#include "fit/fit.h"
 #include "paper_fit.h"
 
 /* From the 68-sensor surrogate of input/paper_rotor.inp; SciPy's optimum is the second opinion on it. */

@@ -6,7 +6,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "base/parallel.h"
+#include "base/base.h"
 
 #define MOST 1000
 

@@ -6,11 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "deck/deck_uff_std.h"
-#include "deck/deck_write.h"
-#include "run/point_fit.h"
+#include "run/run.h"
 #include "support.h"
 
 #define POINTS 21

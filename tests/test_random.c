@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/random.h"
+#include "base/base.h"
 
 static void the_stream_is_splitmix64(void **state)
 {

@@ -6,9 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "linalg/reduction.h"
+#include "linalg/linalg.h"
 #include "model/model.h"
 
 static const int kinds[2] = {ROTID_GUYAN, ROTID_IRS};

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/failure.h"
-#include "base/sized.h"
+#include "base/base.h"
 #include "header.h"
 #include "support.h"
 

@@ -7,11 +7,10 @@
 
 #include <cJSON.h>
 
-#include "base/clock.h"
-#include "base/random.h"
+#include "base/base.h"
 #include "page/page.h"
 #include "page_bench.h"
-#include "study/stamp.h"
+#include "study/study.h"
 #include "support.h"
 
 #define PAPER      ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -329,12 +328,15 @@ static void hostile_texts_stay_texts(void **state)
     double begin = clock_seconds();
     stream.state = 12;
     assert_int_equal(
-        page_run("cd %s; %s identify %s --quiet --json identify.json; %s sensitivity %s --quiet --json sensitivity.json && " /* 1: not adequate */
-                 "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
-                 "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json check.json && "
-                 "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
-                 page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER,
-                 ROTID_PROGRAM, LAP, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
+        page_run(
+            "cd %s; %s identify %s --quiet --json identify.json; %s sensitivity %s --quiet --json sensitivity.json && " /* 1: not
+                                                                                                                           adequate
+                                                                                                                         */
+            "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
+            "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json check.json && "
+            "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
+            page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM,
+            LAP, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
         0);
     for (size_t i = 0; i < KINDS; i++) {
         int free_keys = 0;

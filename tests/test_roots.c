@@ -3,11 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "ema/next_roots.h"
-#include "linalg/cholesky.h"
-#include "linalg/product.h"
-#include "linalg/roots.h"
+#include "base/base.h"
+#include "ema/ema.h"
+#include "linalg/linalg.h"
 #include "support.h"
 
 #define N 12

@@ -2,8 +2,8 @@
  * test_accelerometer.c. */
 #include <math.h>
 
-#include "base/random.h"
-#include "diagnose/roving_accelerometer.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
 #include "support.h"
 
 #define POINTS 21

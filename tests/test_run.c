@@ -5,10 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_rotor.h"
-#include "run/identify.h"
-#include "run/sensitivity.h"
+#include "run/run.h"
 
 static const double truth[2] = {1.157e11, 0.316e11};
 

@@ -1,9 +1,8 @@
 /* Cross sections against sums over holes and rods, limits of Cowper's coefficient and inversion. */
 #include <math.h>
 
-#include "beam/cylinder.h"
-#include "beam/shear_coefficient.h"
-#include "rotor/section.h"
+#include "beam/beam.h"
+#include "rotor/rotor.h"
 #include "support.h"
 
 static const double pi = 3.14159265358979323846;

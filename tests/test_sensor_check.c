@@ -1,12 +1,12 @@
 /* Faults of the measurement chain in shapes of the oracle, on the right model and on wrong ones that nobody has fitted: false
  * alarms, and every kind of fault at random sensors. Rates are asserted against their binomial bounds; seeds are fixed. */
-#include "diagnose/sensor_check.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "paper_rotor.h"
 #include "rotor_shapes.h"
 

@@ -5,11 +5,10 @@
 #include <string.h>
 
 #include "deck/deck.h"
-#include "deck/deck_write.h"
 #include "derivative_check.h"
 #include "folder.h"
 #include "model/model.h"
-#include "run/identify.h"
+#include "run/run.h"
 #include "support.h"
 
 #define MATERIAL                                                                                                                 \

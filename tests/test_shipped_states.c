@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "deck/deck.h"
-#include "deck/deck_write.h"
 #include "hidden.h"
 #include "rotid.h"
 #include "same_job.h"
@@ -102,15 +101,16 @@ static void without_the_accelerometer_the_strip_is_too_high(void **state)
     rotid_deck_free(deck);
 }
 
-/* The strip with E as the source has it and without the accelerometer, diagnosed over its four lengths: 5 g, whose place the states
- * would not agree on as a z, are among the causes that act in all of them, and nothing else is named. */
+/* The strip with E as the source has it and without the accelerometer, diagnosed over its four lengths: 5 g, whose place the
+ * states would not agree on as a z, are among the causes that act in all of them, and nothing else is named. */
 static void the_accelerometer_of_the_strip_is_in_the_set(void **state)
 {
     (void)state;
     char *text = hidden_read(STRIP), failure[ROTID_FAILURE_LENGTH];
     char *disk = strstr(text, "*DISK"), *unknowns = strstr(text, "*IDENTIFY"), *measured = strstr(text, "*STATE");
     assert_true(disk && unknowns && measured && disk < unknowns && unknowns < measured);
-    const char *bare = pool_format(&test_pool, "%.*s*SENSORS\n1, end\n*NOISE, FREQUENCY=0.01\n%s", (int)(disk - text), text, measured);
+    const char *bare =
+        pool_format(&test_pool, "%.*s*SENSORS\n1, end\n*NOISE, FREQUENCY=0.01\n%s", (int)(disk - text), text, measured);
     rotid_deck *deck;
     rotid_diagnosis *d;
     int found = 0;

@@ -4,8 +4,8 @@
 #include <complex.h>
 #include <math.h>
 
-#include "base/random.h"
-#include "signal/fft.h"
+#include "base/base.h"
+#include "signal/signal.h"
 
 #define MOST 6000
 #define PI   3.14159265358979323846

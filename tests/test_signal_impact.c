@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "signal/impact.h"
+#include "signal/signal.h"
 #include "struck.h"
 
 static const struct struck_mode modes[] = {{40, 0.05, 0.5}, {90, 0.04, -0.3}, {170, 0.03, 0.4}};

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "signal/estimator.h"
+#include "signal/signal.h"
 #include "struck.h"
 
 #define RATE   1000.0

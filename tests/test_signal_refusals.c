@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "signal/estimator.h"
+#include "signal/signal.h"
 #include "struck.h"
 
 #define LENGTH 2000

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "solid/transfer.h"
+#include "linalg/linalg.h"
+#include "solid/solid.h"
 #include "solid_rig.h"
 
 /* ---- motions in closed form */

@@ -3,9 +3,8 @@
 #include <string.h>
 
 #include "exact.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "solid/attached.h"
+#include "linalg/linalg.h"
+#include "solid/solid.h"
 #include "solid_rig.h"
 
 #define MODES 3

@@ -3,9 +3,8 @@
 #include <math.h>
 
 #include "exact.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "run/spectrum.h"
+#include "linalg/linalg.h"
+#include "run/run.h"
 #include "solid_rig.h"
 
 static const double pi = 3.14159265358979323846;

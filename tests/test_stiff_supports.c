@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/parallel.h"
-#include "base/random.h"
+#include "base/base.h"
 #include "hidden.h"
 
 #define JOBS 2

@@ -5,12 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 #include "hide/hide.h"
 #include "json_value.h"
-#include "study/experiment.h"
-#include "study/score.h"
+#include "study/study.h"
 #include "study_bench.h"
 #include "support.h"
 

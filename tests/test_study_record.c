@@ -11,11 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "result/json_tree.h"
-#include "study/merge.h"
-#include "study/record.h"
-#include "study/stamp.h"
-#include "study/summary.h"
+#include "result/result.h"
+#include "study/study.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -537,7 +534,8 @@ static void summaries_add_up(void **state)
     assert_true(s.ncells == 1 && s.done == RUNS && s.runs == RUNS && s.missing == 0 && s.failed == 1 && s.nerrors == 1);
     const struct study_cell_result *cell = &s.cells[0];
     assert_true(cell->converged == 3 && cell->at_bound == 1 && cell->not_converged == 1 && cell->failed == 1);
-    assert_int_equal(cell->not_adequate, 1); /* 1 % of one degree of freedom is at 6.635, and what did not converge is not judged */
+    assert_int_equal(cell->not_adequate,
+                     1); /* 1 % of one degree of freedom is at 6.635, and what did not converge is not judged */
     const struct cell_parameter *p = &cell->parameters[0];
     assert_true(cell->nparameters == 1 && p->count == 4 && p->min == 2 && p->max == 6);
     assert_close(p->mean, 4, 1e-14, 0);

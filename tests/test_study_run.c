@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "json_value.h"
-#include "result/json_tree.h"
-#include "study/run.h"
+#include "result/result.h"
+#include "study/study.h"
 #include "study_bench.h"
 #include "support.h"
 

@@ -3,10 +3,9 @@
 #include <string.h>
 
 #include "json_value.h"
-#include "result/json_tree.h"
-#include "run/identify.h"
-#include "study/experiment.h"
-#include "study/run.h"
+#include "result/result.h"
+#include "run/run.h"
+#include "study/study.h"
 #include "study_bench.h"
 #include "support.h"
 

@@ -8,15 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "deck/deck_proposed.h"
-#include "diagnose/data.h"
+#include "diagnose/diagnose.h"
 #include "hide/hide.h"
-#include "linalg/cholesky.h"
-#include "suggest/design.h"
-#include "suggest/joint_fit.h"
-#include "suggest/margin.h"
+#include "linalg/linalg.h"
 #include "suggest/suggest.h"
 #include "support.h"
 

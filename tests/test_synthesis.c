@@ -5,8 +5,7 @@
 #include "exact_receptance.h"
 #include "model/model.h"
 #include "paper_rotor.h"
-#include "run/frf_agreement.h"
-#include "run/synthesis.h"
+#include "run/run.h"
 #include "support.h"
 
 #define TWO_PI 6.28318530717958647692

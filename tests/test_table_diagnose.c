@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/result_diagnosis.h"
-#include "report/table_diagnose.h"
-#include "result/json_tree.h"
+#include "api/api.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define MODES   6
 #define SENSORS 34

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "report/layout.h"
+#include "report/report.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

@@ -10,11 +10,10 @@
 
 #include <cJSON.h>
 
-#include "base/text.h"
-#include "report/chart.h"
-#include "report/layout.h"
+#include "base/base.h"
+#include "report/report.h"
 #include "shell.h"
-#include "study/results.h"
+#include "study/study.h"
 #include "support.h"
 
 /* Colour, window title, backspace, DEL, C1 as a character and as a byte, controls of direction, separators, no UTF-8. */

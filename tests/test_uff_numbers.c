@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "support.h"
-#include "uff/reader.h"
+#include "uff/uff.h"
 
 static void check_as_strtod(const char *text)
 {

@@ -4,12 +4,8 @@
 #include <string.h>
 
 #include "deck/deck.h"
-#include "deck/deck_cards.h"
-#include "deck/deck_write.h"
 #include "folder.h"
-#include "run/compare.h"
-#include "run/doubt.h"
-#include "run/spectrum.h"
+#include "run/run.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

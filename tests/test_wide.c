@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "modal/eigenvector_derivative.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 
 static const struct structure {
     int n, kd, nfar, far[3];

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "deck/deck.h"
 #include "folder.h"
 #include "support.h"

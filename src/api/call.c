@@ -1,4 +1,4 @@
-#include "api/call.h"
+#include "api/api.h"
 
 #include <stdio.h>
 

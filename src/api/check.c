@@ -1,9 +1,7 @@
 /* What a deck says, for hosts. */
-#include "api/deck_handle.h"
-#include "api/keep.h"
-#include "api/result_geometry.h"
-#include "model/meridian.h"
-#include "run/spectrum.h"
+#include "api/api.h"
+#include "model/model.h"
+#include "run/run.h"
 
 static rotid_check *make_result(struct call *call, const struct job *job, const struct spectrum *s)
 {

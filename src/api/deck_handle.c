@@ -1,9 +1,9 @@
 /* A deck for hosts: read once, then only read from. */
-#include "api/deck_handle.h"
+#include "api/api.h"
 
 #include <math.h>
 
-#include "base/host.h"
+#include "base/base.h"
 #include "deck/deck.h"
 #include "model/model.h"
 

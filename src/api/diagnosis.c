@@ -1,10 +1,7 @@
 /* The diagnosis of a deck, for hosts. */
-#include "api/deck_handle.h"
-#include "api/keep.h"
-#include "api/result_diagnosis.h"
-#include "base/parallel.h"
-#include "base/sized.h"
-#include "deck/deck_extended.h"
+#include "api/api.h"
+#include "base/base.h"
+#include "deck/deck.h"
 #include "diagnose/diagnose.h"
 
 static rotid_diagnosis *make_result(struct call *call, const struct states *states, const char *path, struct diagnosis *d)

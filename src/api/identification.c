@@ -1,9 +1,6 @@
 /* The identification of a deck, for hosts. */
-#include "api/deck_handle.h"
-#include "api/keep.h"
-#include "api/result_geometry.h"
-#include "api/result_identification.h"
-#include "diagnose/hidden.h"
+#include "api/api.h"
+#include "diagnose/diagnose.h"
 
 static rotid_identification *keep(struct call *call, rotid_identification *made)
 {

@@ -1,4 +1,4 @@
-#include "api/keep.h"
+#include "api/api.h"
 
 void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory)
 {

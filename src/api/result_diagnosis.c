@@ -1,10 +1,8 @@
-#include "api/result_diagnosis.h"
+#include "api/api.h"
 
 #include <math.h>
 
-#include "api/result_geometry.h"
-#include "api/result_identification.h"
-#include "diagnose/items.h"
+#include "diagnose/diagnose.h"
 
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {

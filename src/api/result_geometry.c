@@ -1,8 +1,8 @@
-#include "api/result_geometry.h"
+#include "api/api.h"
 
 #include <math.h>
 
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 
 static rotid_material material_of(const struct material *material)
 {

@@ -1,11 +1,10 @@
-#include "api/result_identification.h"
+#include "api/api.h"
 
 #include <math.h>
 
-#include "api/result_geometry.h"
-#include "base/order.h"
-#include "fit/baseline.h"
-#include "run/mode_shapes.h"
+#include "base/base.h"
+#include "fit/fit.h"
+#include "run/run.h"
 
 static void fill_parameters(struct pool *pool, const rotid_parameter *list, const rotid_fit_result *fit,
                             rotid_identification *out)

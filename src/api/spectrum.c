@@ -1,14 +1,9 @@
 /* The modes of the model of a deck, for hosts. */
 #include <math.h>
 
-#include "api/deck_handle.h"
-#include "api/keep.h"
-#include "api/result_geometry.h"
-#include "api/result_identification.h"
-#include "model/meridian.h"
-#include "run/beside.h"
-#include "run/compare.h"
-#include "run/doubt.h"
+#include "api/api.h"
+#include "model/model.h"
+#include "run/run.h"
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
 #define MODES_DRAWN 6 /* of a solid on its meridian: two thousand numbers each */

@@ -1,13 +1,9 @@
 /* What to measure next, for hosts. */
 #include <limits.h>
 
-#include "api/deck_handle.h"
-#include "api/keep.h"
-#include "api/result_diagnosis.h"
-#include "api/result_geometry.h"
-#include "base/parallel.h"
-#include "base/sized.h"
-#include "deck/deck_proposed.h"
+#include "api/api.h"
+#include "base/base.h"
+#include "deck/deck.h"
 
 static int take_options(const rotid_suggest_options *given, char *failure, rotid_suggest_options *o)
 {

@@ -1,7 +1,4 @@
-#include "base/entry.h"
-
-#include "base/host.h"
-#include "base/sized.h"
+#include "base/base.h"
 
 static int take_environment(const rotid_environment *given, char *failure, rotid_environment *environment)
 {

@@ -1,10 +1,8 @@
-#include "base/failure.h"
+#include "base/base.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "base/host.h"
 
 size_t failure_append(char *failure, size_t length, const char *text)
 {

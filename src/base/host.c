@@ -1,4 +1,4 @@
-#include "base/host.h"
+#include "base/base.h"
 
 #include <stdio.h>
 #include <string.h>

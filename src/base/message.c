@@ -1,4 +1,4 @@
-#include "base/message.h"
+#include "base/base.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "base/order.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "base/parallel.h"
+#include "base/base.h"
 
 #include <fenv.h>
 #include <locale.h>

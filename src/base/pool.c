@@ -1,4 +1,4 @@
-#include "base/pool.h"
+#include "base/base.h"
 
 #include <stdarg.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/base.h"
 
 #include <math.h>
 

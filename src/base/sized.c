@@ -1,9 +1,7 @@
-#include "base/sized.h"
+#include "base/base.h"
 
 #include <stddef.h>
 #include <string.h>
-
-#include "base/failure.h"
 
 #define MOST 4096 /* bytes: a larger size was never written by a sizeof, and what it claims may not be readable */
 

@@ -1,4 +1,4 @@
-#include "base/text.h"
+#include "base/base.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -2,12 +2,8 @@
 #include <string.h>
 
 #include "beam/beam.h"
-#include "beam/factors.h"
-#include "beam/hinge.h"
-#include "beam/lumped.h"
-#include "beam/quantities.h"
-#include "linalg/matrix.h"
-#include "rotor/effects.h"
+#include "linalg/linalg.h"
+#include "rotor/rotor.h"
 
 static void add_between(rotid_matrix *a, int first, int second, const double *e)
 {

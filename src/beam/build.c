@@ -1,7 +1,4 @@
 #include "beam/beam.h"
-#include "beam/cylinder.h"
-#include "beam/factors.h"
-#include "beam/hinge.h"
 
 static int build_sections(struct beam *beam, int *failed)
 {

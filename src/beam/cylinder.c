@@ -1,9 +1,8 @@
-#include "beam/cylinder.h"
+#include "beam/beam.h"
 
 #include <math.h>
 
-#include "base/entry.h"
-#include "base/host.h"
+#include "base/base.h"
 #include "rotid.h"
 
 static const double pi = 3.14159265358979323846;

@@ -1,7 +1,4 @@
-#include "beam/deflection.h"
-
-#include "beam/lumped.h"
-#include "beam/quantities.h"
+#include "beam/beam.h"
 
 /* Deflection at s in [0, 1] of the chain. Its elements run to the left where sign is -1: their rotation turns with them. */
 static double along_chain(const struct chain *chain, const struct element *element, double sign, const double *u, double s)

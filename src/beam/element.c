@@ -1,8 +1,8 @@
-#include "beam/element.h"
+#include "beam/beam.h"
 
 #include <string.h>
 
-#include "base/host.h"
+#include "base/base.h"
 #include "rotid.h"
 
 /* Each element matrix is s P(phi)/(1 + phi)^q with a polynomial P of degree <= 2 in phi and four different kinds of entries:

@@ -1,6 +1,6 @@
-#include "beam/factors.h"
+#include "beam/beam.h"
 
-#include "rotor/effects.h"
+#include "rotor/rotor.h"
 
 struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part)
 {

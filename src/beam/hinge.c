@@ -1,4 +1,4 @@
-#include "beam/hinge.h"
+#include "beam/beam.h"
 
 #include <string.h>
 

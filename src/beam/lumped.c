@@ -1,10 +1,9 @@
-#include "beam/lumped.h"
+#include "beam/beam.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "beam/hinge.h"
-#include "rotor/effects.h"
+#include "rotor/rotor.h"
 
 /* With theta = gamma - v' and the constant shear angle gamma = -6 EI/kGS c3 of v = c0 + ... + c3 z^3, both shapes are
  * (A + phi B)/(1 + phi). */

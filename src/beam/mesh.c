@@ -1,10 +1,10 @@
-#include "beam/mesh.h"
+#include "beam/beam.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/order.h"
+#include "base/base.h"
 #include "rotid.h"
 
 #define NEAR 0.01 /* of an element: a node this close stands for the position */

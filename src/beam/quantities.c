@@ -1,7 +1,6 @@
-#include "beam/quantities.h"
+#include "beam/beam.h"
 
-#include "beam/factors.h"
-#include "rotor/effects.h"
+#include "rotor/rotor.h"
 
 static double middle_of(const struct mesh *mesh, int e)
 {

@@ -1,6 +1,6 @@
-#include "beam/shear_coefficient.h"
+#include "beam/beam.h"
 
-#include "base/host.h"
+#include "base/base.h"
 #include "rotid.h"
 
 static const double pi = 3.14159265358979323846;

@@ -3,10 +3,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/arguments.h"
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "export/export.h"
-#include "result/export.h"
+#include "result/result.h"
 
 int arguments_same_file(const char *a, const char *b)
 {

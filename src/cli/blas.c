@@ -8,8 +8,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "cli/arguments.h"
-#include "cli/command.h"
+#include "cli/cli.h"
 
 #if ROTID_OPENBLAS
 

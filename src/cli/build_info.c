@@ -1,4 +1,4 @@
 /* The only file that knows which commit this is. */
-#include "cli/command.h"
+#include "cli/cli.h"
 
 const char *const build_commit = ROTID_COMMIT;

@@ -1,13 +1,13 @@
-#include "cli/command.h"
+#include "cli/cli.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "report/output.h"
-#include "result/json_tree.h"
+#include "base/base.h"
+#include "report/report.h"
+#include "result/result.h"
 
 void command_print_messages(struct command *command)
 {

@@ -1,6 +1,6 @@
-#include "api/deck_handle.h"
-#include "cli/command.h"
-#include "report/table.h"
+#include "api/api.h"
+#include "cli/cli.h"
+#include "report/report.h"
 
 static void free_all(const struct result *result)
 {

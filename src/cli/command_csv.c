@@ -1,9 +1,8 @@
 /* What --csv writes. */
 #include <stdio.h>
 
-#include "cli/arguments.h"
-#include "cli/command.h"
-#include "report/output.h"
+#include "cli/cli.h"
+#include "report/report.h"
 
 int command_refuse_csv(const struct command *command, const struct csv_part *part)
 {

@@ -1,8 +1,8 @@
 /* The deck of a command, and the fit of its model. */
 #include <string.h>
 
-#include "api/deck_handle.h"
-#include "cli/arguments.h"
+#include "api/api.h"
+#include "cli/cli.h"
 
 /* The place of a message as the user knows it: the library calls an override by its text alone. */
 static const char *place_of(const struct command *command, const char *file)

@@ -1,8 +1,7 @@
 #include <string.h>
 
-#include "cli/command.h"
-#include "report/table.h"
-#include "report/table_diagnose.h"
+#include "cli/cli.h"
+#include "report/report.h"
 
 #define WIDTH 100 /* columns: fits a terminal beside an editor, and a page of a log */
 

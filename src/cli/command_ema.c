@@ -1,12 +1,10 @@
-#include "cli/arguments.h"
-#include "cli/command.h"
+#include "cli/cli.h"
 
 #include <stdio.h>
 
-#include "base/clock.h"
+#include "base/base.h"
 #include "import/import.h"
-#include "report/output.h"
-#include "report/report_ema.h"
+#include "report/report.h"
 
 /* Whole or not there. */
 static int write_modes(struct command *command, const struct measurement *measurement, const struct ema *ema)

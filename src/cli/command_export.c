@@ -1,12 +1,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "api/deck_handle.h"
-#include "cli/arguments.h"
-#include "cli/command.h"
+#include "api/api.h"
+#include "cli/cli.h"
 #include "export/export.h"
-#include "report/output.h"
-#include "report/table.h"
+#include "report/report.h"
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
 

@@ -1,11 +1,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command.h"
+#include "cli/cli.h"
 #include "import/import.h"
-#include "report/output.h"
-#include "report/report_frf.h"
-#include "report/table.h"
+#include "report/report.h"
 
 /* The measured functions of *FRF, FILE. */
 static int read_measured(struct command *command, const struct job *job, struct measurement *measurement,

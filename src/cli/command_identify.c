@@ -1,6 +1,6 @@
-#include "cli/command.h"
-#include "report/table.h"
-#include "result/judgement.h"
+#include "cli/cli.h"
+#include "report/report.h"
+#include "result/result.h"
 
 static int show(struct command *command, rotid_identification *found)
 {

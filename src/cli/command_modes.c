@@ -1,5 +1,5 @@
-#include "cli/command.h"
-#include "report/table.h"
+#include "cli/cli.h"
+#include "report/report.h"
 
 static void free_all(const struct result *result)
 {

@@ -1,6 +1,6 @@
 #include <stdio.h>
 
-#include "cli/arguments.h"
+#include "cli/cli.h"
 #include "page/page.h"
 
 /* "rotid report a.json b.json -o page.html" as a user can repeat it. */

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/deck_handle.h"
-#include "cli/command.h"
-#include "report/table.h"
-#include "run/sensitivity.h"
+#include "api/api.h"
+#include "cli/cli.h"
+#include "report/report.h"
+#include "run/run.h"
 
 #define MODES_WITHOUT_DATA 6
 

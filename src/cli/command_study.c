@@ -1,4 +1,4 @@
-#include "cli/command_study.h"
+#include "cli/cli.h"
 
 #include <errno.h>
 #include <math.h>
@@ -6,10 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/arguments.h"
-#include "study/merge.h"
-#include "study/summary.h"
-#include "study/workers.h"
+#include "study/study.h"
 
 /* Where standard error is a terminal: a line that is written over. */
 static void show_progress(void *context, const struct study_progress *now)

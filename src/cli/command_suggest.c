@@ -1,8 +1,8 @@
 #include <string.h>
 
-#include "cli/command.h"
-#include "deck/deck_proposed.h"
-#include "report/table.h"
+#include "cli/cli.h"
+#include "deck/deck.h"
+#include "report/report.h"
 
 static int write_extended(struct command *command, const rotid_suggestion *s, int code)
 {

@@ -1,4 +1,4 @@
-#include "cli/arguments.h"
+#include "cli/cli.h"
 
 const struct command_entry command_table[] = {
     {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings",
@@ -42,8 +42,8 @@ const struct command_entry command_table[] = {
      "rotid uff records.unv --verbose\n"
      "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},
-    {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page.html",
-     "json|jsonl", command_report, SEVERAL_FILES},
+    {"report", "results that were written with --json as a page with figures",
+     "rotid report identify.json diagnose.json -o page.html", "json|jsonl", command_report, SEVERAL_FILES},
     {"study", "many runs from one plan, or of many decks, resumable",
      "rotid study plan.inp -o results.jsonl\n"
      "rotid study part1.jsonl part2.jsonl -o results.jsonl --merge",

@@ -1,10 +1,9 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-#include "cli/arguments.h"
-#include "cli/command.h"
+#include "cli/cli.h"
 #include "import/import.h"
-#include "report/report_uff.h"
+#include "report/report.h"
 
 /* The modes of the file as the tables of --csv. */
 static int write_tables(struct command *command, int code)

@@ -1,10 +1,8 @@
-#include "cli/options.h"
+#include "cli/cli.h"
 
 #include <string.h>
 
-#include "cli/command.h"
-#include "result/ema.h"
-#include "result/export.h"
+#include "result/result.h"
 
 #define DECKS       "check modes sensitivity identify diagnose suggest frf export"
 #define UNIVERSAL   "unv|uff|uf"

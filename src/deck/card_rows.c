@@ -1,5 +1,5 @@
 /* Options and values of the cards that have code of their own. */
-#include "deck/deck_cards.h"
+#include "deck/deck.h"
 #include "deck/deck_row.h"
 
 static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},

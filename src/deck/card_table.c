@@ -1,6 +1,5 @@
 #include "deck/card_table.h"
-#include "deck/deck_cards.h"
-#include "deck/deck_state.h"
+#include "deck/deck.h"
 
 #include <string.h>
 

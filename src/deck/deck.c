@@ -6,11 +6,8 @@
 #include <string.h>
 
 #include "deck/card_table.h"
-#include "deck/deck_cards.h"
-#include "deck/deck_frequencies.h"
-#include "deck/deck_state.h"
 #include "rotid.h"
-#include "run/mesh_choice.h"
+#include "run/run.h"
 
 #define LAST_PHASE 8
 

@@ -1,9 +1,138 @@
-/* Input decks: keyword cards as in docs/deck.md. */
 #ifndef ROTID_DECK_DECK_H
 #define ROTID_DECK_DECK_H
 
-#include "deck/deck_text.h"
-#include "run/states.h"
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
+#include "run/run.h"
+#include "suggest/suggest.h"
+#include "uff/uff.h"
+
+/* ----------------------------------------------------------------------------------------------------------- deck source */
+
+/* Where the characters of a deck come from: a file, or the memory of a host. */
+
+#define DECK_SOURCE_END (-1)
+
+/* A deck without a file. */
+struct deck_memory {
+    const char *name; /* what stands for the file in messages */
+    size_t length;
+    const char *text;      /* [length] */
+    const char *directory; /* of what it names, or NULL: it may name no files */
+};
+
+struct deck_source {
+    struct stat information; /* of the file; zeros for memory */
+    FILE *stream;            /* NULL: memory */
+    const char *text;
+    size_t left;
+};
+
+/* ------------------------------------------------------------------------------------------------------------- deck text */
+
+/* A deck as text: cards with their options and data lines, each piece with its place. */
+
+#define DECK_LINE_LENGTH   1024
+#define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
+#define DECK_MOST_INCLUDES 16          /* depth */
+#define DECK_MOST_FILES    1000        /* included ones: few lines in each of them include thousands more */
+#define DECK_MOST_CARDS    5000        /* names are compared with each other */
+#define DECK_MOST_MODES    100         /* and the highest number: a spectrum costs the cube of the number of modes */
+
+struct place {
+    const char *file;
+    int line, column;
+};
+
+struct field { /* of a data line, trimmed; empty between two commas */
+    const char *text;
+    struct place place; /* row and column where the line comes from a table */
+    double in_si;       /* factor of a unit that the field has of its own; 0: that of the deck */
+};
+
+struct data_line {
+    struct place place, end; /* end: just behind the last character */
+    const char *text;        /* the whole line, comment removed */
+    int count;
+    struct field *field;
+};
+
+struct table_text;
+
+struct card_option {
+    const char *name, *value; /* value "" where there is no '=' */
+    struct place place, value_place;
+    int overridden; /* --set gave it */
+};
+
+struct card {
+    const char *name; /* upper case, without the asterisk */
+    struct place place;
+    int noption, nline;
+    size_t option_room, line_room;
+    struct card_option *option;
+    struct data_line *line;
+};
+
+struct deck_text {
+    int ncard;
+    size_t card_room;
+    struct card *card;
+    struct place end;
+    int nfile; /* the deck, what it includes, and measured data that its cards name */
+    size_t file_room;
+    const char **file;
+    int ntable;
+    size_t table_room;
+    struct table_text **table;      /* read so far: a table may serve several cards */
+    const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
+};
+
+/* "CARD.OPTION=VALUE" that replaces an option of a deck. */
+struct override {
+    const char *card, *option, *value;
+    const char *text;  /* what stands for the file in messages: "--set CARD.OPTION=VALUE" */
+    const char *given; /* the whole, NULL of one that nobody wrote so */
+};
+
+/* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or
+ * ROTID_ERROR_MEMORY. */
+int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text);
+
+/* The same of a deck that is no file; its name is kept, not copied. */
+int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
+                          struct deck_text *text);
+
+/* A path that an option names, as seen from where the program runs: relative ones are relative to the file that names them, those
+ * of an override to where the program runs; in a deck from memory both are relative to its directory. NULL: no memory, or, with
+ * an error in the list, a deck from memory that may name no files. */
+const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
+                           const struct card_option *option, struct message_list *messages);
+
+/* One more card, or option of a card. NULL, or not 0, where memory is out. */
+struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place);
+int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option);
+
+/* The path of a file that the deck is made of; kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
+int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path);
+
+/* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
+ * ROTID_ERROR_MEMORY. */
+int override_parse(struct pool *pool, const char *text, struct override *override);
+
+/* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
+int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text);
+
+/* The option of that name, or NULL. */
+const struct card_option *card_option(const struct card *card, const char *name);
+
+/* ------------------------------------------------------------------------------------------------------------------ deck */
+
+/* Input decks: keyword cards as in docs/deck.md. */
 
 /* Reads a deck, a file or one from memory (not NULL), applies the overrides, reads the measured data it names and checks
  * everything. All errors of the deck are in the list, each with file, line and column. ROTID_OK, ROTID_ERROR_SYNTAX,
@@ -19,5 +148,440 @@ int deck_read(struct pool *pool, const char *path, int noverride, const struct o
  * errors name. */
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
                    const struct card *card, struct message_list *messages, struct states *states);
+
+/* ------------------------------------------------------------------------------------------------------------ deck cards */
+
+/* Shared by the readers of the cards: what has been read so far, and the reading of single fields. */
+
+#define DECK_MOST_KINDS 64 /* of cards */
+#define DECK_QUANTITIES 8  /* whose units *UNITS can state */
+
+struct deck_reader {
+    struct pool *pool;
+    struct message_list *messages;
+    struct deck_text text;
+    struct job *job;
+    int nmaterial;
+    size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
+    size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
+    struct material *material;
+    long taken;               /* rows of tables, by all cards */
+    int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
+    size_t open_room;
+    int *material_complete; /* bit 1: elastic constants, bit 2: density */
+    struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
+    size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
+        bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
+    struct place *correction_place; /* of the CAUSE cards of the measurement chain */
+    const char *layout;             /* what a data line of the card at hand holds */
+    double length;                  /* of the rotor, once all groups are read */
+    double noise_frequency, noise_shape, floor_frequency, floor_shape;
+    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
+    const char *tie;           /* FIT, TIE=E:G */
+    int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
+    const char *state;         /* that the cards are of, NULL in a deck without *STATE */
+    int ncommon;               /* the first cards of the text are common to all states; the others are of this one */
+    int ncommon_unknown;       /* the first unknowns come from those */
+    int alone;                 /* no other state is read beside it */
+    int held_out;              /* HOLDOUT=STATE: all its modes are */
+    int no_section;            /* the one error is that of a section that cannot be */
+    int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
+    unsigned doubted;          /* kinds of numbers that a warning was given for */
+    int out_of_memory;
+};
+
+void deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Appends a zeroed element to a growing array and returns its address, or NULL with out_of_memory set. */
+void *deck_append(struct deck_reader *reader, void **array, int count, size_t *room, size_t size);
+#define DECK_APPEND(reader, array, count, room) deck_append((reader), (void **)&(array), (count), &(room), sizeof *(array))
+
+enum range { ANY, NOT_NEGATIVE, POSITIVE };
+
+/* Sizes of numbers in SI units that leave room for what is computed of them: fourth powers of lengths, squares of stiffnesses,
+ * reciprocals of variances. Beyond, results would be zero, infinite or no numbers, without a place to blame. */
+#define DECK_LEAST 1e-30
+#define DECK_MOST  1e30
+/* Zero, or within these. */
+int deck_is_usual(double value);
+
+/* The factor that makes numbers in the unit `word` SI, of what has the unit `si` inside ("m", "1" for a share); 0 where that has
+ * no such unit. */
+double deck_unit_factor(const char *si, const char *word);
+/* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
+double deck_in_si(const struct deck_reader *reader, const char *what);
+/* The deck's own unit of it, for messages. */
+const char *deck_unit_name(const struct deck_reader *reader, const char *what);
+/* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
+void deck_doubt(struct deck_reader *reader, struct place place, const char *what, const char *text, double value);
+/* Warns of an absurd mass or length of the whole. */
+void deck_doubt_rotor(struct deck_reader *reader);
+
+/* Number i of a data line within the range; `what` names it in the error, and its unit ("outer diameter [m]"): the value
+ * is SI whatever *UNITS says. 0, or 1 after an error. */
+int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
+                double *value);
+int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
+                 int *value);
+/* Field i is there and not empty. */
+int deck_has(const struct data_line *line, int i);
+/* No more than `most` fields; otherwise an error that says what a line of this card holds. */
+int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout);
+/* A number in metres, start, end, group.start or group.end, inside the rotor. */
+int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z);
+/* The same of an option. */
+int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z);
+
+/* The value of an option that must be there, or NULL after an error. */
+const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
+/* unit: "" or as for deck_in_si. */
+int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
+                       double *value);
+int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
+extern const char *const deck_answers[]; /* NO, YES */
+
+/* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
+int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
+/* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
+ * `most`. */
+int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
+
+/* deck_text_path of an option of this deck. NULL after an error or where memory is out. */
+const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
+
+/* Index of a material, -1 where there is none of that name. */
+int deck_find_material(const struct deck_reader *reader, const char *name);
+
+/* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
+int deck_add_group(struct deck_reader *reader, const struct card *card);
+
+#define FRF_MOST_LINES     1000000
+#define DECK_MOST_ELEMENTS ROTOR_MOST_ELEMENTS /* of a segment, of a bundle of rods, of the rotor with its bundles */
+#define DECK_MOST_STATES   100                 /* each is read with all common cards */
+#define DECK_MOST_LINES    10000               /* of a card, and sensors of the rotor: they are compared with each other */
+
+/* The readers of the cards, by file. */
+void deck_units(struct deck_reader *reader, const struct card *card);
+void deck_material(struct deck_reader *reader, const struct card *card);
+void deck_elastic(struct deck_reader *reader, const struct card *card);
+void deck_density(struct deck_reader *reader, const struct card *card);
+void deck_shaft(struct deck_reader *reader, const struct card *card);
+void deck_beam(struct deck_reader *reader, const struct card *card);
+void deck_layer(struct deck_reader *reader, const struct card *card);
+void deck_perforation(struct deck_reader *reader, const struct card *card);
+void deck_tierod(struct deck_reader *reader, const struct card *card);
+void deck_bars(struct deck_reader *reader, const struct card *card);
+void deck_preload(struct deck_reader *reader, const struct card *card);
+void deck_sling(struct deck_reader *reader, const struct card *card);
+/* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
+int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
+void deck_heading(struct deck_reader *reader, const struct card *card);
+void deck_sensors(struct deck_reader *reader, const struct card *card);
+void deck_modes(struct deck_reader *reader, const struct card *card);
+void deck_shape(struct deck_reader *reader, const struct card *card);
+void deck_frequencies(struct deck_reader *reader, const struct card *card);
+void deck_noise(struct deck_reader *reader, const struct card *card);
+void deck_cause(struct deck_reader *reader, const struct card *card);
+
+/* The causes that MODEL=SOLID leaves without a meaning: an error each. */
+void deck_causes_of_solid(struct deck_reader *reader);
+
+/* The cards of the text into the job, with everything that is checked of them. */
+void deck_read_cards(struct deck_reader *reader);
+
+/* parameter_find of a field, also of "left.E=right.E". 3: an error of it has been reported. */
+int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
+
+/* Takes an unknown out of the job. */
+void deck_drop_unknown(struct deck_reader *reader, int p);
+/* MODES and HOLDOUT of a card. */
+void deck_choose_modes(struct deck_reader *reader, const struct card *card);
+/* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
+ * where the value is a list of modes. */
+const char *deck_whole_state(struct deck_reader *reader, const char **rest);
+
+/* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
+ * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
+int deck_read_tables(struct deck_reader *reader, int *nread);
+
+void deck_identify(struct deck_reader *reader, const struct card *card);
+void deck_fit(struct deck_reader *reader, const struct card *card);
+/* The universal file of MEASURED: sensors, modes and shapes. */
+void deck_measured(struct deck_reader *reader, const struct card *card);
+void deck_frf(struct deck_reader *reader, const struct card *card);
+
+/* Whether an option is no option but the second group of BETWEEN=left,core. */
+int deck_cause_list_item(const struct card *card, const struct card_option *option);
+/* Takes the faults that CAUSE cards state out of the data, in the order of the cards; the noise is known by then. */
+void deck_apply_corrections(struct deck_reader *reader);
+/* Whether "cause.parameter", which is no parameter of the model, has that name from a CAUSE card: of a suspect or a fault of the
+ * data, which this reports, or of a card that was refused, which has been reported. */
+int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place);
+
+/* ------------------------------------------------------------------------------------------------------------ deck cause */
+
+/* The reader of CAUSE cards, by file: the card and its values, its target, what corrections do to the data. */
+
+struct cause_card {
+    struct deck_reader *reader;
+    const struct card *card;
+    const char *name;
+    const struct cause_kind *kind;
+    int suspect;
+    struct effect effect;
+    struct correction correction;
+};
+
+/* What a target is called by on the card: its option, NULL where it has none, and what that expects. */
+const char *cause_target_option(enum cause_target target);
+const char *cause_target_expected(enum cause_target target);
+
+/* Reads the target into effect.target or the sensors and the block of the correction; the variant is known. 0, or 1 after an
+ * error. */
+int cause_read_target(struct cause_card *c);
+
+/* --------------------------------------------------------------------------------------------------------- deck extended */
+
+/* The extended deck of a diagnosis: what was named is in it, the moduli stand at their fitted values, the verdict in its heading.
+ */
+
+/* The deck of a diagnosis that has a verdict (sentence), of the base model where nothing was named; from: path of the deck that
+ * was diagnosed. ROTID_OK and *text on the pool; statuses of deck_write. */
+int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, const char *from, char **text);
+
+/* ------------------------------------------------------------------------------------------------------ deck frequencies */
+
+/* Frequencies at single sensors, from a card or a universal file. */
+
+/* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
+#define POINT_FREQUENCY_RANGE 0.05
+
+/* Room for them in the job, once its sensors and modes are known. 0, or 1 where memory is out. */
+int deck_new_points(struct deck_reader *reader);
+
+/* Whether hz cannot be a reading of measured mode `mode`. */
+int deck_point_is_far(const struct job *job, int mode, double hz);
+
+/* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
+ * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */
+void deck_settle_noise(struct deck_reader *reader);
+
+/* ------------------------------------------------------------------------------------------------------------ deck write */
+
+/* Decks from jobs: one self-contained text that deck_read turns into the same job. */
+
+struct deck_write_options {
+    int nextra;
+    const char *const *extra; /* [nextra] lines of text for the heading, behind those of the job; long ones are cut */
+    const double *x;          /* [nparameter] the model and the starts of *IDENTIFY at these values; NULL: as in the job */
+};
+
+/* The deck of a job. Measured data stand in it as they were read, in *SENSORS, *MODES and *SHAPE, with the faults found in them
+ * as *CAUSE cards behind. Reading it gives the numbers of the job to the last bit, but a standard deviation of a frequency within
+ * one unit of the last place and, where x lies on a bound or is zero, a start beside it; names of materials become those of their
+ * owners.
+ * options may be NULL. ROTID_OK and *text on the pool; ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where a deck cannot say it: a
+ * name with a comma or too long for a line, a cause without a name, a sensor id or mode number beyond those of a deck, too many
+ * cards. */
+int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text);
+
+/* The deck of all states; x of the options: of the unknowns of all [states->nparameter]. Common are the cards that all states
+ * begin with, and the unknowns that are common or of a cause that is in all; moduli, densities and lengths of groups that differ
+ * stand in *SET. Reading it gives each state as deck_write would, but for lengths that *SET states, and positions on them, within
+ * 1e-12. Statuses as of deck_write. */
+int deck_write_states(struct pool *pool, const struct states *states, const struct deck_write_options *options, char **text);
+
+/* --------------------------------------------------------------------------------------------------------- deck proposed */
+
+/* A test that is proposed, as the state of a deck. */
+
+/* The *STATE of a test: what changes in the rotor, its sensors, its noise, and as comments where its measurements go, beside the
+ * frequencies that the best rival expects, all in the units of the deck. job: the model that is tested. ROTID_OK and *text on the
+ * pool, ROTID_ERROR_MEMORY, or ROTID_ERROR_ARGUMENT where a deck cannot say it: a support without a name. */
+int deck_write_test(struct pool *pool, const struct job *job, const struct test *test, char **text);
+
+/* The text `deck` of the file `path` (NULL: it is read) with that state behind it: as it is where it has states, of which the new
+ * one takes the cards of `home` (may be NULL) that say how the structure is; else its measured data become a state of their own,
+ * `measured`, so that the other cards are common to both. Comments and *INCLUDE stay, but for a file that holds what is common
+ * beside what was measured: its cards stand in its place. Where the deck has a state of the name of the new one, that gets a
+ * number. Relative paths become absolute where `to`, the file that is written (NULL: paths stay), lies in another folder.
+ * ROTID_OK, ROTID_ERROR_MEMORY or, of a file or folder that cannot be read, ROTID_ERROR_IO. */
+int deck_add_state(struct pool *pool, const char *path, const char *deck, const char *to, const char *home, const char *state,
+                   char **text);
+
+/* The same of a test that was suggested, read back: with the expected frequencies in it the text reads as the states of the file
+ * `from`, to the last digit, and one more, which is `home` with what the test changes. Else *text is NULL, the list has an error
+ * and the status is ROTID_ERROR_SYNTAX, or ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
+int deck_propose(struct pool *pool, const char *from, const char *to, const char *home, const rotid_suggested_test *test,
+                 struct message_list *notes, char **text);
+
+/* ------------------------------------------------------------------------------------------------------------ deck state */
+
+/* Decks of several states: the cards before the first *STATE and those of a state are the deck of that state, which is read like
+ * any other. */
+
+/* All states of the text, or the one that FIT, STATE=NAME chooses; of a deck without *STATE the one that it is. Cards from
+ * `nread` on are common to all: overrides and others have added them. Memory, messages and text are those of reader, which is
+ * otherwise new. Errors go to the list, of the common cards once; no section: as in the reader. */
+void deck_read_all_states(struct deck_reader *reader, int nread, struct states *states);
+
+/* Cards: *STATE itself, with the modes of that state; *SET. */
+void deck_state(struct deck_reader *reader, const struct card *card);
+void deck_set(struct deck_reader *reader, const struct card *card);
+/* What *SET says of lengths, before anything refers to positions. */
+void deck_set_lengths(struct deck_reader *reader);
+
+/* ---------------------------------------------------------------------------------------------------------- deck uff std */
+
+/* The sets of a universal file that say how far its modes can be trusted. */
+
+/* Reads file->extra of a file that MEASURED names at `path`, after its modes: chosen [count] are the sets behind the modes of the
+ * job, component is the value of a node that DIRECTION asks for where there are several. Sets 55 of analysis type 0, behind a
+ * mode n of the file, by their first line of text: ROTID STANDARD DEVIATION OF MODE n: of the components, in their unit; the
+ * second line of text is FREQUENCY_HZ value DAMPING value, standard deviations as well; ROTID FREQUENCY AT POINT OF MODE n: Hz,
+ * with the accelerometer at each node, less what a second line ABOVE_HZ value says; ROTID STANDARD DEVIATION OF FREQUENCY AT
+ * POINT OF MODE n: Hz. They fill frequency_std, shape_std and the frequencies at single sensors of the job. Zero stands for what
+ * is not known; sets with other texts are left alone. Anything malformed is an error of the deck. */
+void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff_file *file, int count,
+                  const struct uff_shape *const *chosen, int component);
+
+/* ----------------------------------------------------------------------------------------------------------- deck writer */
+
+/* Shared by what writes the cards: a text that grows, and the form that a reader of decks accepts. */
+
+struct deck_writer {
+    struct pool *pool;
+    const struct job *job;
+    struct rotor rotor; /* of the job, at x */
+    const double *x;    /* [nparameter] or NULL */
+    char *text;
+    size_t length, room;
+    int status; /* the first failure; nothing is written behind it */
+};
+
+void deck_put(struct deck_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#define DECK_NUMBER_LENGTH 32
+
+/* The fewest digits that give the value back to the last bit, written out unless that is much longer. Returns `text`. */
+const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH]);
+
+/* A number in such digits; the value of a data line with the separator in front of it. */
+void deck_put_number(struct deck_writer *w, const char *separator, double value);
+
+/* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. A text that a deck cannot
+ * give back is an error. The caller ends the line. */
+void deck_put_card(struct deck_writer *w, const char *name);
+void deck_put_option(struct deck_writer *w, const char *name, const char *value);
+void deck_put_option_number(struct deck_writer *w, const char *name, double value);
+
+/* A writer of the job at x [nparameter], or as it stands where x is NULL, with a copy of what of the rotor can vary: groups,
+ * rods, disks, springs, causes. Its status. */
+int deck_writer_open(struct deck_writer *w, struct pool *pool, const struct job *job, const double *x);
+/* The text, NULL where there is a failure or where it is beyond the limits of a reader. */
+int deck_writer_end(struct deck_writer *w, char **text);
+
+/* The cards, by file: the heading; of the model; of the measured data; of their faults, causes and suspects; of the
+ * identification; of the transfer functions. */
+void deck_write_heading(struct deck_writer *w, const struct deck_write_options *options);
+void deck_write_model(struct deck_writer *w);
+void deck_write_measured(struct deck_writer *w);
+void deck_write_corrections(struct deck_writer *w);
+void deck_write_causes(struct deck_writer *w);
+void deck_write_fit(struct deck_writer *w, int with_holdout);
+void deck_write_frf(struct deck_writer *w);
+
+/* The line of unknown p in *IDENTIFY, under this name; the option HOLDOUT, where modes are held out. */
+void deck_write_unknown(struct deck_writer *w, int p, const char *name);
+void deck_write_holdout(struct deck_writer *w);
+
+/* ----------------------------------------------------------------------------------------------------- deck write states */
+
+/* Shared by what writes decks of several states. */
+
+struct deck_card;
+
+/* A card with its data lines; of a group or a bundle with the material in front of it. */
+struct block {
+    const char *text;
+    size_t length;
+    const struct deck_card *kind;
+    int part, common; /* part: faults of the data and causes are lists of their own */
+};
+
+struct written {
+    const struct state *state;
+    int *common; /* [job.unknowns.nparameter] which of its unknowns are common to all */
+    struct deck_writer w;
+    struct deck_writer set; /* the lines of *SET */
+    int nblock;
+    struct block *block;
+};
+
+/* ------------------------------------------------------------------------------------------------------------ table text */
+
+/* A table as a spreadsheet writes it: rows of cells with their places. */
+
+#define TABLE_MOST_BYTES   (16l << 20) /* of one file */
+#define TABLE_MOST_CELLS   500000      /* of one file: 10,000 sensors with fifty modes */
+#define TABLE_MOST_TAKEN   1000000     /* rows that all cards of a deck take of tables */
+#define TABLE_MOST_TABLES  100         /* of a deck */
+#define TABLE_MOST_COLUMNS 20100       /* 10,000 sensors with a standard deviation each, and what else a row says */
+#define TABLE_CELL_LENGTH  32          /* of the name of a cell */
+
+struct table_text {
+    const char *path;
+    int bad; /* an error has been reported: of the caller */
+    int nrow;
+    size_t row_room;
+    struct data_line *row; /* rows that hold something; a place counts rows and columns from 1, text is NULL */
+    double *number;        /* [nrow] of the cells of a column, NaN where there is none; of the caller */
+};
+
+/* The same of a file. `from`: what names it, the place of the error where it cannot be read. */
+int table_text_read(struct pool *pool, const char *path, struct place from, struct message_list *messages,
+                    struct table_text *table);
+
+/* Whether the text is a number and nothing else. */
+int table_is_number(const char *text);
+
+/* "C7" of row 7 and column 3, as spreadsheets name it. Returns `name`. */
+const char *table_cell_name(int row, int column, char name[TABLE_CELL_LENGTH]);
+
+/* --------------------------------------------------------------------------------------------------------- table columns */
+
+/* Which column of a table holds what: by the names in its first row, or, where that begins with a number, by their order. */
+
+#define TABLE_MOST_VALUES 8
+
+struct csv_column {
+    const char *names; /* in lower case, separated by bars; the first is that of messages */
+    const char *si;    /* unit that its numbers have inside, as for deck_unit_factor; NULL: none */
+    int may_lack;
+};
+
+/* What the columns of a card are called. */
+struct table_kind {
+    const char *card;
+    int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
+    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
+    struct csv_column key[3];                   /* what else a row says; ended by one without names */
+};
+
+/* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
+struct table_numbered {
+    int number;
+    int of_mode, of_sensor, is_std; /* as the name says */
+};
+
+struct table_columns {
+    int header;                   /* the first row names the columns */
+    int value[TABLE_MOST_VALUES]; /* index of a column, -1: there is none */
+    int key[3];
+    double in_si[TABLE_MOST_VALUES]; /* of a unit in the header, 0: none there */
+};
+
+extern const struct table_kind table_kinds[]; /* ended by one without card */
 
 #endif

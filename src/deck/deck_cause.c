@@ -2,8 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "deck/deck_cards.h"
-#include "deck/deck_cause.h"
+#include "deck/deck.h"
 
 /* Why a finding of the diagnosis has no card. */
 static const char *without_card(const struct cause_kind *kind)

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck_cause.h"
-#include "diagnose/causes/sensor.h"
+#include "deck/deck.h"
+#include "diagnose/causes/causes.h"
 
 /* What a target is called by on the card. */
 static const struct {

@@ -2,9 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck_cards.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/causes/sensor.h"
+#include "deck/deck.h"
+#include "diagnose/causes/causes.h"
 
 /* The places of the sensors in the deck, where a correction has changed their order. */
 static void follow_sensors(struct deck_reader *reader, const struct job_raw *raw)

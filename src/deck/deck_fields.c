@@ -1,4 +1,4 @@
-#include "deck/deck_cards.h"
+#include "deck/deck.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/table_text.h"
 #include "rotid.h"
 
 static void add(struct deck_reader *reader, enum severity severity, struct place place, const char *format, va_list values)

@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "deck/deck_row.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 
 /* Below zero is physical for some parameters of causes: each states its own range. */
 static void check_effect_bounds(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,

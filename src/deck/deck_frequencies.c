@@ -2,11 +2,10 @@
  * and their noise once everything has been read. */
 #include <math.h>
 
-#include "deck/deck_cards.h"
-#include "deck/deck_frequencies.h"
-#include "diagnose/causes/sensor.h"
+#include "deck/deck.h"
+#include "diagnose/causes/causes.h"
 #include "rotid.h"
-#include "run/point_fit.h"
+#include "run/run.h"
 
 int deck_new_points(struct deck_reader *reader)
 {

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/host.h"
-#include "deck/deck_cards.h"
+#include "base/base.h"
+#include "deck/deck.h"
 #include "deck/deck_row.h"
 
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */

@@ -1,7 +1,7 @@
 /* Options of a deck that are replaced for one run. */
 #include <string.h>
 
-#include "deck/deck_text.h"
+#include "deck/deck.h"
 #include "rotid.h"
 
 int override_parse(struct pool *pool, const char *text, struct override *override)

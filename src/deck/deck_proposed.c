@@ -1,4 +1,4 @@
-#include "deck/deck_proposed.h"
+#include "deck/deck.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -8,10 +8,8 @@
 #include <unistd.h>
 
 #include "deck/card_table.h"
-#include "deck/deck.h"
-#include "deck/deck_writer.h"
-#include "file/open.h"
-#include "suggest/tests.h"
+#include "file/file.h"
+#include "suggest/suggest.h"
 
 #define WIDER 1e3 /* bounds of the stiffness of a support, from its start */
 

@@ -4,8 +4,7 @@
 #ifndef ROTID_DECK_DECK_ROW_H
 #define ROTID_DECK_DECK_ROW_H
 
-#include "deck/deck_cards.h"
-#include "deck/deck_writer.h"
+#include "deck/deck.h"
 
 enum row_kind {
     ROW_OTHER,    /* read and written by the code of the card; what: its form, as docs/deck.md has it */

@@ -3,9 +3,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "deck/deck.h"
 #include "deck/deck_row.h"
-#include "deck/deck_state.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 
 static int is_length(const char *name)
 {

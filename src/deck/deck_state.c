@@ -1,4 +1,4 @@
-#include "deck/deck_state.h"
+#include "deck/deck.h"
 
 #include <stdlib.h>
 #include <string.h>

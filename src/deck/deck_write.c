@@ -1,11 +1,9 @@
-#include "deck/deck_write.h"
+#include "deck/deck.h"
 
 #include <string.h>
 
-#include "deck/deck_text.h"
-#include "deck/deck_writer.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/scan.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 #include "rotid.h"
 
 /* A line of text that a deck takes for text. */

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 #include "deck/card_table.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "rotid.h"
 
 static void refuse_writing(struct deck_writer *w)

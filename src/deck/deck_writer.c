@@ -1,4 +1,4 @@
-#include "deck/deck_writer.h"
+#include "deck/deck.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 #include "rotid.h"
 
 #define LINE 100 /* a card longer than this goes on in the next line */

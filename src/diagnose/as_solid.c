@@ -1,12 +1,11 @@
-#include "diagnose/as_solid.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "linalg/product.h"
-#include "run/compare.h"
-#include "run/held_mesh.h"
+#include "diagnose/causes/causes.h"
+#include "linalg/linalg.h"
+#include "run/run.h"
 
 int job_as_solid(struct pool *pool, const struct job *from, struct job *to)
 {

@@ -1,14 +1,11 @@
-#include "diagnose/bootstrap.h"
-#include "diagnose/scan.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/order.h"
-#include "base/parallel.h"
-#include "base/random.h"
-#include "fit/quantile.h"
-#include "linalg/product.h"
+#include "base/base.h"
+#include "fit/fit.h"
+#include "linalg/linalg.h"
 
 #define BLOCK 50 /* replicates a task: what is multiplied together must not depend on the number of threads */
 

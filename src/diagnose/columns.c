@@ -1,11 +1,10 @@
-#include "diagnose/columns.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "linalg/product.h"
-#include "run/held_mesh.h"
+#include "linalg/linalg.h"
+#include "run/run.h"
 
 /* (K - lambda M)^+ on the unit vectors of the sensors, in what the cluster of the mode leaves of the space */
 static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *m_phi, double *unit,

@@ -1,11 +1,9 @@
-#include "diagnose/correct.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/causes/sensor.h"
-#include "diagnose/data.h"
+#include "diagnose/causes/causes.h"
 
 int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found)
 {

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/data.h"
-#include "run/doubt.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
+#include "run/run.h"
 
 #define ASSUMED_FREQUENCY_NOISE 0.003 /* of a hammer test with care, where the deck states none */
 #define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */

@@ -3,11 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diagnose/accelerometer.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/decide.h"
-#include "diagnose/refit.h"
-#include "fit/quantile.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
 
 #define NOISIER   3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
 #define COLOURED  2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */

@@ -2,10 +2,7 @@
  * the misfit of the base model lies. */
 #include <math.h>
 
-#include "diagnose/accelerometer.h"
-#include "diagnose/detectable.h"
-#include "diagnose/round.h"
-#include "diagnose/scan.h"
+#include "diagnose/diagnose.h"
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */
 

@@ -3,15 +3,491 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
-#include "diagnose/base.h"
-#include "diagnose/changed.h"
-#include "diagnose/data.h"
-#include "diagnose/detectable.h"
-#include "diagnose/finalise.h"
-#include "diagnose/round.h"
-#include "diagnose/settle_states.h"
-#include "diagnose/verdict.h"
+#include "base/base.h"
+
+#define MOST               3
+#define CHANGED_REPLICATES 200 /* of a threshold that names nothing */
+
+/* Whether an effect may stay in a rotor beside another one of its kind at its target: factors of fields over z multiply, masses
+ * and springs at points add up. */
+static int effect_can_stay(const struct effect *effect)
+{
+    const struct effect_kind *kind = effect->kind;
+    return (kind->field || kind->point) && !kind->section && !kind->tierod && !kind->spring && !kind->joint && !kind->at_sensor;
+}
+
+/* before: number of effects without the set of the fit */
+static int can_stay(const struct refit *refit, int before)
+{
+    const struct rotor *rotor = &refit->states.state->job.rotor;
+    int all = rotor->neffect > before; /* a beam that became a solid has none more */
+    for (int e = before; e < rotor->neffect && all; e++)
+        all = effect_can_stay(&rotor->effect[e]);
+    return all;
+}
+
+/* The best fit of the round among those, NULL where none gains what a name has to. */
+static struct refit *best_of(const struct engine *engine, struct round_result *result)
+{
+    struct refit *best = NULL;
+    double least = engine->fit->chi2 - LEAST_MARGIN;
+    for (int i = 0; i < result->nrefit; i++) {
+        struct refit *refit = &result->refit[i];
+        if (!refit->fit)
+            continue;
+        double score = refit->chi2 + PARAMETER_PENALTY * (refit->fit->n - engine->fit->n);
+        if (score >= least || !can_stay(refit, engine->job->rotor.neffect))
+            continue;
+        least = score;
+        best = refit;
+    }
+    return best;
+}
+
+/* One effect more, *done: or none. */
+static int take_one(struct engine *engine, int *done)
+{
+    struct diagnosis_round round;
+    struct round_result result = {0};
+    int status = round_fit(engine, &round, &result);
+    struct refit *best = status || round.result.kind == ROTID_ADEQUATE ? NULL : best_of(engine, &result);
+    *done = !best;
+    if (best) {
+        if (engine->fit != engine->out->base.fit)
+            rotid_fit_free(engine->fit);
+        engine->fit = best->fit;
+        best->fit = NULL;
+        status = engine_take_states(engine, &best->states);
+    }
+    round_free(&result);
+    return status;
+}
+
+/* *out := the job, whose FIT is that of a diagnosis, with up to three effects that can stay, each the one whose fit is best
+ * beside those before, as long as noise does not explain what is left and the gain is that of a name; the job itself where its
+ * data do not suffice to judge a model by. Statuses of memory and cancellation only. */
+static int imitate(struct pool *pool, const struct job *job, const struct diagnose_options *options,
+                   const rotid_environment *environment, struct job *out)
+{
+    struct state state;
+    struct message_list quiet;
+    struct job judged = *job;
+    judged.models = models_for_run(pool, job->models);
+    if (!judged.models)
+        return ROTID_ERROR_MEMORY;
+    const struct states only = states_of(&judged, &state);
+    struct diagnosis scratch = {.result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS),
+                                .result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS)};
+    struct engine engine = {.pool = pool,
+                            .threads = options->threads > 0 ? options->threads : 1,
+                            .replicates = CHANGED_REPLICATES,
+                            .seed = options->seed,
+                            .environment = environment,
+                            .notes = &quiet,
+                            .out = &scratch,
+                            .clock = clock_seconds()};
+    int done = 0, status = scratch.result.steps && scratch.result.numerical_findings ? ROTID_OK : ROTID_ERROR_MEMORY;
+    message_open(&quiet, pool);
+    if (!status)
+        status = data_prepare(&engine, &only);
+    if (!status)
+        status = base_prepare(&engine);
+    for (int i = 0; i < MOST && !status && !done; i++)
+        status = take_one(&engine, &done);
+    *out = *job;
+    if (!status) {
+        struct rotor rotor = engine.job->rotor;
+        rotor.segment = job->rotor.segment; /* as fine as the whole needs it, which is seen later */
+        out->rotor = rotor;
+        out->unknowns = engine.job->unknowns;
+    }
+    models_end_run(pool, judged.models, job->models);
+    if (engine.fit != scratch.base.fit)
+        rotid_fit_free(engine.fit);
+    rotid_fit_free(scratch.base.fit);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+#define LEAST_LEFT 3    /* modes: fewer say too little */
+#define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
+
+static const struct state *find(const struct states *states, const char *name, struct message_list *notes)
+{
+    const char *list = "";
+    for (int s = 0; s < states->nstate; s++)
+        if (states->state[s].name && same_text(states->state[s].name, name))
+            return &states->state[s];
+    for (int s = 0; s < states->nstate && list; s++)
+        list = pool_format(notes->pool, "%s%s%s", list, s ? ", " : "", states->state[s].name ? states->state[s].name : "");
+    message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1,
+                states->nstate > 1 ? "state %s is not defined, expected one of %s"
+                                   : "state %s: the deck has no states, expected two *STATE%s",
+                name, list ? list : "");
+    return NULL;
+}
+
+/* Whether a state has what is needed: modes, and the noise of their frequencies. */
+static int suffices(const struct state *state, struct message_list *notes)
+{
+    const struct job *job = &state->job;
+    if (job->measurement.nmode && job_knows_frequency_noise(job))
+        return 1;
+    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
+                job->measurement.nmode
+                    ? "state %s states no noise of its frequencies, expected *NOISE, FREQUENCY=: what changed is judged by it"
+                    : "the deck has no measured modes in state %s, expected *MODES or *MEASURED",
+                state->name);
+    return 0;
+}
+
+/* A mode whose number the shape of another one claims is left out, as a diagnosis does: it tells nothing of what changed. */
+static void leave_out_clash(struct job *job, int k, const char *name, struct message_list *notes)
+{
+    message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                "measured mode %d of state %s at %.6g Hz looks like no mode of the model and is left out",
+                job->measurement.number[k], name, job->measurement.frequency_hz[k]);
+    data_remove_mode(job, k);
+}
+
+/* identify_run, without the modes that clash. */
+static int fit_paired(struct pool *pool, struct job *job, const char *name, const rotid_environment *environment,
+                      struct message_list *notes, struct message_list *quiet, struct identification *found)
+{
+    int status = identify_run(pool, job, 0, environment, quiet, found);
+    while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
+        leave_out_clash(job, found->compared.clash, name, notes);
+        message_open(quiet, pool);
+        status = identify_run(pool, job, 0, environment, quiet, found);
+    }
+    return status;
+}
+
+/* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
+ * are judged on the same. */
+static int fit_before(struct pool *pool, const struct state *before, const struct diagnose_options *options,
+                      const rotid_environment *environment, struct message_list *notes, struct job *job,
+                      struct identification *found)
+{
+    struct message_list quiet;
+    message_open(&quiet, pool);
+    *job = before->job;
+    job->options.fit.functional = ROTID_LIKELIHOOD;
+    job->options.fit.reduction = ROTID_REDUCTION_NONE;
+    job->options.fit.derivative = ROTID_NELSON;
+    int status = imitate(pool, job, options, environment, job);
+    if (!status)
+        status = data_copy(pool, job);
+    if (!status)
+        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
+    const struct segment *coarse = job->rotor.segment;
+    if (!status && found->fit->status != ROTID_STOP_CANCELLED)
+        status = base_refine(pool, job, found->compared.number, &found->spectrum);
+    if (!status && job->rotor.segment != coarse) {
+        rotid_fit_free(found->fit);
+        found->fit = NULL;
+        status = fit_paired(pool, job, before->name, environment, notes, &quiet, found);
+    }
+    for (size_t i = 0; i < quiet.count && status; i++)
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before->name);
+    if (!status && found->fit->status == ROTID_STOP_CANCELLED)
+        status = ROTID_STOP_CANCELLED;
+    return status;
+}
+
+/* The mesh of `fine` for a rotor with the elements of `coarse`. */
+static void refine_like(const struct rotor *fine, const struct rotor *coarse, struct rotor *rotor)
+{
+    for (int i = 0; i < rotor->nsegment && i < fine->nsegment; i++)
+        rotor->segment[i].elements *= fine->segment[i].elements / coarse->segment[i].elements;
+}
+
+/* The effects that imitate what `before` has, at their fitted values, in the rotor of the other state. */
+static int keep_effects(struct pool *pool, const struct job *before, const double *x, int first, struct rotor *rotor)
+{
+    struct state state;
+    (void)states_of(before, &state);
+    int more = before->rotor.neffect - first;
+    struct effect *effect = POOL_ARRAY(pool, struct effect, rotor->neffect + more);
+    if (!effect)
+        return ROTID_ERROR_MEMORY;
+    if (rotor->neffect)
+        memcpy(effect, rotor->effect, (size_t)rotor->neffect * sizeof *effect);
+    for (int e = first; e < before->rotor.neffect; e++) {
+        struct effect *kept = &effect[rotor->neffect++];
+        effect_at(&state, e, x, kept);
+        kept->stays = 1;
+        kept->name = pool_format(pool, "stays_%d", e - first + 1);
+        if (!kept->name)
+            return ROTID_ERROR_MEMORY;
+    }
+    rotor->effect = effect;
+    return ROTID_OK;
+}
+
+/* Holds the unknowns that `after` has of those of `before`; its own stay free. */
+static int hold(struct pool *pool, const struct state *before, const double *x, const struct state *after, struct job *job)
+{
+    int n = job->unknowns.nparameter, left = 0, status = rotor_copy(pool, &after->job.rotor, &job->rotor);
+    struct parameter *parameter = POOL_ARRAY(pool, struct parameter, n);
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n);
+    if (status || !parameter || !bounds)
+        return ROTID_ERROR_MEMORY;
+    job->rotor.nspring = after->job.rotor.nspring; /* a copy has those of a sling, which the model adds by itself */
+    for (int q = 0; q < n; q++) {
+        int shared = 0;
+        for (int p = 0; p < before->job.unknowns.nparameter; p++)
+            if (state_unknown(before, p) == state_unknown(after, q)) {
+                *parameter_value(&job->rotor, job->unknowns.parameter[q]) = x[p];
+                shared = 1;
+            }
+        if (shared)
+            continue;
+        parameter[left] = job->unknowns.parameter[q];
+        bounds[left++] = job->unknowns.bounds[q];
+    }
+    job->unknowns.parameter = parameter;
+    job->unknowns.bounds = bounds;
+    job->unknowns.nparameter = left;
+    return ROTID_OK;
+}
+
+static double dot(int n, const double *a, const double *b) /* over what both have */
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += isfinite(a[i]) && isfinite(b[i]) ? a[i] * b[i] : 0;
+    return sum;
+}
+
+static double largest(int n, const double *a)
+{
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = isfinite(a[i]) ? fmax(most, fabs(a[i])) : most;
+    return most;
+}
+
+/* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none of that id at that place. */
+static void gather(const struct job *before, const struct identification *found, int j, const struct rotor *after, double *b,
+                   double *std, double *phi)
+{
+    const struct spectrum *spectrum = &found->spectrum;
+    int nsensor = before->rotor.nsensor;
+    ptrdiff_t measured = (ptrdiff_t)j * nsensor, mode = (ptrdiff_t)(found->compared.number[j] - 1) * spectrum->nmaster;
+    double absolute = largest(nsensor, before->measurement.shape + measured);
+    for (int i = 0; i < after->nsensor; i++) {
+        b[i] = NAN;
+        for (int s = 0; s < nsensor; s++) {
+            const struct sensor *a = &after->sensor[i], *other = &before->rotor.sensor[s];
+            if (a->id != other->id || fabs(a->position - other->position) > SAME_PLACE * rotor_length(after))
+                continue;
+            b[i] = before->measurement.shape[measured + s];
+            std[i] = before->measurement.shape_std[measured + s] * absolute;
+            phi[i] = spectrum->shape[mode + s];
+        }
+    }
+}
+
+/* The part of a that is not along b, squared, over what noise makes of it; a share of a. std: of a, absolute */
+static double unlike(int n, const double *a, double std, const double *b, const double *b_std)
+{
+    double ab = dot(n, a, b), bb = dot(n, b, b), aa = 0, noise = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]) && isfinite(b[i])) {
+            aa += a[i] * a[i];
+            noise += std * std + ab / bb * ab / bb * b_std[i] * b_std[i];
+        }
+    return fmax(0, aa - ab * ab / bb - noise) / aa;
+}
+
+/* The shape of mode k less what the model misses of it in `before`, where it is mode j; *other: d^2, to which the shape adds.
+ * work [3 * nsensor] */
+static void correct_shape(const struct job *before, const struct identification *found, int j, int k, double *work, double *other,
+                          struct job *job)
+{
+    int n = job->rotor.nsensor;
+    double *a = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n, *b = work,
+           *b_std = b + n, *phi = b_std + n, was = largest(n, a);
+    gather(before, found, j, &job->rotor, b, b_std, phi);
+    double g = dot(n, a, b) / dot(n, b, b), square = 0, along = 0;
+    *other += unlike(n, a, std[0] * was, b, b_std);
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]) && isfinite(b[i])) {
+            square += phi[i] * phi[i];
+            along += phi[i] * b[i];
+        }
+    for (int i = 0; i < n; i++) {
+        double missed = g * (b[i] - along / square * phi[i]);
+        std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
+        a[i] -= missed; /* NaN where it was not measured twice */
+    }
+    double is = largest(n, a);
+    for (int i = 0; i < n; i++)
+        std[i] /= is;
+}
+
+static int partner(const struct identification *found, int number)
+{
+    for (int j = 0; j < found->compared.nmode; j++)
+        if (found->compared.number[j] == number)
+            return j;
+    return -1;
+}
+
+/* The modes of `after` with the numbers that their shapes give them beside the model, those that `before` has as well, corrected.
+ */
+static int correct(struct pool *pool, const struct job *before, const struct identification *found, struct message_list *notes,
+                   const char *name, struct job *job)
+{
+    struct spectrum spectrum;
+    struct comparison compared = {0};
+    struct message_list quiet;
+    int n = job->unknowns.nparameter, left_out = 0;
+    int shapes = job_fits_shapes(before) && job_fits_shapes(job) && job->measurement.shape;
+    double *x = POOL_ARRAY(pool, double, n), *work = POOL_ARRAY(pool, double, 3 * (size_t)job->rotor.nsensor);
+    if (!x || !work)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++)
+        x[p] = job->unknowns.bounds[p].start;
+    message_open(&quiet, pool);
+    int status = spectrum_compute_parts(pool, job->models, &job->rotor, n, job->unknowns.parameter, x, ROTID_GUYAN,
+                                        comparison_candidates(job), job->measurement.shape ? SPECTRUM_MASS : 0, &spectrum);
+    if (!status)
+        status = comparison_make(pool, job, &spectrum, &quiet, &compared);
+    while (status == ROTID_ERROR_UNPAIRED && job->measurement.nmode > LEAST_LEFT) {
+        leave_out_clash(job, compared.clash, name, notes);
+        message_open(&quiet, pool);
+        status = comparison_make(pool, job, &spectrum, &quiet, &compared);
+    }
+    for (size_t i = 0; i < quiet.count && status; i++)
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, name);
+    if (status)
+        return status;
+    memcpy(job->measurement.number, compared.number, (size_t)job->measurement.nmode * sizeof(int));
+    job->measurement.paired = 1;
+    if (!shapes)
+        job->measurement.shape = NULL;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        int number = job->measurement.number[k], j = partner(found, number);
+        if (j < 0) {
+            data_remove_mode(job, k--);
+            left_out++;
+            continue;
+        }
+        double ratio = found->spectrum.full_hz[number - 1] / before->measurement.frequency_hz[j],
+               moved = 2 * log(job->measurement.frequency_hz[k] / before->measurement.frequency_hz[j]), other = moved * moved;
+        if (shapes)
+            correct_shape(before, found, j, k, work, &other, job);
+        job->measurement.frequency_hz[k] *= ratio;
+        job->measurement.frequency_std[k] =
+            hypot(hypot(job->measurement.frequency_std[k], before->measurement.frequency_std[j]), sqrt(other) * log(ratio));
+    }
+    if (left_out)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%d mode%s of state %s that the other state has not tell%s nothing of what changed and %s left out", left_out,
+                    left_out == 1 ? "" : "s", name, left_out == 1 ? "s" : "", left_out == 1 ? "is" : "are");
+    return ROTID_OK;
+}
+
+int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
+                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
+                struct job *out)
+{
+    const struct state *first = find(states, before, notes), *second = first ? find(states, after, notes) : NULL;
+    struct identification found = {0};
+    struct job job;
+    if (second == first && second)
+        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1, "state %s is given twice, expected two states", before);
+    if (!second || second == first || !suffices(first, notes) || !suffices(second, notes))
+        return ROTID_ERROR_ARGUMENT;
+    *out = second->job;
+    out->measurement.has_noise_floor = 1; /* where a mode is another one it holds more than scatter */
+    out->measurement.raw = NULL;          /* the corrections of the deck are applied, and no deck is written of this */
+    out->measurement.ncorrection = 0;
+    out->measurement.point_frequency_hz = out->measurement.point_frequency_std = NULL; /* an accelerometer loads both states */
+    int status = data_copy(pool, out);
+    if (!status)
+        status = fit_before(pool, first, options, environment, notes, &job, &found);
+    if (!status)
+        status = hold(pool, first, found.fit->x, second, out);
+    if (!status)
+        status = keep_effects(pool, &job, found.fit->x, first->job.rotor.neffect, &out->rotor);
+    if (!status)
+        refine_like(&job.rotor, &first->job.rotor, &out->rotor);
+    if (!status)
+        status = correct(pool, &job, &found, notes, second->name, out);
+    rotid_fit_free(found.fit);
+    return status;
+}
+
+/* The findings about a state behind those of the states before it. */
+static int take_findings(struct engine *engine, const rotid_diagnosis *found)
+{
+    rotid_diagnosis *out = &engine->out->result;
+    for (int i = 0; i < found->ndata_findings; i++) {
+        int status = data_add_finding(engine, &found->data_findings[i]);
+        if (status)
+            return status;
+    }
+    for (int i = 0; i < found->nnumerical_findings; i++) {
+        rotid_numerical_finding *finding = &out->numerical_findings[out->nnumerical_findings++];
+        *finding = found->numerical_findings[i];
+        finding->state = engine->state;
+    }
+    return ROTID_OK;
+}
+
+/* The state that the engine looks at, by an engine of its own. */
+static int settle(struct engine *engine)
+{
+    struct diagnosis *out = engine->out, alone = {.result.steps = out->result.steps, .result.nsteps = out->result.nsteps};
+    struct engine own = *engine;
+    struct message_list quiet;
+    struct state state;
+    const struct states only = states_of(engine->job, &state);
+    message_open(&quiet, engine->pool);
+    own.out = &alone;
+    own.notes = &quiet;
+    own.nown = only.nparameter;
+    own.nprepared = own.coloured = 0;
+    own.fit = NULL;
+    own.deck_start = POOL_ARRAY(engine->pool, double, only.nparameter);
+    alone.result.numerical_findings = POOL_ARRAY(engine->pool, rotid_numerical_finding, NUMERICAL_FINDINGS);
+    if (!own.deck_start || !alone.result.numerical_findings)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < only.nparameter; p++)
+        own.deck_start[p] = only.bounds[p].start;
+    int status = engine_take_states(&own, &only);
+    if (!status)
+        status = base_prepare(&own);
+    if (!status)
+        status = round_settle(&own);
+    if (own.fit != alone.base.fit)
+        rotid_fit_free(own.fit);
+    rotid_fit_free(alone.base.fit);
+    out->result.nsteps = alone.result.nsteps;
+    engine->clock = own.clock;
+    if (status)
+        return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+    engine->job->rotor = own.job->rotor;
+    engine->job->measurement = own.job->measurement;
+    engine->coloured |= own.coloured;
+    return take_findings(engine, &alone.result);
+}
+
+/* Pairing, channels, noise, accelerometer and mesh of every state as of a deck that is this state alone; what is found goes with
+ * the name of the state to the findings, and the states are judged without. A state whose data do not suffice to judge a model
+ * by stays as it is. Statuses of memory and cancellation only. */
+static int settle_states(struct engine *engine)
+{
+    int status = ROTID_OK;
+    for (int s = 0; s < engine->states.nstate && !status; s++) {
+        engine_look_at(engine, s);
+        status = settle(engine);
+    }
+    engine_look_at(engine, 0);
+    return status;
+}
 
 #define REPLICATES 1000
 

@@ -1,11 +1,18 @@
-/* Diagnosis of a job: what the model gets wrong, what causes it, the extended model, the gain, and what the data cannot tell.
- * Judged is always the full model by the likelihood; the FIT of the deck describes what the user does today. */
 #ifndef ROTID_DIAGNOSE_DIAGNOSE_H
 #define ROTID_DIAGNOSE_DIAGNOSE_H
 
-#include "diagnose/causes/cause.h"
-#include "run/identify.h"
-#include "run/job.h"
+#include <stddef.h>
+
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "modal/modal.h"
+#include "model/model.h"
+#include "run/run.h"
+
+/* -------------------------------------------------------------------------------------------------------------- diagnose */
+
+/* Diagnosis of a job: what the model gets wrong, what causes it, the extended model, the gain, and what the data cannot tell.
+ * Judged is always the full model by the likelihood; the FIT of the deck describes what the user does today. */
 
 #define DIAGNOSE_MOST_CAUSES 4 /* physical causes named one after the other */
 
@@ -77,5 +84,883 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
 int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,
                  const rotid_environment *environment, struct message_list *notes, struct diagnosis *out);
 void diagnose_free(struct diagnosis *out);
+
+/* -------------------------------------------------------------------------------------------------- roving accelerometer */
+
+/* The mass of an accelerometer that goes from point to point, by what it does to the frequencies measured there. */
+
+/* A mass m at point j turns f_k into f_kj = f_k sqrt(1 - x), where
+ *   x (1 - (1 - x) m (q - x c)) = (1 - x) m s,
+ * s_kj = phi_kj^2 of the mass-normalised mode, q_kj = lambda_k sum over i != k of phi_ij^2/(lambda_i - lambda_k), the response of
+ * the other modes there, and c_kj = lambda_k^2 sum of phi_ij^2/(lambda_i - lambda_k)^2, how it changes with the frequency: exact
+ * but for its second derivative. To first order x = m s. */
+struct roving_data {
+    int nmode, npoint;
+    const double *hz, *std; /* [npoint * nmode] Hz, NaN: no reading */
+    const double *square;   /* [npoint * nmode] s [1/kg] */
+    const double *others;   /* [npoint * nmode] q [1/kg] */
+    const double *bend;     /* [npoint * nmode] c [1/kg], NULL: 0 */
+    const double *order;    /* [npoint] from -0.5, the first point of the test, to 0.5, the last */
+    double least_mass;      /* kg: nothing lighter is an accelerometer */
+};
+
+struct roving_accelerometer {
+    int usable; /* the readings can tell a mass from a drift, with three degrees of freedom left; otherwise all else is zero */
+    int found, drifts;
+    int readings, dropped, dof;
+    double mass, std;        /* kg, the latter widened by the scatter where that is more than stated */
+    double scale;            /* that factor, at least 1 */
+    double chi2_drop;        /* by the mass, beside a drift */
+    double z, threshold;     /* mass/std, and what it has to exceed */
+    double drift, drift_std; /* relative change of all frequencies from the first point to the last */
+    double smallest;         /* kg: found nine times in ten */
+    double *spread_hz; /* [nmode] f_k with mass/npoint at every point, f_k/sqrt(1 + m mean of s), in the middle of the test; NaN
+                          where the mode has no reading. On the pool. */
+};
+
+/* Regression of ln f_kj, with one m, one f_k a mode, and one drift that is linear in the order of the points and the same in all
+ * modes, so that a drift is never taken for a mass. Readings that contradict the others are dropped (point_drop_outliers).
+ * Found: z beyond the threshold that noise passes 5 times in 1000 by Student's distribution, and twice that where the drift
+ * alone explains more than the mass alone; still beyond noise (5 %) with any one point left out, so that no single accelerometer
+ * that sat badly makes a mass; and no lighter than least_mass. drifts: the drift is beyond what noise makes 5 times in 1000.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int weigh_roving_accelerometer(struct pool *pool, const struct roving_data *data, struct roving_accelerometer *out);
+
+/* x of a mass at a point. */
+double moving_mass_shift(double mass, double square, double others, double bend);
+
+/* What a mass at point j does to the residue of mode k between that point and another one, e: the loaded over the unloaded
+ * phi_kj phi_ke. across: q of the pair (j, e), across_bend its c; share = phi_kj/phi_ke. To first order
+ * 1 - m s + m q + m q_je phi_j/phi_e. */
+double moving_mass_residue(double mass, double square, double others, double bend, double across, double across_bend,
+                           double share);
+
+/* --------------------------------------------------------------------------------------------------------------- columns */
+
+/* Sensitivity of the residuals to anything that changes K and M, at one point of a model: the adjoint way. For every fitted mode
+ * the rows of (K - lambda M)^+ at the sensors are solved for once; a change dK, dM then costs products only.
+ * Residuals as in modal/functional.h for the likelihood: frequencies of the fitted modes first, then shapes mode by mode, each
+ * with its best scale, so a column is already orthogonal to the scales. */
+
+struct columns_mode {
+    int k, pair, sensors; /* measured mode; pair of the prediction; components measured */
+    const int *sensor;    /* [sensors] indices */
+    double scale;         /* a: predicted shape times a is the best fit to the measured one */
+    int first, members;   /* pairs of its cluster (modal/eigenvector_derivative.h) */
+    double *adjoint;      /* [sensors * n] */
+    double *weighted;     /* [sensors] phi_s/s_s: the direction of the scale */
+    double square;        /* its squared length */
+};
+
+struct columns {
+    struct pool *pool;
+    const struct job *job;
+    struct rotor_model model;
+    struct functional functional;
+    rotid_measured measured;
+    int nrow, nmode;                /* residuals, fitted modes */
+    struct columns_mode *mode;      /* [nmode] */
+    double *x, *r;                  /* [nparam], [nrow]: the point and its residual */
+    double *rows, *dk_phi, *dm_phi; /* [n * nmode] what a change touches of the modes, and what it makes of that */
+    double *right;                  /* [n] */
+    double *dphi;                   /* [nmaster] */
+    rotid_matrix dk, dm;
+};
+
+/* At the values x of the job's parameters (those in the rotor, where NULL), with the pairing `number` and the held-out modes
+ * `holdout` [nmode]. extra: an effect that can be put in for differentiation, NULL: none; its parameters follow those of the job.
+ * Statuses of the fit. */
+int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
+                 const double *x, struct columns *c);
+
+/* Solves for what the columns need; before the first of them. Statuses of memory, or ROTID_ERROR_CLOSE. */
+int columns_prepare(struct columns *c);
+
+/* column [nrow] for parameter p of the model: the job's first, then those of the extra effect. */
+int columns_parameter(struct columns *c, int p, double *column);
+
+/* The effect in the place of the extra one, at its neutral values; the model does not change. ROTID_OK or ROTID_ERROR_MEMORY. */
+int columns_probe(struct columns *c, const struct effect *effect);
+
+/* Residual [nrow] at other values x of all parameters, by solving the model anew: for secants. The state that columns_parameter
+ * needs is lost with it. */
+int columns_residual(struct columns *c, const double *x, double *r);
+
+/* ------------------------------------------------------------------------------------------------------------------ scan */
+
+/* The scan: every cause at every target and place as a column of sensitivities, whitened and taken orthogonal to what is fitted
+ * anyway, and the drop of chi2 that it promises, (c'r)^2/(c'c). Of several states the rows stand one state behind the other; a
+ * cause acts in all states that have its target, or in one of them alone. */
+
+struct scan_item { /* one column */
+    int candidate;
+    struct effect effect; /* neutral, at this place and width */
+    double unit;          /* step of the size parameter that the column stands for: 1, or typical - neutral of a secant */
+    int side;             /* sign the amplitude must have, 0: any */
+    int usable;           /* the column is more than rounding once what is fitted is taken out */
+    double norm;          /* of the projected column */
+    double lower, upper;  /* of the amplitude, by physics */
+    double amplitude, drop;
+};
+
+struct scan_candidate {     /* a cause at a target, with all its places */
+    int state;              /* in this one alone, though others have the target too; -1: in all that have it */
+    const char *state_name; /* of that one, or of the only one that has the target; NULL */
+    int home;               /* the first state in which it acts */
+    const int *in;          /* [nstate] nonzero: it acts there */
+    const struct cause_kind *cause;
+    struct effect effect; /* variant and target; a user's values where fixed */
+    const char *target;
+    int suspect, fixed[EFFECT_MOST_PARAMETERS];
+    int first, count;         /* items */
+    int best;                 /* item of the largest drop, -1: none is usable */
+    double promise;           /* drop where there is no column */
+    const struct effect *far; /* where a fit starts as well (far_starts.h), NULL */
+};
+
+struct scan {
+    char *is_frequency;               /* [nrow] the row is that of a frequency: the first ones of each state */
+    int nrow, nfrequency, nfree, dof; /* dof: rows less free parameters and scales */
+    int nitem, ncandidate;
+    struct scan_item *item;
+    struct scan_candidate *candidate;
+    double *column; /* [nrow * nitem] projected, of unit length; zero where not usable */
+    int nbasis;
+    double *basis; /* [nrow * nbasis] orthonormal: free parameters and scales */
+    int *at;       /* [nfree] the column of the basis that a free parameter added; -1: it added none */
+    double *along; /* [nfree * nfree] upper triangle: R of J = Q R, the columns of the free parameters in the basis */
+    double *shift; /* [nfree * nitem] by how much the fit without the item moves each free parameter where the item is there with
+                      an amplitude of 1: (J'J)^-1 J'c, J and c whitened and free of the scales; NaN where J does not have full
+                      rank */
+    double *r;     /* [nrow] residual, projected */
+    double chi2, chi2_frequency;
+    double largest; /* drop */
+};
+
+struct scan_set { /* one cause, or two at once: what a round fits */
+    int count, candidate[2];
+    int item[2]; /* of a pair: the columns that promise most together, with their amplitudes */
+    double amplitude[2], drop;
+    const double *x;        /* a pair found beside one of its causes: what the states' own parameters start at, else NULL */
+    struct effect start[2]; /* and its causes */
+};
+
+/* The candidates: every physical cause of the catalogue at every target where it applies and is not in the model yet, and the
+ * user's suspects; of several states then those of them in one state alone. */
+int scan_list(struct pool *pool, const struct states *states, struct scan *scan);
+
+/* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
+const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
+const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
+
+/* Whether what acts in the states a [nstate] and what acts in b are together in one of them. */
+int states_meet(int nstate, const int *a, const int *b);
+
+/* Whether the candidates a and b may be there together: the same cause at the same target needs two places. */
+int scan_allows(const struct states *states, const struct scan *scan, int a, int b);
+
+/* Columns and drops at the parameters x of the fitted states; number and holdout of all modes. Statuses of columns_open. */
+int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+             struct scan *scan);
+
+/* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
+double scan_best_drop(const struct scan *scan, int candidate);
+
+/* ---------------------------------------------------------------------------------------------------------------- engine */
+
+/* The state that the steps of a diagnosis share. */
+
+struct far_start; /* far_starts.h */
+
+struct engine {
+    struct pool *pool;
+    int threads, replicates;
+    unsigned long seed;
+    const rotid_environment *environment;
+    struct message_list *notes;
+    const char *before, *after; /* the question is what changed between these states, or NULL */
+    struct diagnosis *out;
+    struct states states;                /* judged, with the causes named so far; their starts are the fitted values */
+    struct job *job;                     /* of the state whose data are looked at, else of the first */
+    const char *state;                   /* its name, NULL in a deck without *STATE */
+    int nown;                            /* unknowns of the deck: the first ones of all */
+    double *deck_start;                  /* [nown] */
+    int *number, *holdout;               /* of the modes of all states */
+    int nprepared;                       /* findings of the data before a model was looked at */
+    int dropped;                         /* modes that nobody's shape fits and that were left out */
+    struct job_measurement measured;     /* with them, where there are any */
+    rotid_fit_result *fit;               /* of these states */
+    double mode_out_rms, mode_out_shape; /* of them, NaN where unknown: modes left out in turn, percent and shape */
+    int user_reduction;                  /* of the deck's own FIT */
+    int coloured;                        /* the noise of the shapes was raised for its smooth part */
+    struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
+    int searched_far;                    /* far starts were looked for, once */
+    const struct far_start *far;         /* the one that led farther than the others, NULL */
+    double clock;
+};
+
+#define NUMERICAL_FINDINGS 2  /* of one state: its mesh, its condensation */
+#define MOST_STEPS         64 /* that the time is counted for */
+
+/* "density of core", "joint of core|right with density of core"; the user's own name where it is a suspect. NULL where memory is
+ * out. */
+const char *candidate_label(struct pool *pool, const struct candidate *candidate);
+
+/* A candidate of which nothing is known yet: NaN where a number may be missing, refit -1. */
+struct candidate candidate_blank(const struct cause_kind *cause, const char *target);
+
+/* The states that are judged from here on, in an array of their own, or the only one. ROTID_OK or ROTID_ERROR_MEMORY. */
+int engine_take_states(struct engine *engine, const struct states *states);
+/* job and state := those of state s. */
+void engine_look_at(struct engine *engine, int s);
+void engine_take_job(struct engine *engine, const struct job *job);
+
+/* Counts the time since the last call for a step. */
+void engine_step(struct engine *engine, const char *name);
+/* Says where the work is; ROTID_STOP_CANCELLED once the environment wants to stop. */
+int engine_stage(const struct engine *engine, const char *stage, int step);
+
+/* --------------------------------------------------------------------------------------------------------- accelerometer */
+
+/* An accelerometer that went from sensor to sensor: its mass and a drift, by the frequencies at single sensors. */
+
+/* After the base fit, where there are frequencies at single sensors: the mass of an accelerometer that went from one to the next,
+ * and a drift of the frequencies. What is found becomes a finding; the mass becomes part of the judged model (MOUNT=MOVING), the
+ * frequencies are those of the regression with it, and what it does to the shapes is taken out of them where the place of the
+ * hammer is known, else added to their noise. Where no mass is found the shapes get room for the largest one that is not
+ * excluded. *changed when anything was. Nothing where the model has such an accelerometer already. */
+int data_weigh_accelerometer(struct engine *engine, int *changed);
+/* What was odd about the readings, once. */
+void data_note_readings(struct engine *engine);
+int is_moving_accelerometer(const struct effect *effect);
+
+/* Such an effect beside fitted shapes that nothing has freed of it: there are no frequencies at single sensors. */
+int is_unweighed_accelerometer(const struct job *job, const struct effect *effect);
+
+/* The accelerometer of the effect while it is at one sensor. */
+struct effect moving_accelerometer_at(const struct effect *effect, int sensor);
+
+/* ------------------------------------------------------------------------------------------------------------- bootstrap */
+
+/* How good the best of many looks by chance: a parametric bootstrap of the linearised scan. Each replicate is white noise on the
+ * whitened residuals, taken orthogonal to what is fitted, and asks the same three questions of it as the diagnosis asks of the
+ * data: the largest drop over all columns, the chi2 of the frequencies, the whole chi2. */
+
+#define FAMILY_WISE 0.03 /* false alarms of the three tests together */
+#define BLOCK_LEVEL 0.01 /* of the frequency block and of the whole chi2 alone */
+
+struct bootstrap {
+    int replicates;
+    double *largest;   /* [replicates] sorted, increasing: of the scan */
+    double *frequency; /* [replicates] sorted */
+    double threshold;  /* of the scan: with the two other tests it makes FAMILY_WISE */
+    double p_scan, p_frequency, p_total;
+};
+
+/* The same numbers for any number of threads. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
+int bootstrap_run(struct pool *pool, const struct scan *scan, int replicates, unsigned long seed, int threads,
+                  const rotid_environment *environment, struct bootstrap *b);
+
+/* Probability that the largest drop of a sound data set exceeds this one. */
+double bootstrap_p(const struct bootstrap *b, double drop);
+
+/* The threshold where the replicates are too few to show its tail: looks are taken for as many independent ones as make their 90
+ * % quantile, whose share of replicates beyond it is that of FAMILY_WISE which the two other tests leave to the scan. */
+double bootstrap_extrapolated(const struct bootstrap *b);
+
+/* ----------------------------------------------------------------------------------------------------------------- refit */
+
+/* Fits of all states with one more cause in them, or two, from several starts, and the small bookkeeping of jobs that grow.
+ * number and holdout are those of all states, one behind the other, and x is that of the unknowns of all. */
+
+/* Tolerances of the fits of a diagnosis: enough for chi2 to 1e-6 but in a valley; the final model is fitted to the end. */
+#define REFIT_GRADIENT  1e-5
+#define REFIT_STEP      1e-7
+#define REFIT_OBJECTIVE 1e-6 /* what another step would gain: sizes are good to a hundredth of their standard deviation */
+#define REFIT_DECREASE  1e-4 /* a tenth of a unit of chi2 is worth nothing beside margins of some */
+/* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
+#define REFIT_WORSE 0.01
+
+/* *to := the job `from` with the effect in its rotor and its parameters (those not fixed) behind the job's own, between their
+ * physical bounds; a cause that asks for a solid makes the rotor one instead. Starts are x [nparameter] (the job's own starts,
+ * where NULL) and the effect's values, moved off the bounds. `to` may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
+int job_with_effect(struct pool *pool, const struct job *from, const double *x, const struct effect *effect,
+                    const struct cause_kind *cause, const int *fixed, struct job *to);
+
+/* The job with its starts at x [nparameter], moved inside where they press on a bound: the bijection of the fit is flat there,
+ * and a parameter that a missing cause has pushed to its bound would stay. `to` may be the job itself. */
+int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to);
+
+/* The same for the states with `in` [nstate] nonzero (NULL: all), which share the parameters of the effect: unknowns behind those
+ * of all, between what is possible in every one of these states. A solid they are all together. */
+int states_with_effect(struct pool *pool, const struct states *from, const double *x, const struct effect *effect,
+                       const struct cause_kind *cause, const int *fixed, const int *in, struct states *to);
+
+/* The same for the starts of all. */
+int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
+
+/* The bounds and the start of unknown p of all for the states that have it. */
+void states_share_bounds(struct states *states, int p);
+
+/* *to := the states with the values that their effects have at x. */
+int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
+
+struct refit {
+    struct states states;  /* with the effects of the set at the best values, which are also the starts */
+    rotid_fit_result *fit; /* NULL where no start led anywhere */
+    double chi2;
+    double other_chi2,
+        other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
+};
+
+/* Best of the fits from the most promising places of the set, the states' own parameters starting at x [nparameter], which is
+ * where the scan was made (at those of the set, where it has some); and at `deck` [nparameter] (NULL: none) as well where none of
+ * those fits succeeded, one of these parameters ends at a bound, or one at x is more than three times as large or small as in the
+ * deck. Statuses of memory and cancellation only: where every fit fails, or ends above the model without its causes, which it
+ * contains, fit is NULL. */
+int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+              const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
+              struct refit *refit);
+
+/* Number of effect m of a set in the rotor of state s with the set, in which it acts: the last ones are those of the set. */
+int refit_effect(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor);
+
+/* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
+int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);
+
+/* Does one of the first nown parameters end at a bound? */
+int fit_at_bound(const rotid_fit_result *fit, int nown);
+
+/* Fits once more with the first nown parameters starting at `own`; *fit is replaced where that is better. */
+int refit_again(struct pool *pool, const struct states *states, int nown, const double *own, const int *number,
+                const int *holdout, const rotid_environment *environment, rotid_fit_result **fit);
+
+/* *drop of chi2 that is gained where the bounds at which the first nown parameters end in `fit` are ten times as far; 0 where
+ * none does, or where there is no such model. */
+int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
+                 const int *holdout, const rotid_environment *environment, double *drop);
+
+/* One fit with the options of a diagnosis, which ends where another step would gain less than this part of the objective
+ * (REFIT_OBJECTIVE; 0: at the minimum). */
+int refit_until(struct pool *pool, const struct states *states, const int *number, const int *holdout, double objective,
+                const rotid_environment *environment, rotid_fit_result **fit);
+/* One that ends at REFIT_OBJECTIVE; refit_job: of a job that is the only state. */
+int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                 const rotid_environment *environment, rotid_fit_result **fit);
+int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
+              const rotid_environment *environment, rotid_fit_result **fit);
+
+/* The values of effect number `effect` of a state at x of the unknowns of all. */
+void effect_at(const struct state *state, int effect, const double *x, struct effect *out);
+
+/* ----------------------------------------------------------------------------------------------------------------- round */
+
+/* One round of scan, refit, comparison and decision. */
+
+struct round_result {
+    struct scan scan;
+    struct bootstrap bootstrap;
+    int nrefit;
+    struct refit *refit;     /* [nrefit] */
+    struct scan_set *set;    /* [nrefit] what was fitted: single causes first, then pairs */
+    struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
+};
+
+/* Settles the data beside the fits of the first round of a job that is the only state: pairing, channels, noise. Statuses of the
+ * fits. */
+int round_settle(struct engine *engine);
+/* The fits of a round without what they say: kind is ROTID_ADEQUATE, or -1. */
+int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
+/* A round. The data of several states are settled before. */
+int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
+void round_free(struct round_result *result);
+
+/* -------------------------------------------------------------------------------------------------------------- as solid */
+
+/* The rival of a beam's causes: the same rotor as a solid (causes/beam_theory.c). */
+
+/* *to := the job with its rotor as a solid, without the suspects that a solid cannot have. In a run alone (models_solids). `to`
+ * may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
+int job_as_solid(struct pool *pool, const struct job *from, struct job *to);
+
+/* What the rotor as a solid in all states promises, by its residual at x, from which the beam's columns take what is fitted
+ * anyway: to the first order in a change of the moduli. 0 where the rotor can be no solid, or one that is too large, as is noted
+ * where notes is not NULL. Statuses of memory only. */
+int scan_solid(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+               struct scan *scan, struct message_list *notes);
+
+/* ------------------------------------------------------------------------------------------------------------------ base */
+
+/* What the rounds start from: the model of the user, on a mesh and on data that are not to blame themselves. */
+
+/* The fit of all states: of each, *first that of the first with the fit of all. Statuses of identify_states. */
+int base_identify(struct engine *engine, const struct states *states, struct message_list *notes, struct identification **each,
+                  struct identification *first);
+/* Fit, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
+int base_prepare(struct engine *engine);
+/* Once more with the residuals, the data having changed. */
+int base_again(struct engine *engine);
+/* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
+ * be a cause still moves a modulus by part of its interval. */
+int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum);
+/* "lower" or "upper": the bound at which parameter p of the base ends. */
+const char *base_bound_side(const struct engine *engine, int p);
+/* What the condensation of the user's own fit costs. */
+int base_note_reduction(struct engine *engine);
+/* Residuals of the base by mode and by sensor. */
+int base_residuals(struct engine *engine);
+
+/* --------------------------------------------------------------------------------------------------------------- changed */
+
+/* What changed between two states: the unknowns and what imitates the errors of the model are fitted to the first, what the model
+ * still misses there is taken out of the data of the second, and the second is diagnosed with the unknowns held. An error of the
+ * model that both states have is in neither. */
+
+/* *out := the job of state `after` with the unknowns that it shares held at what fits `before`, beside effects that imitate what
+ * else is there. Its modes are those that both states have, with the frequencies f_a p_b/f_b, p_b what the fitted model predicts
+ * for f_b on a mesh without error, and with the shapes a - g (b - s phi_b) at the sensors that both have, s and g the
+ * least-squares scales of the model's shape to b and of b to a. The noise of both adds in squares, and so does what is missed
+ * times how much the mode is another one in both, d, d^2 = (2 ln f_a/f_b)^2 + 1 - MAC(a, b) less what noise makes of that: what
+ * the model misses of a mode moves with it. ROTID_ERROR_ARGUMENT where a name is none of a state, or the data of one do not
+ * suffice (the list says what was expected); statuses of identify_run. */
+int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
+                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
+                struct job *out);
+
+/* --------------------------------------------------------------------------------------------------------------- correct */
+
+/* A fault of the measurement chain, found and taken out of the judged data. */
+
+/* Adds the finding, and corrects the data by its cause; `found` needs neither name nor id. Statuses of correction_apply. */
+int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found);
+
+/* Raises the noise of a block, "SHAPE" or "FREQUENCY", with a finding that says so. */
+int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text);
+
+/* ------------------------------------------------------------------------------------------------------------------ data */
+
+/* The job that is judged: copies of the data, and the faults found in them. */
+
+/* Copies the data of all states, states the noise, refuses what cannot be judged. ROTID_ERROR_ARGUMENT with a reason in the
+ * notes. */
+int data_prepare(struct engine *engine, const struct states *states);
+/* Gives a job its own copies of the data that the steps change. */
+int data_copy(struct pool *pool, struct job *job);
+void data_remove_mode(struct job *job, int k);
+/* The unit of its value follows from its id. */
+int data_add_finding(struct engine *engine, const rotid_data_finding *finding);
+/* A finding about measured modes; second 0: about the first alone. */
+int data_add_pairing(struct engine *engine, int first, int second, const char *text);
+
+/* ---------------------------------------------------------------------------------------------------------------- decide */
+
+/* Which candidate is named, and why the others are not. */
+
+/* Penalty of a parameter in chi2. Two more of them, a place and a width, cost as much as the least margin: they let a zone follow
+ * almost anything, and a cause without them is named where the zone fits no better. */
+#define PARAMETER_PENALTY 3.0
+/* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred
+ * times at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
+#define LEAST_MARGIN 6.0
+/* Residuals more than parameters, that could still contradict a name: six frequencies carry one parameter. Twice as many where
+ * the cause leaves more than noise: what else is there has parameters too, and with few residuals one cause imitates two. */
+#define LEAST_RESIDUALS 3
+
+/* The model before the round, as far as the candidates are compared with it. */
+struct before {
+    int dof, nfrequency;
+    double chi2, chi2_frequency, holdout_rms, mode_out_rms, sensor_out_rms;
+    double beyond_drop; /* of chi2, were its parameters free to pass the bounds they end at; 0 where none does */
+};
+
+double candidate_score(const struct candidate *candidate);
+
+/* Whether the first causes of two candidates are one, at its target and in its state; and whether one of a set is that cause. */
+int candidate_is(const struct candidate *a, const struct candidate *b);
+int candidate_has(const struct candidate *set, const struct candidate *cause);
+
+/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the
+ * candidates has room for one more. */
+int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round);
+
+/* ------------------------------------------------------------------------------------------------------------ detectable */
+
+/* What could not be seen, and where along the axis it would show. */
+
+/* The amplitude that the scan finds in 9 of 10 tests, >= 0: an amplitude a moves the whitened residual by a |c|, the score is
+ * normal about that with variance 1, so a |c| = sqrt(threshold) + 1.28. INFINITY where the item is not usable. */
+double amplitude_shown(const struct scan_item *item, double threshold);
+
+/* result.detectable of *engine->out by the scan of the last round. ROTID_OK or ROTID_ERROR_MEMORY. */
+int detectable_sizes(struct engine *engine, const struct round_result *last);
+int localise(struct engine *engine, const struct scan *scan);
+
+/* ----------------------------------------------------------------------------------------------------------- discrepancy */
+
+/* What a cause that is an approximation, such as the cone at a step, leaves: noise behind it. */
+
+int discrepancy_of(const struct cause_kind *cause); /* nonzero: it leaves something */
+
+/* sigma := sqrt(sigma^2 + sign d^2) in the states in which the candidate acts, in arrays of their own: d is what its cause leaves
+ * of a frequency, and of the largest component of a shape. sign -1 takes out again what was added. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int discrepancy_add(struct pool *pool, const struct candidate *c, int sign, struct states *states);
+
+/* -------------------------------------------------------------------------------------------------------------- evidence */
+
+/* What each fit says about its candidate, and how well it predicts what was left out. */
+
+/* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
+ * does not count. */
+int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
+/* Fills the round's candidates from the refits and lets decide() judge them. */
+int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
+/* Prediction of modes left out in turn, for several models at once: error [models] in percent, shape [models]. */
+int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape);
+
+/* ------------------------------------------------------------------------------------------------------------ far starts */
+
+/* Where a fit has to start that no straight line from the model without a cause leads to: an effect so large that modes change
+ * their order, or that its drop is no longer linear in its size. */
+
+struct far_start {
+    const struct cause_kind *cause;
+    struct effect effect; /* with its target, at the values to start from */
+};
+
+/* Behind the refits of a round, while nothing is named and where even the best leaves more than FAR_RATE of chi2 a degree of
+ * freedom; once in a diagnosis, of one state, as a beam. Every candidate is looked at with sizes over all of its bounds, at
+ * places along the rotor, the modes paired anew with each; what comes nearest is fitted with its own pairing. Where one of these
+ * fits leaves less than half of what all others do, a degree of freedom, it is the start of its candidate from then on, its
+ * pairing is settled for all, and the round has to be repeated: *changed. Statuses of memory and cancellation only. */
+int far_starts_search(struct engine *engine, const struct round_result *result, int *changed);
+
+/* Gives the scan's candidate the start that was found. */
+void far_starts_mark(const struct engine *engine, struct scan *scan);
+
+/* ---------------------------------------------------------------------------------------------------------- sensor check */
+
+/* Faults of the measurement chain, found from the shapes alone: physics moves a shape smoothly along the axis, a bad channel
+ * makes a spike. A sensor is compared with what its neighbours say it should read, prediction plus the smooth part of the
+ * residual. */
+
+struct shape_data {
+    int nsensor, nmode;
+    const double *z;     /* [nsensor] positions, increasing [m] */
+    const double *shape; /* [nsensor * nmode] measured, NaN where not measured */
+    const double *std;   /* [nsensor * nmode] of the same scale */
+    const double *read;  /* [nsensor * nmode] the shape with the digits it was read with, of any scale */
+    int naxis;
+    const double *axis_z;     /* [naxis] nodes of the model, increasing */
+    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there, times the best scale to the measured */
+};
+
+/* Mode k of the model at z [m], from the first node to the last, cubic between the nodes (Lagrange, on the four around z). */
+double shape_data_model(const struct shape_data *data, int k, double z);
+
+enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
+
+struct sensor_fault {
+    enum sensor_fault_kind kind;
+    int sensor, other; /* indices; other: the partner of a swap, the source of a copy; else -1 */
+    double value, std; /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
+    double chi2_drop;  /* twice the gain in log likelihood of all sensors over this one being sound */
+};
+
+/* Finds up to `most` faults, the worst first, each judged with all others taken out. `false_alarm`: family-wise probability of
+ * any fault in sound data, about 0.005. A fault also has to beat a joint or a soft zone at that place, so small ones go unnamed
+ * where the model is badly wrong. Noise up to five times the stated one is allowed for. Below 8 sensors only
+ * copies are found: FAULT_DUPLICATE is a channel that agrees with another one to the last digit, whatever the model is. fault
+ * [most], *nfault. ROTID_OK or ROTID_ERROR_MEMORY. */
+int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
+                 int *nfault);
+
+/* ------------------------------------------------------------------------------------------------------------ line check */
+
+/* Positions of all sensors at once, from the shapes: counted from the other end (flip), from a wrong origin (shift), with a wrong
+ * length (scale). */
+
+struct line_fault {
+    struct sensor_line line;
+    double shift_std, scale_std; /* NaN where as stated */
+    double chi2_drop;            /* of the shapes beside the model as it is */
+};
+
+/* The line that explains the shapes best beside this model: for both flips, and shift and scale free or as stated,
+ *
+ *     chi2 = sum_k min_a |a P_k(z') - m_k|^2/s_k^2
+ *
+ * is minimised from a grid by Gauss-Newton; the one of the least chi2 + 12 a parameter counts, so that nothing is off by what the
+ * model or noise may do. *found nonzero where it gains as much, in units of what is left for a degree of freedom where noise does
+ * not explain that, and moves a sensor by half a millimetre. Where turning the line alone gains as much it is turned alone: shift
+ * and scale are for a model that was fitted to shapes the right way round. Copies and other faults of channels are not looked at.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int line_check(struct pool *pool, const struct shape_data *data, double length, struct line_fault *fault, int *found);
+
+/* ---------------------------------------------------------------------------------------------------------------- faults */
+
+/* Faults of channels as rivals of the physical causes: a sensor that looks wrong beside one model may be sound beside another. */
+
+/* Behind the refits of a round, while nothing is named. The model without a cause and the best refits each say which channels
+ * they find faulty, and are fitted again with these put right. The best of these explanations by score counts: its faults are
+ * taken out of the judged data, each with a finding, if every explanation within the margin of a name has them too; *changed
+ * then, and the round has to be repeated. A fault that stays open beside a physical cause goes to result->fault. */
+int faults_settle(struct engine *engine, struct round_result *result, int *changed);
+
+/* -------------------------------------------------------------------------------------------------------------- finalise */
+
+/* The final model, the gain, the verdict in words. */
+
+/* last: the round that named nothing more, or NULL. */
+int finalise(struct engine *engine, const struct round_result *last);
+
+/* ---------------------------------------------------------------------------------------------------------------- hidden */
+
+/* What a cause below its detection limit does to the parameters that are identified. */
+
+/* result.hidden of *engine->out. With the scan of the last round, c the whitened column of a cause, J those of what is fitted,
+ * both free of the scales of the shapes, and s the smallest size that shows at a place (detectable.h), or the largest that is
+ * physical, the fit without the cause is off by
+ *   dx = (J'J)^-1 J'c s.
+ * Of all places and widths of a cause the one counts that moves a parameter most; of all causes those that move it most, three at
+ * most. A cause in one state alone, a suspect, and one whose column lies within those of J (its size is not bounded by the data)
+ * are left out, as is a parameter at its bound. ROTID_OK or ROTID_ERROR_MEMORY. */
+int hidden_shifts(struct engine *engine, const struct round_result *last);
+
+/* The same of a fit that no diagnosis made: of the states, whose noise is stated, at the values of their unknowns in `fit`, the
+ * full model by the likelihood; number of all modes as paired by that fit. The threshold of the scan is extrapolated from few
+ * replicates.
+ * list [*n] on the pool; none where there is nothing to judge by. Statuses of scan_run and bootstrap_run. */
+int hidden_of_fit(struct pool *pool, const struct states *states, const int *number, const rotid_fit_result *fit,
+                  const rotid_environment *environment, int *n, rotid_hidden **list);
+
+/* ----------------------------------------------------------------------------------------------------------------- items */
+
+/* What all who report a diagnosis look up alike. */
+
+/* Name and unit of parameter p of a candidate, that of the card for a fault of the measurement; NULL behind the last. */
+const struct effect_parameter_name *candidate_parameter(const struct candidate *candidate, int p);
+
+/* The word for its shape or mount, NULL where its cause has none. */
+const char *candidate_variant(const struct candidate *candidate);
+
+/* Index in the fit (may be NULL) of the unknown [fit->n] of that name, -1 where there is none. */
+int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit, const char *name);
+
+/* ------------------------------------------------------------------------------------------------------------- leave out */
+
+/* Prediction of what was not fitted: modes left out in turn (fitted again without each), sensors left out in turn (one
+ * Gauss-Newton step, exact where the model is linear), modes the deck holds out. Modes are those of all states: k, number,
+ * holdout. */
+
+/* Predicts mode k by a fit of all fitted modes but it: error of its frequency and rms difference of its shape, NaN where there is
+ * no such fit. May run in several threads. Statuses of memory and cancellation only. */
+int mode_out_fit(const struct states *states, const int *number, const int *holdout, int k, const rotid_environment *environment,
+                 const rotid_allocator *allocator, double *error_percent, double *shape);
+
+/* From the fit of the job: rms over the sensors of the standardised residual that each has when it is not fitted, and of the
+ * difference of shapes; NaN without shapes. ROTID_OK, ROTID_ERROR_MEMORY. */
+int sensor_out(struct pool *pool, const struct states *states, const int *holdout, const rotid_fit_result *fit,
+               double *standardised, double *shape_rms);
+
+/* Frequency and shape errors of the modes that are (held = 1) or are not (0) held out. NaN where there are none. */
+void fitted_errors(const struct states *states, const int *holdout, const rotid_fit_result *fit, int held, double *rms_percent,
+                   double *max_percent, double *shape_rms);
+
+/* rms difference of a measured shape [nsensor] to the model's, from their MAC: sqrt((1 - MAC) mean of squares), the largest
+ * component being 1. NaN without a shape. */
+double shape_difference(const struct job *job, int k, double mac);
+
+/* --------------------------------------------------------------------------------------------------------- loaded shapes */
+
+/* What the mass of an accelerometer that went from sensor to sensor did to the measured shapes. */
+
+/* The fitted model at the sensors, mode by mode, without the accelerometer. */
+struct weighing {
+    struct columns columns; /* of the base: its fitted modes */
+    int nmode, npoint;
+    double *hz, *std, *square, *others, *order, *phi; /* as in struct roving_data; phi [npoint * nmode] */
+    double *bend;                                     /* likewise */
+    double *across, *across_bend; /* [npoint * nmode] like others and bend, but between the point and the hammer */
+    double *spread; /* [npoint * nmode] d phi/dm with the mass spread over all sensors, but for a share of phi itself */
+    int hammer;     /* sensor, -1 where not known */
+};
+
+/* ----------------------------------------------------------------------------------------------------------- noise check */
+
+/* Is the noise of the shapes as stated? From the part of the residual that no cause of the catalogue can produce. */
+
+struct noise_estimate {
+    int usable;           /* enough rows for an estimate: 60 beside the directions of physics */
+    double factor;        /* estimated over stated standard deviation */
+    double std;           /* of that factor */
+    int misstated;        /* it differs from 1 beyond chance (two-sided 0.001) and by more than 15 % */
+    int coloured;         /* the smooth part is noisier than the rest: neighbouring sensors share their noise */
+    double smooth_factor; /* level of the smooth part alone over the stated one, real effects taken out; NaN without columns */
+};
+
+/* residual [nrow]: whitened shape residuals of the fit, NaN never. column [nrow * ncolumn]: whitened columns of every cause and
+ * of the free parameters, any scale (they span what physics can do to the shapes). Robust against some sensors with faults and
+ * against one or two real effects hidden in the residual. work on `pool`. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_LIBRARY. */
+int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual, const double *column,
+                struct noise_estimate *estimate);
+
+/* --------------------------------------------------------------------------------------------------------------- pairing */
+
+/* Which mode of the model each measured mode is, as long as the model is not the right one. */
+
+/* Leaves out measured mode k, which looks like no mode of the base and whose number the shape of another one claims, with a
+ * finding.
+ */
+int pairing_drop(struct engine *engine, int k);
+/* A finding for every mode that engine->number takes for another one than `number` [nmode], the deck's. */
+int pairing_note(struct engine *engine, const int *number);
+/* The data `measured`, modes that were left out among them, take the place of those that are judged, with the pairing `number`,
+ * and what was found about pairing is that. Nothing where it is the pairing there is. ROTID_OK or ROTID_ERROR_MEMORY. */
+int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number);
+/* The findings about pairing again, the data and the base being others. */
+int pairing_note_again(struct engine *engine);
+/* Behind the refits of a round, while nothing is named: the data as measured, modes that were left out among them, are paired
+ * anew beside every refit. Where one of them explains all modes that way, its pairing is settled for all, the findings of another
+ * one are taken back, and the round has to be repeated: *changed. Without shapes shifts and gaps of the numbers are tried
+ * instead. */
+int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
+
+/* ----------------------------------------------------------------------------------------------------------------- pairs */
+
+/* Two causes at once, for a round in which one alone does not suffice. */
+
+/* The pairs of a scan that promise most, in score: every two items of different candidates, or of one with a place at two places,
+ * drop together -2 b'u - u'Gu with G the products of their columns, b those with the residual, and the steps u within what
+ * physics allows. Of the places of two candidates the best ones are taken, and no pair that would leave fewer than
+ * LEAST_RESIDUALS. Pairs of causes that act in all states that have them are listed first, then those of which one or both act
+ * in one state alone: set [2 * most], each `most` at most and best first, *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
+int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
+                 int *count);
+
+/* ---------------------------------------------------------------------------------------------------------- sensor field */
+
+/* The residual of the shapes as a random field along the axis, to predict one sensor from the others.
+ *
+ * Sensor i reads m_ik = P_k(z_i) + e_k(z_i) + noise in mode k. P_k is the model's shape, e_k what the model gets wrong. Stiffness
+ * that is wrong somewhere bends a shape by e'' = d(M/EI), so e is taken as twice integrated white noise of intensity q (a cubic
+ * smoothing spline, Wahba 1978), which leaves its slope as rough as a joint makes it, plus what mixes the modes:
+ *
+ *     cov(e(z), e(z')) = c (1 + x x') + b^2 sum_j P_j(z) P_j(z') + q int (z - u)+ (z' - u)+ du
+ *
+ * How wrong the model is, (b, q), is not known: every mode has its own mixture over a grid of them, weighted by how well each
+ * explains the other sensors. On a bad model the prediction is therefore wide by itself, and sound sensors are not accused.
+ * With A = cov^-1 and w = A (m - P), sensor i is predicted from the others as m_i - w_i/A_ii with variance 1/A_ii, noise
+ * included, and is left out of everything that follows by A - a_i a_i'/A_ii. Shapes are scaled to a largest deflection of the
+ * model of 1. */
+
+#define FIELD_MOST_GRID  40
+#define FIELD_MOST_MODES 64
+
+struct sensor_field {
+    const struct shape_data *data;
+    int n, nmode, ngrid, nclass;
+    double noise_factor;         /* in variance */
+    double origin, middle, half; /* of the axis [m] */
+    double q[FIELD_MOST_GRID], b2[FIELD_MOST_GRID];
+    double *unit;                       /* [nmode] scale of the measured shape over that used here; 0: mode without data */
+    double *scale;                      /* [nmode] axis_shape times this is P */
+    double *model, *reading, *variance; /* [n * nmode] P, m and the variance of the noise at the sensors */
+    int *present;                       /* [n * nmode] measured */
+    int *masked;                        /* [n] left out */
+    int *class_of, *leader;             /* [nmode] modes with the same noise at the same sensors share A; the first of each */
+    double *inverse;                    /* [n * n * ngrid * nclass] A; rows of sensors that are left out or absent are zero */
+    double *weight;                     /* [n * ngrid * nmode] w */
+    double *evidence;                   /* [ngrid * nmode] log likelihood of what is not masked, but for constants */
+    double *part[3];                    /* [n * n] parts of the covariance, to be added up with c, b^2 and q */
+    double *packed;                     /* [n * n] */
+    int *row;                           /* [n] */
+};
+
+/* Sizes, scales and grid of the data; every mode is scaled afresh by the weighted median of the ratios measured/model, which a
+ * few bad sensors do not move. ROTID_OK or ROTID_ERROR_MEMORY. */
+int field_new(struct pool *pool, const struct shape_data *data, struct sensor_field *field);
+
+/* All sensors in, noise times `noise_factor`. Returns 0, or 1 where the covariance is singular to working precision. */
+int field_start(struct sensor_field *field, double noise_factor);
+
+/* Leaves sensor s out of all that follows. */
+void field_mask(struct sensor_field *field, int s);
+
+/* Lets sensors s and t change their readings. Both must have been measured in the same modes. */
+void field_exchange(struct sensor_field *field, int s, int t);
+
+/* Log likelihood of the sensors that are in. */
+double field_evidence(const struct sensor_field *field);
+
+/* Where sensor s would be at z: mean and variance of the deflection there [ngrid * nmode] predicted by the sensors that are in
+ * but s, for the grid points with wanted [ngrid * nmode] nonzero. Workspace: vector [4 n]. */
+void field_predict(const struct sensor_field *field, int s, double z, const int *wanted, double *mean, double *variance,
+                   double *vector);
+
+/* A [n * n] of a grid point and a class, w [n] of a grid point and a mode. */
+double *field_inverse(const struct sensor_field *field, int g, int c);
+double *field_weight(const struct sensor_field *field, int g, int k);
+
+/* -------------------------------------------------------------------------------------------------------- sensor explain */
+
+/* How well each kind of fault explains what one sensor reads, given the field that the other sensors predict. */
+
+#define FAULT_KINDS 6
+
+struct explanation {
+    double drop;  /* twice the gain in log likelihood over a sound sensor; -INFINITY where the kind does not apply */
+    double score; /* drop less what the search and the parameter cost */
+    int other;
+    double value, std;
+};
+
+struct sensor_likelihood { /* one sensor at a time */
+    const struct sensor_field *field;
+    int s;
+    double sound;            /* log likelihood, no fault */
+    double *others;          /* [ngrid * nmode] log likelihood of the other sensors */
+    double *mean, *variance; /* [ngrid * nmode] of the deflection at its own place, predicted by them */
+    int *wanted;             /* [ngrid * nmode] grid points that matter: the others' likelihood is not lost against the best */
+    double *there_mean, *there_variance; /* elsewhere */
+    double *vector;
+};
+
+/* ---------------------------------------------------------------------------------------------------------------- spread */
+
+/* What a verdict leaves open of the parameters that are identified. */
+
+/* verdict.spread of *engine->out: of each unknown of the deck the least and the largest value over the causes that cannot be told
+ * apart, and what holds all their intervals. Without such causes, or where none of them was fitted, empty. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int spread_of_alternatives(struct engine *engine);
+
+/* Sentences, each with a blank before it; "" where there is nothing to say, NULL where memory is out.
+ * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
+ * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
+const char *spread_sentence(struct engine *engine);
+
+/* --------------------------------------------------------------------------------------------------------------- verdict */
+
+/* From rounds to a verdict. */
+
+/* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
+int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result);
+/* The verdict: adequate, named, ambiguous or unexplained, with what it rests on. last: the round that named nothing more. */
+int reach_verdict(struct engine *engine, struct round_result *last);
+
+/* ----------------------------------------------------------------------------------------------------------------- widen */
+
+/* A size that ends at a bound is tried beyond it before its cause is refused. */
+
+/* Whether x lies so near a bound that it is not the size the data want. A bound at which the effect vanishes (neutral) is none: a
+ * small size lies near it. Between bounds above zero sizes are factors, and a distance is a ratio. */
+int size_at_bound(const rotid_parameter *bounds, double neutral, double x);
+
+/* The fit of a set again with the bounds at which its sizes end farther away, step by step as long as chi2 falls, up to what is
+ * physically possible; bounds that the deck states stay. *refit is replaced where that is better. Statuses of memory and
+ * cancellation only. */
+int refit_widen(struct pool *pool, const struct scan *scan, const struct scan_set *set, const int *number, const int *holdout,
+                const rotid_environment *environment, struct refit *refit);
 
 #endif

@@ -1,4 +1,4 @@
-#include "diagnose/discrepancy.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
-#include "diagnose/engine.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "base/base.h"
 
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {

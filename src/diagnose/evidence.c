@@ -3,18 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/parallel.h"
-#include "diagnose/accelerometer.h"
-#include "diagnose/bootstrap.h"
-#include "diagnose/decide.h"
-#include "diagnose/discrepancy.h"
-#include "diagnose/evidence.h"
-#include "diagnose/leave_out.h"
-#include "diagnose/refit.h"
-#include "diagnose/round.h"
-#include "diagnose/scan.h"
-#include "diagnose/widen.h"
-#include "fit/quantile.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
 
 #define MOST_OUT   5    /* candidates for which modes are left out in turn */
 #define OUT_MARGIN 25.0 /* of chi2 from the best one: further ones do not win whatever they predict */

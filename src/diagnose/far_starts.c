@@ -1,12 +1,10 @@
-#include "diagnose/far_starts.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/parallel.h"
-#include "diagnose/pairing.h"
-#include "diagnose/refit.h"
-#include "run/compare.h"
+#include "base/base.h"
+#include "run/run.h"
 
 #define FAR_RATE  3.0  /* chi2 a degree of freedom: what leaves less is near enough for a fit */
 #define FEWER     0.5  /* times what the others leave */

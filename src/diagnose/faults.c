@@ -1,19 +1,339 @@
 /* Which channels are faulty, whatever the physics is. */
-#include "diagnose/faults.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/correct.h"
-#include "diagnose/data.h"
-#include "diagnose/decide.h"
-#include "diagnose/fault_text.h"
-#include "diagnose/line_check.h"
-#include "diagnose/sensor_check.h"
-#include "fit/quantile.h"
-#include "model/deflection.h"
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "fit/fit.h"
+#include "model/model.h"
+
+#define LEAST_SENSORS 4
+#define LEAST_MOVE    5e-4 /* m: nobody glues a sensor more closely than that */
+#define SHIFTS        13   /* places of the grid, over a tenth of the length to either side */
+#define REACH         0.12
+#define SCALES        5
+#define SCALE_STEP    0.05
+#define MOST_SHIFT    0.15 /* of the length: a line that is off by more is measured anew */
+#define MOST_SCALE    0.2
+#define ITERATIONS    20
+#define HALVINGS      12
+#define STEP          1e-5 /* of the differences, over the length and 1 */
+#define COST          12.0 /* of chi2 that each of flip, shift and scale has to gain: 3.5 standard deviations */
+
+struct line_search {
+    const struct shape_data *data;
+    double length;
+    int nrow;
+    double *r, *moved, *jacobian; /* [nrow], [nrow], [2 nrow] */
+};
+
+/* What of flip, shift and scale is not neutral. */
+static int line_parameters(const struct sensor_line *line)
+{
+    return line->flip + (line->shift != 0) + (line->scale != 1);
+}
+
+/* r [nrow] with every mode at its best scale; returns chi2, INFINITY where a sensor leaves the rotor. */
+static double residual(const struct line_search *search, const struct sensor_line *line, double *r)
+{
+    const struct shape_data *data = search->data;
+    double chi2 = 0;
+    if (fabs(line->shift) > MOST_SHIFT * search->length || fabs(line->scale - 1) > MOST_SCALE ||
+        !sensor_line_fits(line, search->length, data->nsensor, data->z))
+        return INFINITY;
+    for (int k = 0; k < data->nmode; k++) {
+        double square = 0, product = 0, *own = r;
+        for (int s = 0; s < data->nsensor; s++) {
+            ptrdiff_t at = s + (ptrdiff_t)k * data->nsensor;
+            double z = sensor_line_place(line, search->length, data->z[s]);
+            if (!isfinite(data->shape[at]) || !isfinite(data->std[at]))
+                continue;
+            double p = shape_data_model(data, k, fmin(fmax(z, data->axis_z[0]), data->axis_z[data->naxis - 1])) / data->std[at];
+            square += p * p;
+            product += p * data->shape[at] / data->std[at];
+            *r++ = p;
+        }
+        double a = square > 0 ? product / square : 0;
+        for (int s = 0; s < data->nsensor; s++) {
+            ptrdiff_t at = s + (ptrdiff_t)k * data->nsensor;
+            if (!isfinite(data->shape[at]) || !isfinite(data->std[at]))
+                continue;
+            *own = a * *own - data->shape[at] / data->std[at];
+            chi2 += *own * *own;
+            own++;
+        }
+    }
+    return chi2;
+}
+
+/* J'J and J'r over what is free, by differences. */
+static void normal_equations(const struct line_search *search, const struct sensor_line *line, const int *free, double h[3],
+                             double g[2])
+{
+    int n = search->nrow;
+    h[0] = h[1] = h[2] = g[0] = g[1] = 0;
+    for (int p = 0; p < 2; p++) {
+        double *column = search->jacobian + (ptrdiff_t)p * n, step = p ? STEP : STEP * search->length;
+        struct sensor_line other = *line;
+        memset(column, 0, (size_t)n * sizeof *column);
+        if (!free[p])
+            continue;
+        *(p ? &other.scale : &other.shift) += step;
+        if (!isfinite(residual(search, &other, search->moved))) {
+            *(p ? &other.scale : &other.shift) -= 2 * step;
+            step = -step;
+            if (!isfinite(residual(search, &other, search->moved)))
+                continue;
+        }
+        for (int i = 0; i < n; i++)
+            column[i] = (search->moved[i] - search->r[i]) / step;
+    }
+    for (int i = 0; i < n; i++) {
+        double a = search->jacobian[i], b = search->jacobian[n + i];
+        h[0] += a * a;
+        h[1] += a * b;
+        h[2] += b * b;
+        g[0] += a * search->r[i];
+        g[1] += b * search->r[i];
+    }
+}
+
+/* The inverse of J'J over what is free, in the place of h; 0 where it has none. */
+static int invert(const int *free, double h[3])
+{
+    double a = free[0] ? h[0] : 1, b = free[0] && free[1] ? h[1] : 0, c = free[1] ? h[2] : 1, det = a * c - b * b;
+    if (!(det > 1e-12 * a * c))
+        return 0;
+    h[0] = c / det;
+    h[1] = -b / det;
+    h[2] = a / det;
+    return 1;
+}
+
+/* Gauss-Newton with halved steps from *line; returns chi2. */
+static double descend(const struct line_search *search, const int *free, struct line_fault *fault)
+{
+    struct sensor_line *line = &fault->line;
+    double h[3], g[2], chi2 = residual(search, line, search->r);
+    fault->shift_std = fault->scale_std = NAN;
+    if (!free[0] && !free[1])
+        return chi2;
+    for (int i = 0; i < ITERATIONS; i++) {
+        normal_equations(search, line, free, h, g);
+        if (!invert(free, h))
+            return INFINITY;
+        double step[2] = {free[0] ? -(h[0] * g[0] + h[1] * g[1]) : 0, free[1] ? -(h[1] * g[0] + h[2] * g[1]) : 0}, least = chi2;
+        struct sensor_line next = *line;
+        for (int j = 0; j < HALVINGS && !(least < chi2); j++, step[0] /= 2, step[1] /= 2) {
+            next = *line;
+            next.shift += step[0];
+            next.scale += step[1];
+            least = residual(search, &next, search->moved);
+        }
+        if (!(least < chi2))
+            break;
+        double gained = chi2 - least;
+        *line = next;
+        chi2 = residual(search, line, search->r);
+        if (gained < 1e-6 * chi2)
+            break;
+    }
+    normal_equations(search, line, free, h, g);
+    double spread = search->nrow > 2 ? sqrt(fmax(1, chi2 / (search->nrow - 2))) : 1;
+    if (invert(free, h)) {
+        fault->shift_std = free[0] ? spread * sqrt(h[0]) : NAN;
+        fault->scale_std = free[1] ? spread * sqrt(h[2]) : NAN;
+    }
+    return chi2;
+}
+
+/* The best line of a flip with this freedom, from the best place of the grid. */
+static double search_line(const struct line_search *search, int flip, const int *free, struct line_fault *fault)
+{
+    struct sensor_line best = {.flip = flip, .scale = 1};
+    double least = residual(search, &best, search->r);
+    for (int i = 0; i < (free[0] ? SHIFTS : 1); i++)
+        for (int j = 0; j < (free[1] ? SCALES : 1); j++) {
+            struct sensor_line one = {.flip = flip, .scale = free[1] ? 1 + SCALE_STEP * (j - (SCALES - 1) / 2.0) : 1};
+            one.shift = free[0] ? REACH * search->length * (2.0 * i / (SHIFTS - 1) - 1) : 0;
+            one.shift += free[0] ? (1 - one.scale) * search->length / 2 : 0; /* a scale about the middle */
+            double chi2 = residual(search, &one, search->r);
+            if (chi2 < least) {
+                least = chi2;
+                best = one;
+            }
+        }
+    *fault = (struct line_fault){.line = best, .shift_std = NAN, .scale_std = NAN};
+    return isfinite(least) ? descend(search, free, fault) : least;
+}
+
+static double largest_move(const struct shape_data *data, double length, const struct sensor_line *line)
+{
+    double move = 0;
+    for (int s = 0; s < data->nsensor; s++)
+        move = fmax(move, fabs(sensor_line_place(line, length, data->z[s]) - data->z[s]));
+    return move;
+}
+
+int line_check(struct pool *pool, const struct shape_data *data, double length, struct line_fault *fault, int *found)
+{
+    struct line_search search = {.data = data, .length = length};
+    size_t all = (size_t)data->nsensor * (size_t)data->nmode;
+    const struct sensor_line stated = {.scale = 1};
+    double best = INFINITY, left = 0;
+    *found = 0;
+    if (data->nsensor < LEAST_SENSORS || data->nmode < 1 || data->naxis < 2)
+        return ROTID_OK;
+    search.r = POOL_ARRAY(pool, double, 4 * all);
+    if (!search.r)
+        return ROTID_ERROR_MEMORY;
+    search.moved = search.r + all;
+    search.jacobian = search.moved + all;
+    for (size_t i = 0; i < all; i++)
+        search.nrow += isfinite(data->shape[i]) && isfinite(data->std[i]);
+    double before = residual(&search, &stated, search.r);
+    for (int flip = 0; flip < 2; flip++)
+        for (int some = flip ? 0 : 1; some < 4; some++) {
+            const int free[2] = {some & 1, some >> 1};
+            struct line_fault one;
+            double chi2 = search_line(&search, flip, free, &one), score = chi2 + COST * line_parameters(&one.line);
+            if (score < best) {
+                best = score;
+                left = chi2;
+                *fault = one;
+            }
+        }
+    if (!isfinite(best))
+        return ROTID_OK;
+    const struct sensor_line turned = {.flip = 1, .scale = 1};
+    double alone = fault->line.flip ? residual(&search, &turned, search.r) : INFINITY;
+    if (before - alone > COST) { /* how long a line is, and where it begins, shows once it is the right way round */
+        *fault = (struct line_fault){.line = turned, .shift_std = NAN, .scale_std = NAN};
+        left = alone;
+    }
+    int own = line_parameters(&fault->line), dof = search.nrow - data->nmode - own;
+    double dispersion = dof > 0 ? fmax(1, left / dof) : 1;
+    fault->chi2_drop = before - left;
+    *found = own && fault->chi2_drop > COST * own * dispersion && largest_move(data, length, &fault->line) >= LEAST_MOVE;
+    return ROTID_OK;
+}
+
+static const char *const fault_id[] = {[FAULT_GAIN] = "sensor_gain",
+                                       [FAULT_SIGN] = "sensor_sign",
+                                       [FAULT_SWAP] = "sensor_swap",
+                                       [FAULT_POSITION] = "sensor_position",
+                                       [FAULT_DUPLICATE] = "duplicate_channel",
+                                       [FAULT_DEAD] = "duplicate_channel"};
+
+/* A negative gain is a wrong sign. */
+static enum sensor_fault_kind kind_of(const struct sensor_fault *fault)
+{
+    return fault->kind == FAULT_GAIN && fault->value < 0 ? FAULT_SIGN : fault->kind;
+}
+
+static int has_value(enum sensor_fault_kind kind)
+{
+    return kind == FAULT_GAIN || kind == FAULT_POSITION;
+}
+
+static const char *describe(struct pool *pool, enum sensor_fault_kind kind, double value, const int *id)
+{
+    switch (kind) {
+    case FAULT_GAIN:
+        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", id[0], value);
+    case FAULT_SIGN:
+        return pool_format(pool, "sensor %d has the wrong sign; it is turned", id[0]);
+    case FAULT_SWAP:
+        return pool_format(pool, "sensors %d and %d are exchanged; they are put back", id[0], id[1]);
+    case FAULT_POSITION:
+        return pool_format(pool, "sensor %d sits %.3g mm further %s than stated; it is moved", id[0], 1e3 * fabs(value),
+                           value > 0 ? "right" : "left");
+    case FAULT_DUPLICATE:
+        return pool_format(pool, "sensor %d records what sensor %d records; it is left out", id[0], id[1]);
+    default:
+        return pool_format(pool, "sensor %d is dead; it is left out", id[0]);
+    }
+}
+
+/* id [nsensor]: of the sensors when the fault was found. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int *id, rotid_data_finding *finding)
+{
+    enum sensor_fault_kind kind = kind_of(fault);
+    int two = fault->other >= 0;
+    *finding = (rotid_data_finding){.id = fault_id[kind],
+                                    .nsensors = 1 + two,
+                                    .sensors = POOL_ARRAY(pool, int, 2),
+                                    .value = has_value(kind) ? fault->value : NAN,
+                                    .std = fault->std,
+                                    .chi2_drop = fault->chi2_drop};
+    if (!finding->sensors)
+        return ROTID_ERROR_MEMORY;
+    finding->sensors[0] = id[fault->sensor];
+    finding->sensors[1] = two ? id[fault->other] : 0;
+    finding->text = describe(pool, kind, fault->value, finding->sensors);
+    return finding->text ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* "sensor 7", "sensors 7,8"; NULL where memory is out. */
+static const char *fault_target(struct pool *pool, const rotid_data_finding *finding)
+{
+    return !finding->nsensors      ? ""
+           : finding->nsensors > 1 ? pool_format(pool, "sensors %d,%d", finding->sensors[0], finding->sensors[1])
+                                   : pool_format(pool, "sensor %d", finding->sensors[0]);
+}
+
+/* Without a name; of a dead channel there is none: nothing could be put right. */
+static struct correction fault_correction(const struct sensor_fault *fault, const int *id)
+{
+    enum sensor_fault_kind kind = kind_of(fault);
+    int two = fault->other >= 0;
+    return (struct correction){.id = fault_id[kind],
+                               .nsensor = 1 + two,
+                               .sensor = {id[fault->sensor], two ? id[fault->other] : 0},
+                               .value = has_value(kind) ? fault->value : 1};
+}
+
+#define NORMAL_95 1.96
+
+static rotid_cause_value sized(const char *name, const char *unit, double value, double std, double neutral)
+{
+    int as_stated = value == neutral && !isfinite(std);
+    double half = as_stated ? NAN : NORMAL_95 * std;
+    return (rotid_cause_value){name, unit, value, as_stated ? NAN : std, {value - half, value + half}, 0};
+}
+
+static int line_finding(struct pool *pool, const struct line_fault *fault, rotid_data_finding *finding)
+{
+    const struct sensor_line *line = &fault->line;
+    *finding = (rotid_data_finding){.id = "sensor_line",
+                                    .value = NAN,
+                                    .std = NAN,
+                                    .chi2_drop = fault->chi2_drop,
+                                    .nparameters = 3,
+                                    .parameters = POOL_ARRAY(pool, rotid_cause_value, 3)};
+    if (!finding->parameters)
+        return ROTID_ERROR_MEMORY;
+    finding->parameters[0] = sized("shift", "m", line->shift, fault->shift_std, 0);
+    finding->parameters[1] = sized("scale", "1", line->scale, fault->scale_std, 1);
+    finding->parameters[2] = sized("flip", "1", line->flip, NAN, line->flip);
+    const char *text =
+        line->flip ? "the positions of all sensors count from the other end" : "the positions of all sensors are off";
+    if (line->scale != 1)
+        text =
+            pool_format(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, line->scale, fault->scale_std);
+    if (text && line->shift != 0)
+        text = pool_format(pool, "%s, their origin is off by %+.3g +- %.2g mm", text, 1e3 * line->shift, 1e3 * fault->shift_std);
+    finding->text = text ? pool_format(pool, "%s; all of them are moved", text) : NULL;
+    return finding->text ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* The same of all positions at once: the finding with its sizes, and the card. */
+static struct correction line_correction(const struct sensor_line *line)
+{
+    return (struct correction){.id = "sensor_line", .value = line->shift, .more = {line->scale, line->flip}};
+}
 
 #define MOST_FAULTS   8
 #define MOST_RIVALS   4 /* refits beside which the channels are looked at */

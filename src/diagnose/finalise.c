@@ -1,20 +1,236 @@
 /* The end of a diagnosis: the extended model fitted to the end, the gain on what was and was not fitted, and the verdict. */
+#include "diagnose/diagnose.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "diagnose/base.h"
-#include "diagnose/cause_intervals.h"
-#include "diagnose/decide.h"
-#include "diagnose/detectable.h"
-#include "diagnose/evidence.h"
-#include "diagnose/finalise.h"
-#include "diagnose/hidden.h"
-#include "diagnose/leave_out.h"
-#include "diagnose/refit.h"
-#include "diagnose/round.h"
-#include "diagnose/spread.h"
-#include "fit/interval.h"
+#include "base/base.h"
+#include "fit/fit.h"
+
+#define HELD  1e-6 /* of the range: what a place may still move that is held */
+#define NEAR  0.01 /* of the range: as near as an end is looked for */
+#define STEPS 6
+
+struct profile {
+    const struct engine *engine;
+    const struct states *states;
+    const rotid_fit_result *fit;
+    int p;
+    double lower, upper;
+};
+
+/* *far := square root of what chi2 is above that of the fit with the place held at z; INFINITY where there is no fit. */
+static int look_at(const struct profile *profile, double z, double *far)
+{
+    struct pool scratch;
+    struct states held;
+    rotid_fit_result *fit = NULL;
+    double room = HELD * (profile->upper - profile->lower), from = fmax(profile->lower, z - room),
+           to = fmin(profile->upper, z + room);
+    pool_open(&scratch, profile->engine->pool->allocator);
+    int status = states_started_at(&scratch, profile->states, profile->fit->x, &held);
+    if (!status) {
+        rotid_parameter *place = &held.bounds[profile->p];
+        place->lower = from;
+        place->upper = to;
+        place->start = (from + to) / 2;
+        states_share_bounds(&held, profile->p);
+        status =
+            refit_states(&scratch, &held, profile->engine->number, profile->engine->holdout, profile->engine->environment, &fit);
+    }
+    *far = status ? INFINITY : sqrt(fmax(0, fit->chi2 - profile->fit->chi2));
+    rotid_fit_free(fit);
+    pool_close(&scratch);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+/* The end on the side of `bound`: the distance grows with that of the place, nearly in proportion. */
+static int find_end(const struct profile *profile, double z, double bound, double *end)
+{
+    double limit = sqrt(chi_square_limit(0.05, 1)) * profile->fit->widened_by, inside = z, outside = bound, near = 0, far;
+    int status = look_at(profile, bound, &far);
+    *end = bound;
+    if (status || far <= limit)
+        return status;
+    for (int i = 0; i < STEPS && fabs(outside - inside) > NEAR * (profile->upper - profile->lower); i++) {
+        double share = isfinite(far) ? (limit - near) / (far - near) : 0.5, one,
+               at = inside + fmin(fmax(share, 0.1), 0.9) * (outside - inside);
+        status = look_at(profile, at, &one);
+        if (status)
+            return status;
+        if (one <= limit) {
+            inside = at;
+            near = one;
+        } else {
+            outside = at;
+            far = one;
+        }
+    }
+    *end = outside;
+    return ROTID_OK;
+}
+
+/* 95 % interval of unknown p, a place between `lower` and `upper` [m], by the profile of chi2: where the least chi2 of all other
+ * unknowns is within 3.84 of that of `fit`, times the square by which the intervals of that are widened. interval [2] ends where
+ * a side does, or within 1 % of the range outside of it. */
+static int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
+                          double lower, double upper, double interval[2])
+{
+    const struct profile profile = {engine, states, fit, p, lower, upper};
+    double z = fmin(fmax(fit->x[p], lower), upper);
+    int status = find_end(&profile, z, lower, &interval[0]);
+    return status ? status : find_end(&profile, z, upper, &interval[1]);
+}
+
+/* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
+ * much; and a place that the fit gives no interval for has that of the scan. */
+static void settle_parameter(const struct state *state, rotid_fit_result *fit, int q, struct candidate *cause)
+{
+    const struct job *job = &state->job;
+    int component = job->unknowns.parameter[q].component, from_round = isfinite(cause->ci_lower[component]),
+        p = state_unknown(state, q);
+    if (isfinite(fit->std[p]) && from_round) {
+        cause->std[component] = fit->std[p];
+        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[q].lower);
+        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[q].upper);
+    } else if (from_round) {
+        fit->ci_lower[p] = cause->ci_lower[component];
+        fit->ci_upper[p] = cause->ci_upper[component];
+        fit->identifiable[p] = 1;
+    }
+}
+
+/* Whether the width of effect e ends at a bound, so that the fit knows the rest for that width alone. */
+static int has_width_at_bound(const struct state *state, const rotid_fit_result *fit, int e, int width)
+{
+    const struct job_unknowns *u = &state->job.unknowns;
+    for (int q = 0; q < u->nparameter; q++)
+        if (u->parameter[q].kind == PARAMETER_EFFECT && u->parameter[q].index == e && u->parameter[q].component == width)
+            return !isfinite(fit->std[state_unknown(state, q)]);
+    return 0;
+}
+
+/* A place whose interval reaches beyond an end of the rotor, or that has none, is where no linear model holds, and with a width
+ * at its bound the linear one is too short: its profile. */
+static int settle_place(const struct engine *engine, const struct state *state, rotid_fit_result *fit, int q,
+                        struct candidate *cause)
+{
+    const struct rotid_parameter *bounds = &state->job.unknowns.bounds[q];
+    int component = state->job.unknowns.parameter[q].component, p = state_unknown(state, q);
+    double interval[2];
+    if (component != cause->cause->place || cause->fixed[component] ||
+        (fit->ci_lower[p] > bounds->lower && fit->ci_upper[p] < bounds->upper &&
+         !has_width_at_bound(state, fit, state->job.unknowns.parameter[q].index, cause->cause->width)))
+        return ROTID_OK;
+    int status = place_interval(engine, &engine->out->extended_states, fit, p, bounds->lower, bounds->upper, interval);
+    if (status)
+        return status;
+    fit->ci_lower[p] = cause->ci_lower[component] = interval[0];
+    fit->ci_upper[p] = cause->ci_upper[component] = interval[1];
+    return ROTID_OK;
+}
+
+/* Takes the values of the extended model's fit into the causes of the diagnosis, with their intervals: those of the fit, but
+ * where the round found that they say too much; of a place for which no linear model holds, because its interval reaches beyond
+ * an end of the rotor or the width beside it ends at a bound, that of the profile of chi2, which goes into the fit as well.
+ * Statuses of memory and cancellation only. */
+static int cause_intervals(const struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    rotid_fit_result *fit = out->extended.fit;
+    int status = ROTID_OK;
+    for (int c = 0; c < out->ncause && !status; c++) {
+        struct candidate *cause = &out->cause[c];
+        const struct state *state = &out->extended_states.state[cause->home];
+        const struct job *job = &state->job;
+        int e = 0;
+        while (e < job->rotor.neffect && strcmp(job->rotor.effect[e].name, cause->effect.name) != 0)
+            e++;
+        if (e == job->rotor.neffect)
+            continue;
+        effect_at(state, e, fit->x, &cause->effect);
+        for (int q = 0; q < job->unknowns.nparameter && !status; q++)
+            if (job->unknowns.parameter[q].kind == PARAMETER_EFFECT && job->unknowns.parameter[q].index == e) {
+                settle_parameter(state, fit, q, cause);
+                status = settle_place(engine, state, fit, q, cause);
+            }
+    }
+    return status;
+}
+
+static void add_value(const rotid_cause_value *value, rotid_spread *spread)
+{
+    int first = !spread->name;
+    if (first)
+        *spread = (rotid_spread){value->name, value->unit, value->value, value->value, {value->ci95[0], value->ci95[1]}};
+    spread->lowest = fmin(spread->lowest, value->value);
+    spread->highest = fmax(spread->highest, value->value);
+    /* fmin and fmax prefer the number: one interval that is missing leaves none */
+    spread->ci95[0] = isfinite(value->ci95[0]) && isfinite(spread->ci95[0]) ? fmin(spread->ci95[0], value->ci95[0]) : (double)NAN;
+    spread->ci95[1] = isfinite(value->ci95[1]) && isfinite(spread->ci95[1]) ? fmax(spread->ci95[1], value->ci95[1]) : (double)NAN;
+}
+
+int spread_of_alternatives(struct engine *engine)
+{
+    const struct diagnosis *out = engine->out;
+    rotid_verdict *verdict = &engine->out->result.verdict;
+    verdict->nspread = 0;
+    verdict->spread = POOL_ARRAY(engine->pool, rotid_spread, engine->nown);
+    if (!verdict->spread)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < out->nalternative; i++)
+        for (int p = 0; p < out->alternative[i].nidentified; p++) {
+            add_value(&out->alternative[i].identified[p], &verdict->spread[p]);
+            verdict->nspread = engine->nown;
+        }
+    return ROTID_OK;
+}
+
+const char *spread_sentence(struct engine *engine)
+{
+    const struct diagnosis *out = engine->out;
+    const rotid_verdict *verdict = &out->result.verdict;
+    const char *text = "";
+    char figure[32];
+    int sets = 0;
+    for (int i = 0, set = 0; i < out->nalternative; i++)
+        if (out->alternative[i].nidentified && out->alternative[i].set != set) {
+            set = out->alternative[i].set;
+            sets++;
+        }
+    if (sets < 2) /* one alone differs from none, as do those that were weighed without a refit of the parameters */
+        return "";
+    for (int p = 0; p < verdict->nspread; p++) {
+        const rotid_spread *s = &verdict->spread[p];
+        double percent = 200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest);
+        if (isfinite(percent) && text)
+            text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", s->name, percent_text(percent, figure));
+    }
+    return !text || !*text ? text : pool_format(engine->pool, " Between these causes differ: %s.", text);
+}
+
+static const char *hidden_sentence(struct engine *engine, const rotid_fit_result *fit)
+{
+    const rotid_diagnosis *out = &engine->out->result;
+    const char *text = "", *last = "";
+    char figure[32];
+    for (int i = 0; i < out->nhidden; i++) {
+        const rotid_hidden *hidden = &out->hidden[i];
+        int p = 0, first = strcmp(last, hidden->parameter) != 0; /* the one that moves it most */
+        while (p < engine->nown && strcmp(engine->states.bounds[p].name, hidden->parameter) != 0)
+            p++;
+        last = hidden->parameter;
+        if (!first || !text || p == engine->nown || p >= fit->n ||
+            !(fabs(hidden->shift) > (fit->ci_upper[p] - fit->ci_lower[p]) / 2))
+            continue;
+        text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", hidden->parameter,
+                           linear_percent_text(100 * fabs(hidden->shift / fit->x[p]), figure));
+    }
+    return !text || !*text
+               ? text
+               : pool_format(engine->pool,
+                             " A cause below its detection limit may be present: beyond the intervals it may move %s.", text);
+}
 
 #define LISTED   4   /* causes in a sentence: more stand in the table */
 #define SEPARATE 0.7 /* correlation beyond which two parameters are known by a combination only */

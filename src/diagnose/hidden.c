@@ -1,12 +1,7 @@
-#include "diagnose/hidden.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "diagnose/accelerometer.h"
-#include "diagnose/bootstrap.h"
-#include "diagnose/detectable.h"
-#include "diagnose/scan.h"
 
 #define LISTED     3   /* causes of a parameter */
 #define REPLICATES 100 /* without a diagnosis: sizes to 6 % */

@@ -1,4 +1,4 @@
-#include "diagnose/items.h"
+#include "diagnose/diagnose.h"
 
 #include <string.h>
 

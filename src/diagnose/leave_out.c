@@ -1,11 +1,9 @@
-#include "diagnose/leave_out.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/refit.h"
-#include "linalg/product.h"
-#include "linalg/symmetric.h"
+#include "linalg/linalg.h"
 
 double shape_difference(const struct job *job, int k, double mac)
 {

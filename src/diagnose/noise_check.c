@@ -1,5 +1,5 @@
-#include "diagnose/noise_check.h"
-#include "linalg/product.h"
+#include "diagnose/diagnose.h"
+#include "linalg/linalg.h"
 
 #include <math.h>
 #include <stdlib.h>

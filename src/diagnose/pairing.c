@@ -1,12 +1,10 @@
-#include "diagnose/pairing.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "diagnose/data.h"
-#include "diagnose/decide.h"
-#include "fit/quantile.h"
+#include "base/base.h"
+#include "fit/fit.h"
 
 #define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */

@@ -1,11 +1,9 @@
-#include "diagnose/refit.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/as_solid.h"
-#include "diagnose/widen.h"
-#include "fit/bounds.h"
+#include "fit/fit.h"
 
 #define STARTS     3    /* places a candidate is fitted from */
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */

@@ -1,10 +1,10 @@
-#include "diagnose/roving_accelerometer.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 
-#include "fit/quantile.h"
+#include "fit/fit.h"
 #include "rotid.h"
-#include "run/point_fit.h"
+#include "run/run.h"
 
 #define LEAST_DOF   3
 #define FALSE_ALARM 0.005  /* one-sided: that of the other faults of the measurement chain */

@@ -1,10 +1,9 @@
-#include "diagnose/scan.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/accelerometer.h"
-#include "linalg/product.h"
+#include "linalg/linalg.h"
 
 #define MOST_PLACES 250  /* along the axis; meshes are rarely finer */
 #define INSEPARABLE 1e-6 /* of a column is left when what is fitted is taken out: rounding */

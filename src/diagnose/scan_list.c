@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/scan.h"
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 
 #define SAME_LENGTH 1e-9 /* relative: lengths of two states that are one */
 
@@ -145,8 +145,8 @@ static int applies_in(const struct listing *l, const struct cause_kind *cause, i
            (!cause->applies || cause->applies(&job->rotor, target, l->identified[state]));
 }
 
-/* Between states of one length a place stays where it is; where the length differs nobody says whether it does so from the left end
- * or from the right one, as a mass at a free end. */
+/* Between states of one length a place stays where it is; where the length differs nobody says whether it does so from the left
+ * end or from the right one, as a mass at a free end. */
 static int has_same_places(const struct states *states, int a, int b)
 {
     double length = rotor_length(&states->state[a].job.rotor);

@@ -1,6 +1,6 @@
 #include <stddef.h>
 
-#include "diagnose/sensor_check.h"
+#include "diagnose/diagnose.h"
 
 double shape_data_model(const struct shape_data *data, int k, double z)
 {

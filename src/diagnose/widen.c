@@ -1,4 +1,4 @@
-#include "diagnose/widen.h"
+#include "diagnose/diagnose.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
-#include "ema/band.h"
+#include "ema/ema.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/order.h"
+#include "base/base.h"
 
 #define TWO_PI 6.283185307179586
 

@@ -1,8 +1,8 @@
-#include "ema/channels.h"
+#include "ema/ema.h"
 
 #include <math.h>
 
-#include "base/order.h"
+#include "base/base.h"
 
 #define EARLY          64 /* lines */
 #define DEAD_SHARE     1e-3

@@ -1,4 +1,4 @@
-#include "ema/impacts.h"
+#include "ema/ema.h"
 
 #include <math.h>
 #include <string.h>

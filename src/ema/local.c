@@ -1,13 +1,10 @@
-#include "ema/local.h"
+#include "ema/ema.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/order.h"
-#include "ema/real_mode.h"
-#include "ema/refine.h"
-#include "ema/residues.h"
-#include "linalg/product.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
 
 #define REACH         0.012
 #define REACH_WIDTHS  3 /* half-power bandwidths */

@@ -1,9 +1,8 @@
-#include "ema/modes.h"
+#include "ema/ema.h"
 
 #include <math.h>
 
-#include "base/order.h"
-#include "ema/residues.h"
+#include "base/base.h"
 
 #define TWO_PI 6.283185307179586
 

@@ -1,10 +1,8 @@
-#include "ema/per_point.h"
+#include "ema/ema.h"
 
 #include <math.h>
 
-#include "base/order.h"
-#include "ema/local.h"
-#include "ema/modes.h"
+#include "base/base.h"
 
 #define SCATTER        3      /* standard deviations */
 #define MEDIAN_STD     1.2533 /* of a median over that of a mean */

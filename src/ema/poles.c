@@ -1,4 +1,4 @@
-#include "ema/poles.h"
+#include "ema/ema.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "ema/real_mode.h"
+#include "ema/ema.h"
 
 #include <math.h>
 

@@ -1,10 +1,9 @@
-#include "ema/refine.h"
+#include "ema/ema.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "linalg/cholesky.h"
-#include "linalg/positive.h"
+#include "linalg/linalg.h"
 
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
 #define FURTHEST       3     /* half-power bandwidths */

@@ -1,4 +1,4 @@
-#include "ema/residues.h"
+#include "ema/ema.h"
 
 #include <math.h>
 

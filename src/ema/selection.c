@@ -1,12 +1,8 @@
-#include "ema/selection.h"
+#include "ema/ema.h"
 
 #include <math.h>
 
-#include "base/order.h"
-#include "ema/modal_fit.h"
-#include "ema/real_mode.h"
-#include "ema/refine.h"
-#include "ema/residues.h"
+#include "base/base.h"
 
 #define LEAST_SHARE    0.05
 #define OVERDAMPED     0.2

@@ -1,9 +1,7 @@
-#include "ema/shapes.h"
+#include "ema/ema.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-#include "ema/real_mode.h"
 
 #define UNKNOWN 1e-200 /* weight of a residue without a standard deviation */
 #define SWEEPS  30     /* of alternating least squares: it converges with the square of the ratio of the singular values */

@@ -1,3 +1,12 @@
+#ifndef ROTID_EXPORT_EXPORT_H
+#define ROTID_EXPORT_EXPORT_H
+
+#include <stdio.h>
+
+#include "model/model.h"
+#include "result/result.h"
+#include "run/run.h"
+
 /* The model of a rotor for other programs.
  *
  * Comes in: a job, with the fit of its parameters or without. Goes out: files of K and M, a table of what was written, the struct
@@ -12,15 +21,6 @@
  *
  * Signs: a node has v and theta = -dv/dz; DMIG has R2 = dv/dz, so entries between a deflection and a rotation change their sign.
  */
-#ifndef ROTID_EXPORT_EXPORT_H
-#define ROTID_EXPORT_EXPORT_H
-
-#include <stdio.h>
-
-#include "model/model.h"
-#include "result/head.h"
-#include "run/identify.h"
-#include "run/job.h"
 
 /* The model that is exported: its matrices at the values that were identified or that the deck states, the same condensed
  * onto the sensors, and the texts of the files beside the numbers. */
@@ -94,15 +94,6 @@ struct remark {
  */
 void remark_put(const struct remark *remark, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Deck, its heading, version, units, where the values come from, parameters, causes, mass, frequencies. */
-void remark_model(const struct remark *remark, const struct export_model *model);
-
-/* What it is condensed onto, and the frequencies then. */
-void remark_condensed(const struct remark *remark, const struct export_model *model);
-
-/* A name as one word: other characters than letters, digits and _ . - become '_'. */
-void remark_word(FILE *stream, const char *name);
-
 /* K and M as Matrix Market files (Boisvert, Pozo, Remington 1996), which SciPy, MATLAB and Julia read: coordinate format with the
  * lower triangle for the full model, array format for the condensed one, 17 digits; and a table of the nodes. */
 
@@ -111,9 +102,6 @@ int matrix_market_stiffness(FILE *stream, const struct export_model *model);
 int matrix_market_mass(FILE *stream, const struct export_model *model);
 int matrix_market_condensed_stiffness(FILE *stream, const struct export_model *model);
 int matrix_market_condensed_mass(FILE *stream, const struct export_model *model);
-/* node, z_m, row_v, row_theta (from 1), member, sensor; of a solid node, r_m, z_m, row_u, row_v, row_w, row_theta, member, sensor
- */
-int matrix_market_nodes(FILE *stream, const struct export_model *model);
 
 /* The model as a Nastran deck that runs: DMIG matrices on GRID points along z, SOL 103.
  *

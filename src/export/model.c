@@ -3,8 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "linalg/matrix.h"
-#include "linalg/reduction.h"
+#include "linalg/linalg.h"
 
 static void place_chain(const struct mesh *mesh, const struct chain *chain, double end, const char *member,
                         struct export_node *node)

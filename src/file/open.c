@@ -1,4 +1,4 @@
-#include "file/open.h"
+#include "file/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -6,8 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/host.h"
+#include "base/base.h"
 
 #define LOOK_AGAIN_MS 50
 #define DESCRIPTORS   256 /* looked through: a shell gives its children single digits, bash from 10 or from 63 down */

@@ -1,10 +1,9 @@
-#include "fit/baseline.h"
+#include "fit/fit.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
-#include "fit/bounds.h"
+#include "base/base.h"
 
 #ifndef WITH_NLOPT
 #define WITH_NLOPT 1

@@ -1,4 +1,4 @@
-#include "fit/bounds.h"
+#include "fit/fit.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/entry.h"
+#include "base/base.h"
 #include "rotid.h"
 
 #define STEPS  16  /* at most: the last is 2^-15 of the first */

@@ -2,11 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/entry.h"
-#include "base/sized.h"
-#include "fit/fit_check.h"
-#include "linalg/matrix.h"
-#include "modal/prediction.h"
+#include "base/base.h"
+#include "fit/fit.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "rotid.h"
 
 #define INSIDE                                                                                                                   \

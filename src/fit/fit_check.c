@@ -1,10 +1,10 @@
-#include "fit/fit_check.h"
+#include "fit/fit.h"
 
 #include <math.h>
 
-#include "base/failure.h"
-#include "linalg/matrix_check.h"
-#include "modal/measured_check.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 
 /* y is of the size of 1/chi: it has to have a square, and a small part of it to stand out against 1e-24, where steps end */
 #define CHI_LEAST 1e-50

@@ -1,4 +1,4 @@
-#include "fit/interval.h"
+#include "fit/fit.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/entry.h"
-#include "base/sized.h"
-#include "linalg/least_squares.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
 #include "rotid.h"
 
 #define MU_MOST    1e16   /* beyond it a step is below rounding */

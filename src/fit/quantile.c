@@ -1,4 +1,4 @@
-#include "fit/quantile.h"
+#include "fit/fit.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,3 +1,14 @@
+#ifndef ROTID_IMPORT_IMPORT_H
+#define ROTID_IMPORT_IMPORT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/base.h"
+#include "ema/ema.h"
+#include "signal/signal.h"
+#include "uff/uff.h"
+
 /* Measured data as a whole, from universal files.
  *
  * 1. listing_read: what a file holds and what in it is doubtful, for rotid uff. Values of functions pass by once; what is kept of
@@ -11,18 +22,6 @@
  * 4. names: numbers of the format in words, units.
  *
  * listing.c has the values, the doubtful places and the summary too, measurement.c the pairing of time records. */
-#ifndef ROTID_IMPORT_IMPORT_H
-#define ROTID_IMPORT_IMPORT_H
-
-#include <stdint.h>
-#include <stdio.h>
-
-#include "base/message.h"
-#include "base/pool.h"
-#include "ema/ema.h"
-#include "signal/frf.h"
-#include "signal/transfer.h"
-#include "uff/uff.h"
 
 /* ---- What the numbers of a universal file mean, in words. */
 
@@ -159,20 +158,6 @@ struct contents {
     struct uff_units units;
     int has_units;
 };
-
-/* Reads over a file from its beginning. ROTID_OK or the statuses of uff_next and of the readers. */
-int contents_read(struct pool *pool, struct uff_reader *reader, const char *path, struct message_list *messages,
-                  struct contents *contents);
-
-/* Values first ... first + count - 1 of a function, times a factor: real [count], imag [count] (NULL: of a real one). Statuses of
- * uff_return_to and of the readers; fewer values than the function has are not asked for. */
-int contents_values(struct uff_reader *reader, const struct content *item, long long first, long long count, double factor,
-                    double *real, double *imag);
-
-/* Quantity of an axis as enum frf_quantity: -1 where it is no motion. A type that is not given is told by the text of the unit.
- */
-int motion_of(const struct uff_axis *axis);
-int is_force(const struct uff_axis *axis);
 
 /* ---- A modal test as universal files hold it: transfer functions, or the time records they are made from, and the points. */
 

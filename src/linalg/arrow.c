@@ -1,4 +1,4 @@
-#include "linalg/arrow.h"
+#include "linalg/linalg.h"
 
 #include <stdint.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "linalg/band.h"
+#include "linalg/linalg.h"
 
 #include <math.h>
 #include <stddef.h>

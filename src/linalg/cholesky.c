@@ -1,4 +1,4 @@
-#include "linalg/cholesky.h"
+#include "linalg/linalg.h"
 
 #include <lapacke.h>
 

@@ -1,9 +1,8 @@
 /* Condensation of a host's matrices. */
 #include <string.h>
 
-#include "base/entry.h"
-#include "linalg/matrix_check.h"
-#include "linalg/reduction.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
 
 static int check(int count, const rotid_matrix *const *a, int nmaster, const int *master, int kind, const double *k_out,
                  const double *m_out, char *failure)

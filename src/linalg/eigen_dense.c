@@ -1,4 +1,4 @@
-#include "linalg/eigen.h"
+#include "linalg/linalg.h"
 
 #include <lapacke.h>
 #include <math.h>

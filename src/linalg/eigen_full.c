@@ -1,9 +1,217 @@
+#include <cblas.h>
 #include <math.h>
 #include <string.h>
 
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "linalg/ritz.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
+
+#define TOLERANCE 2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
+#define ROUGH     1e-3  /* of it, where eigenvalues are sought for their size */
+#define NEAR      1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
+#define ROUNDING  2e-15 /* of the highest eigenvalue: what the entries of K leave of the lowest ones */
+#define GUARDS    5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
+#define REPAIRS   4     /* times that random vectors look for pairs that were missed */
+
+int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_wide *e)
+{
+    int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
+    *e = (struct eigen_wide){.n = n, .count = count, .block = block, .to = count, .within = TOLERANCE};
+    e->all = POOL_ARRAY(pool, int, n);
+    e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
+    e->value = POOL_ARRAY(pool, double, block);
+    e->tolerance = POOL_ARRAY(pool, double, block);
+    if (!e->all || !e->ritz || !e->value || !e->tolerance)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        e->all[i] = i;
+    int status = pencil_new(pool, structure, &e->pencil);
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
+    return status ? status : lanczos_new(pool, &e->pencil, &e->factor, count, block, &e->lanczos);
+}
+
+/* ritz and value := the lowest pairs of the basis */
+static void take_pairs(struct eigen_wide *e)
+{
+    int pairs = lanczos_known(&e->lanczos);
+    lanczos_vectors(&e->lanczos, pairs, e->ritz);
+    for (int j = 0; j < e->block; j++) {
+        double theta = j < pairs ? lanczos_theta(&e->lanczos, j) : 0;
+        e->value[j] = theta > 0 ? 1 / theta + e->shift : INFINITY;
+    }
+}
+
+static int iterate(struct eigen_wide *e, int watched, double wanted, double others)
+{
+    for (int j = 0; j < e->block; j++)
+        e->tolerance[j] = j >= e->from && j < e->to ? wanted : others;
+    return lanczos_iterate(&e->lanczos, watched, e->tolerance);
+}
+
+/* The iteration begins with the vectors in ritz. */
+static int begin(struct eigen_wide *e)
+{
+    lanczos_begin(&e->lanczos, e->ritz);
+    return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
+}
+
+/* Returns 0 where no eigenvalue is known that has the size for one. */
+static int choose_shift(struct eigen_wide *e)
+{
+    double shift = shift_of(e->block, e->value, e->largest);
+    if (shift < 0)
+        e->shift = shift;
+    return shift < 0;
+}
+
+static int start(struct eigen_wide *e)
+{
+    struct random_stream stream = {20240229};
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
+        e->ritz[i] = random_normal(&stream);
+    e->shift = -FIRST_SHIFT * e->largest;
+    int status = begin(e);
+    if (!status)
+        status = iterate(e, e->block < 3 ? e->block : 3, ROUGH, ROUGH);
+    if (status)
+        return status;
+    take_pairs(e);
+    return choose_shift(e) ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+}
+
+/* Refuses what no rotor has, the same way whatever was solved before. */
+static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    struct pencil *p = &e->pencil;
+    if ((!pencil_take(p, k, m) || !e->definite) && !e->vouched)
+        e->definite = !factor_compute(&e->factor, m);
+    if (!e->definite && !e->vouched)
+        return ROTID_ERROR_MASS;
+    e->largest = 0;
+    for (int i = 0; i < e->n; i++)
+        e->largest = fmax(e->largest, p->k[p->start[i]] / p->m[p->start[i]]);
+    return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+}
+
+/* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
+ * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
+ * above the eigenvalues that they belong to, so no fewer can be there. -1 where the count fails, or where more eigenvalues lie
+ * below the shift than pairs are kept: no search can prove those complete. */
+static int count_missed(struct eigen_wide *e)
+{
+    double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift) + ROUNDING * e->largest;
+    int known = e->count;
+    while (known < e->block && e->value[known] <= shift)
+        known++;
+    int below = factor_negative_count_pencil(&e->factor, &e->pencil, shift);
+    return below <= e->block ? below - known : -1;
+}
+
+/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
+ * new random vectors: as many as were missed. */
+static int attempt(struct eigen_wide *e)
+{
+    int status = begin(e), watched = e->count;
+    for (int repair = 0; !status; repair++) {
+        status = iterate(e, watched, e->within, fmax(e->within, NEAR));
+        if (status)
+            break;
+        take_pairs(e);
+        int missed = count_missed(e);
+        if (!missed)
+            return ROTID_OK;
+        if (repair == REPAIRS || missed < 0)
+            return ROTID_ERROR_EIGEN;
+        watched = watched + missed < e->block ? watched + missed : e->block;
+        status =
+            factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_EIGEN : lanczos_extend(&e->lanczos, missed);
+    }
+    return status;
+}
+
+/* lambda and phi from ritz: the quotients with K and M themselves have less rounding than the values of the iteration */
+static void give(struct eigen_wide *e, double *lambda, double *phi)
+{
+    int n = e->n;
+    double *image = e->lanczos.image;
+    memcpy(phi, e->ritz, (size_t)n * (size_t)e->count * sizeof *phi);
+    pencil_multiply_mass(&e->pencil, e->count, phi, image);
+    for (int j = 0; j < e->count; j++) {
+        double square = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+        cblas_dscal(n, 1 / sqrt(square), phi + (ptrdiff_t)j * n, 1);
+    }
+    pencil_multiply_stiffness(&e->pencil, e->count, phi, image);
+    for (int j = 0; j < e->count; j++) {
+        double value = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+        int at = j;
+        for (; at > 0 && lambda[at - 1] > value; at--) { /* of rigid motions, rounding is all there is */
+            lambda[at] = lambda[at - 1];
+            cblas_dswap(n, phi + (ptrdiff_t)at * n, 1, phi + (ptrdiff_t)(at - 1) * n, 1);
+        }
+        lambda[at] = value;
+    }
+}
+
+void eigen_wide_want(struct eigen_wide *e, int from, int to)
+{
+    e->from = from;
+    e->to = to;
+}
+
+void eigen_wide_within(struct eigen_wide *e, double residual)
+{
+    e->within = residual;
+}
+
+void eigen_wide_vouch(struct eigen_wide *e)
+{
+    e->vouched = 1;
+}
+
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
+static void eigen_wide_begin(struct eigen_wide *e, const double *phi)
+{
+    memcpy(e->ritz, phi, (size_t)e->n * (size_t)e->count * sizeof *phi);
+    e->started = 1;
+}
+
+/* Of the vectors in ritz: their Rayleigh quotients, the sizes of the eigenvalues */
+static int choose_first_shift(struct eigen_wide *e)
+{
+    int n = e->n;
+    double *image = e->lanczos.image;
+    pencil_multiply_mass(&e->pencil, e->count, e->ritz, image);
+    for (int j = 0; j < e->block; j++)
+        e->value[j] =
+            j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
+    pencil_multiply_stiffness(&e->pencil, e->count, e->ritz, image);
+    for (int j = 0; j < e->count; j++)
+        e->value[j] *= cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+    return choose_shift(e);
+}
+
+int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
+{
+    int status = check(e, k, m);
+    if (status)
+        return status;
+    int warm = e->started && (e->shift < 0 || choose_first_shift(e));
+    e->started = 0;
+    status = warm ? attempt(e) : ROTID_ERROR_EIGEN;
+    if (status) {
+        status = start(e);
+        if (!status)
+            status = attempt(e);
+    }
+    if (status)
+        return status;
+    give(e, lambda, phi);
+    if (lambda[0] < -FIRST_SHIFT * e->largest)
+        return ROTID_ERROR_STIFFNESS;
+    e->started = 1;
+    (void)choose_shift(e); /* for the next call */
+    return ROTID_OK;
+}
 
 #define SMALL 8 /* no difference in time; and any number of eigenvalues may be zero */
 

@@ -1,13 +1,8 @@
-#include "linalg/eigen_guyan.h"
+#include "linalg/linalg.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#include "linalg/band.h"
-#include "linalg/matrix.h"
-#include "linalg/product.h"
-#include "linalg/ritz.h"
 
 #define KD         3     /* of a chain of elements with two degrees of freedom a node */
 #define ENDS       4     /* degrees of freedom at both ends of a piece */

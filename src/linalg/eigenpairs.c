@@ -1,7 +1,6 @@
 /* The lowest eigenpairs of a host's matrices. */
-#include "base/entry.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix_check.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
 
 #define DENSE_MOST 2000 /* degrees of freedom: 150 MB, and seconds */
 

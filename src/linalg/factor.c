@@ -1,4 +1,4 @@
-#include "linalg/factor.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -6,9 +6,6 @@
 #include <limits.h>
 #include <math.h>
 #include <string.h>
-
-#include "linalg/band.h"
-#include "linalg/factor_gather.h"
 
 #define WIDE_COLUMNS 8 /* right-hand sides that are solved together, of wide bands */
 

@@ -1,9 +1,7 @@
-#include "linalg/factor_gather.h"
+#include "linalg/linalg.h"
 
 #include <limits.h>
 #include <string.h>
-
-#include "linalg/matrix.h"
 
 void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const int *kept)
 {

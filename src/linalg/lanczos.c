@@ -1,4 +1,4 @@
-#include "linalg/lanczos.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <lapacke.h>

@@ -1,4 +1,4 @@
-#include "linalg/matrix.h"
+#include "linalg/linalg.h"
 
 #include <math.h>
 #include <string.h>

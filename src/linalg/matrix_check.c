@@ -1,10 +1,9 @@
-#include "linalg/matrix_check.h"
+#include "linalg/linalg.h"
 
 #include <math.h>
 #include <stddef.h>
 
-#include "base/failure.h"
-#include "linalg/matrix.h"
+#include "base/base.h"
 
 #define ROUNDING 1e-10 /* of the largest entry of a block: two triangles that a host computes in different ways */
 

@@ -1,9 +1,8 @@
 /* Matrices of a host: entries where its structure has a place for them, the dense matrix they stand for, products. */
 #include <stdint.h>
 
-#include "base/entry.h"
-#include "linalg/matrix.h"
-#include "linalg/matrix_check.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
 
 /* Does A(i, j) have a place? */
 static int has_place(const rotid_matrix *a, int i, int j)

@@ -1,9 +1,8 @@
-#include "linalg/pencil.h"
+#include "linalg/linalg.h"
 
 #include <string.h>
 
 #include "linalg/machine.h"
-#include "linalg/matrix.h"
 
 #define LANES  8
 #define INLINE static inline __attribute__((always_inline))

@@ -1,4 +1,4 @@
-#include "linalg/product.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -1,10 +1,8 @@
-#include "linalg/reduction.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <lapacke.h>
 #include <string.h>
-
-#include "linalg/matrix.h"
 
 #define STRIP 24 /* columns: narrow enough to save most of the upper triangle, wide enough for dgemm */
 

@@ -1,11 +1,9 @@
-#include "linalg/ritz.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stddef.h>
-
-#include "linalg/matrix.h"
 
 #define INDEPENDENT 1e-3 /* least sine between a vector and those before it */
 

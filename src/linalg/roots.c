@@ -1,4 +1,4 @@
-#include "linalg/roots.h"
+#include "linalg/linalg.h"
 
 #include <lapacke.h>
 #include <math.h>

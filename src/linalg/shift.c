@@ -1,4 +1,4 @@
-#include "linalg/shift.h"
+#include "linalg/linalg.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "linalg/symmetric.h"
+#include "linalg/linalg.h"
 
 #include <lapacke.h>
 

@@ -1,4 +1,4 @@
-#include "linalg/wide.h"
+#include "linalg/linalg.h"
 
 #include <cblas.h>
 #include <lapacke.h>

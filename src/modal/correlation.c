@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/host.h"
+#include "base/base.h"
 #include "linalg/machine.h"
 #include "rotid.h"
 

@@ -1,11 +1,9 @@
 /* How an eigenpair of a host's matrices changes with them. */
 #include <math.h>
 
-#include "base/entry.h"
-#include "linalg/matrix.h"
-#include "linalg/matrix_check.h"
-#include "linalg/product.h"
-#include "modal/eigenvector_derivative.h"
+#include "base/base.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 
 #define NORMALISED 1e-6  /* of phi' M phi from 1: what is farther off is no vector of rotid_eigenpairs */
 #define RIGID      1e-13 /* of the highest eigenvalue: below this, rounding of a rigid motion */

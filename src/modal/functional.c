@@ -1,9 +1,7 @@
-#include "modal/functional.h"
+#include "modal/modal.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "modal/measured_check.h"
 
 static const double two_pi = 6.28318530717958647692;
 

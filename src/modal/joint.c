@@ -1,4 +1,4 @@
-#include "modal/joint.h"
+#include "modal/modal.h"
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
-#include "modal/measured_check.h"
+#include "modal/modal.h"
 
 #include <math.h>
 #include <stddef.h>
 
-#include "base/failure.h"
+#include "base/base.h"
 
 static int check_mode(const rotid_measured *measured, int k, char *failure)
 {
@@ -13,8 +13,9 @@ static int check_mode(const rotid_measured *measured, int k, char *failure)
         return refuse(failure, "measured->number[%d] is %d, expected a mode of the model, from 1", k, measured->number[k]);
     for (int other = 0; other < k; other++)
         if (measured->number[other] == measured->number[k])
-            return refuse(failure, "measured->number[%d] is %d, and so is measured->number[%d], expected each mode of the model once",
-                          k, measured->number[k], other);
+            return refuse(failure,
+                          "measured->number[%d] is %d, and so is measured->number[%d], expected each mode of the model once", k,
+                          measured->number[k], other);
     if (measured->frequency_std && !(measured->frequency_std[k] > 0 && isfinite(measured->frequency_std[k])))
         return refuse(
             failure,

@@ -1,4 +1,4 @@
-#include "modal/pairing.h"
+#include "modal/modal.h"
 
 #include <string.h>
 

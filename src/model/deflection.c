@@ -1,4 +1,4 @@
-#include "model/deflection.h"
+#include "model/model.h"
 
 double model_deflection(const struct rotor_model *model, int i, const double *u)
 {

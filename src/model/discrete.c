@@ -1,11 +1,8 @@
-#include "model/discrete.h"
+#include "model/model.h"
 
-#include "beam/deflection.h"
-#include "beam/hinge.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
-#include "solid/members.h"
-#include "solid/transfer.h"
+#include "beam/beam.h"
+#include "linalg/linalg.h"
+#include "solid/solid.h"
 
 int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed)

@@ -1,10 +1,10 @@
-#include "model/meridian.h"
+#include "model/model.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "solid/outline.h"
+#include "solid/solid.h"
 
 #define CORNERS 4 /* of an element, whose first nodes they are: inner left, outer left, outer right, inner right */
 

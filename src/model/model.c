@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "beam/mesh.h"
+#include "beam/beam.h"
 
 static int matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
 {

@@ -1,12 +1,155 @@
-/* A rotor as equations of motion, behind rotid_model: the door that a host's own model comes through as well. This room is the
- * one place that chooses what discretises a rotor: src/beam or src/solid. */
 #ifndef ROTID_MODEL_MODEL_H
 #define ROTID_MODEL_MODEL_H
 
-#include "base/pool.h"
-#include "model/models.h"
+#include "base/base.h"
+#include "beam/beam.h"
 #include "rotid.h"
-#include "rotor/parameter.h"
+#include "rotor/rotor.h"
+#include "solid/solid.h"
+
+/* -------------------------------------------------------------------------------------------------------------- discrete */
+
+/* A discretised rotor: a beam or a solid, the one place that knows there are two. */
+
+enum discretisation { AS_BEAM, AS_SOLID };
+
+struct discrete {
+    enum discretisation as;
+    struct beam beam;
+    struct solid solid;
+};
+
+#define COARSE_MESH 0 /* of a solid: with a sixth of its unknowns */
+
+/* refine >= 1: a mesh that much finer; COARSE_MESH. Statuses of beam_build and solid_build; *failed likewise. */
+int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
+                   const struct parameter *parameter, int refine, struct discrete *discrete, int *failed);
+
+/* Why discrete_build refused a rotor with ROTID_ERROR_SECTION and this *failed, and what was expected. */
+const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, int failed);
+
+/* The same for a rotor of the same shape, whose mesh it shares. ROTID_OK or ROTID_ERROR_MEMORY. */
+int discrete_of_shape(struct pool *pool, const struct discrete *built, const struct rotor *rotor, int nparameter,
+                      const struct parameter *parameter, struct discrete *discrete);
+
+/* Own copy of the rotor, at the values of the last evaluation. */
+const struct rotor *discrete_rotor(const struct discrete *discrete);
+
+/* Structure of K and M, in the members of *structure that are no storage. */
+void discrete_structure(const struct discrete *discrete, rotid_matrix *structure);
+
+void discrete_set(struct discrete *discrete, const double *x);
+void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix *k, rotid_matrix *m);
+void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm);
+void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties);
+
+/* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
+ * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
+ * Nothing is left on the pool. Statuses of eigen_full_solve. */
+int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
+                         int *nrigid);
+
+/* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and
+ * that degree of freedom. */
+int discrete_places(const struct discrete *discrete);
+const double *discrete_place_z(const struct discrete *discrete);
+int discrete_place_dof(const struct discrete *discrete, int i);
+
+/* The degree of freedom of a sensor's motion, and where the mesh has it [m]. */
+int discrete_sensor_dof(const struct discrete *discrete, int sensor);
+double discrete_sensor_z(const struct discrete *discrete, int sensor);
+
+/* After another effect took the place of one: settles where joints are. ROTID_OK or ROTID_ERROR_MEMORY. */
+int discrete_place_joints(struct pool *pool, struct discrete *discrete);
+
+/* How many elements member i (tie rods, then bars) has, and its deflection v [npoint] at npoint >= 2 even places z [npoint]. */
+int discrete_member_elements(const struct discrete *discrete, int i);
+void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
+
+/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the frequency
+ * that counts, and f otherwise. finer, finer_share: the same the other way, from a mesh refined by `finer`, h, to
+ * h - finer_share (f - h). */
+struct mesh_limit {
+    int refine;
+    double share;
+    int counts, finer;
+    double finer_share;
+};
+struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
+
+/* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements
+ * are those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there
+ * is no such way: to a beam's coarser mesh. */
+int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v);
+
+/* ---------------------------------------------------------------------------------------------------------------- models */
+
+/* The models of one run that are built already: a rotor's mesh and sections are made once, however often the rotor is opened with
+ * other values or other parameters. Threads may share them. */
+
+struct models;
+
+/* What a reader of decks wants to know of a discretised rotor. */
+struct model_size {
+    int ndof;
+    const int *sensor_dof; /* [nsensor] */
+};
+
+/* No models yet, and none taken up: all that are opened with these are discretised like this. NULL where memory is out. */
+struct models *models_as(struct pool *pool, enum discretisation as);
+
+/* How models that are opened with these are discretised: as beams where models is NULL. */
+enum discretisation models_discretisation(const struct models *models);
+
+/* The model of a rotor without parameters, in *models, which takes up no others. Statuses of discrete_build; *failed likewise. */
+int models_begin(struct pool *pool, enum discretisation as, const struct rotor *rotor, struct models **models,
+                 struct model_size *size, int *failed);
+
+/* Models for a run, which begin with those of `given` (or NULL): `given` itself where it takes up others. NULL where memory is
+ * out. */
+struct models *models_for_run(struct pool *pool, struct models *given);
+
+/* Models of the same run, of rotors as solids: `models` itself where its rotors are; NULL outside of a run. */
+struct models *models_solids(struct models *models);
+
+/* Ends what models_for_run began: the memory goes to the pool, and nothing is taken up any more. */
+void models_end_run(struct pool *pool, struct models *models, const struct models *given);
+
+/* A rotor discretised, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
+ * of the rotor, or as they are settled there, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
+int models_discretise(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                      const struct parameter *parameter, int refine, struct discrete *discrete, int *nrigid, int *failed);
+
+/* Keeps what somebody has counted. */
+void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid);
+
+/* What a fit holds its coarse mesh to, for `count` elastic modes. Both change by a tenth of their distance to 1 and to 0 where E
+ * and G change by half. */
+struct held_modes {
+    int count, nmaster;
+    const double *ratio; /* [count] frequencies that count over those of the coarse mesh */
+    const double *shape; /* [nmaster * count] of the mesh that counts, largest component 1; NULL: shapes are not held */
+    const double *shift; /* [nmaster * count] that shape less the one of the coarse mesh */
+};
+
+/* Keeps a copy. ROTID_OK or ROTID_ERROR_MEMORY; with models that take up no others nothing happens. */
+int models_hold(struct models *models, const struct rotor *rotor, const struct held_modes *modes);
+
+/* What is held for rotors of this shape, whatever causes are in them; NULL: nothing. */
+const struct held_modes *models_held(struct models *models, const struct rotor *rotor);
+
+/* Keeps a copy of vectors phi [n * count] near the lowest modes, for models of that size to begin with; those kept before stay
+ * where they are as many. From one thread alone: which vectors are met must not depend on who comes first. With models that take
+ * up no others nothing happens. ROTID_OK or ROTID_ERROR_MEMORY. */
+int models_keep_modes(struct models *models, int n, int count, const double *phi);
+
+/* Those kept for models with n degrees of freedom, *count of them; NULL: none. */
+const double *models_modes(struct models *models, int n, int *count);
+
+/* ----------------------------------------------------------------------------------------------------------------- model */
+
+/* A rotor as equations of motion, behind rotid_model: the door that a host's own model comes through as well. This room is the
+ * one place that chooses what discretises a rotor: src/beam or src/solid. */
 
 struct rotor_model {
     rotid_model equations;             /* user points to this struct: do not copy it */
@@ -51,5 +194,39 @@ int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int 
 /* The solutions of a model begin with phi [n * count], modes of the same rotor on another mesh, as far as discrete_transfer has a
  * way there. ROTID_OK or ROTID_ERROR_MEMORY. */
 int model_begin_with(struct pool *pool, struct rotor_model *model, const struct rotor_model *known, int count, const double *phi);
+
+/* ------------------------------------------------------------------------------------------------------------ deflection */
+
+/* How a rotor deflects in a motion of all degrees of freedom: along its axis, at its sensors, and the members beside it. Values
+ * of parameters are those of the last evaluation. */
+
+/* Lateral deflection at place i of model->z, and at a sensor, in the motion u [n]. */
+double model_deflection(const struct rotor_model *model, int i, const double *u);
+double model_sensor_deflection(const struct rotor_model *model, int sensor, const double *u);
+
+struct model_member { /* tie rods or bars */
+    const char *name;
+    int is_bars, elements; /* elements: over its length */
+};
+
+/* How many members there are, and the i-th of them: tie rods first. */
+int model_members(const struct rotor_model *model);
+struct model_member model_member(const struct rotor_model *model, int i);
+
+/* Deflection v [npoint] of member i at npoint >= 2 even places z [npoint] from its left end to the right one. */
+void model_member_deflection(const struct rotor_model *model, int i, const double *u, int npoint, double *z, double *v);
+
+/* -------------------------------------------------------------------------------------------------------------- meridian */
+
+/* The mesh of a solid of revolution and the motion on it, as results carry them. NULL of a beam, and where memory is out. */
+
+rotid_solid_mesh *meridian_size(struct pool *pool, const struct rotor_model *model);
+/* Nodes and elements of its mesh; untouched of a beam. */
+void meridian_count(const struct rotor_model *model, int *nodes, int *elements);
+
+rotid_meridian *meridian_mesh(struct pool *pool, const struct rotor_model *model);
+
+/* Of the motion u [n], at the values of the last evaluation. */
+rotid_meridian_mode *meridian_mode(struct pool *pool, const struct rotor_model *model, const double *u);
 
 #endif

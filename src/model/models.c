@@ -1,4 +1,4 @@
-#include "model/models.h"
+#include "model/model.h"
 
 #include <pthread.h>
 

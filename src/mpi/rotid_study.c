@@ -11,12 +11,10 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/clock.h"
-#include "cli/arguments.h"
-#include "cli/command_study.h"
-#include "result/json_tree.h"
-#include "study/results.h"
-#include "study/run.h"
+#include "base/base.h"
+#include "cli/cli.h"
+#include "result/result.h"
+#include "study/study.h"
 
 #define AHEAD           2   /* runs of a rank */
 #define COMPUTING_RANKS 16  /* with more, rank 0 only writes and hands out */

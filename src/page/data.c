@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 #include "page/page.h"
-#include "result/json_tree.h"
+#include "result/result.h"
 
 #define LIST_LONG 24   /* numbers: a longer list is drawn, and has six digits */
 #define RUNS_MOST 3000 /* of a study */

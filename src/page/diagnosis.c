@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "fit/interval.h"
+#include "diagnose/causes/causes.h"
+#include "fit/fit.h"
 #include "page/page.h"
-#include "report/human.h"
+#include "report/report.h"
 
 #define COUNT_OF(list)            ((int)(sizeof(list) / sizeof *(list)))
 #define OPEN(pool, caption, list) open_table(pool, caption, COUNT_OF(list), list)

@@ -6,8 +6,7 @@
 #include <sys/stat.h>
 
 #include "page/page.h"
-#include "report/html.h"
-#include "report/output.h"
+#include "report/report.h"
 
 #define FOLDED 12 /* rows: a longer table is folded by the script */
 /* What tells that a page is one of rotid: in its first KB. */

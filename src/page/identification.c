@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "fit/interval.h"
+#include "fit/fit.h"
 #include "page/page.h"
-#include "report/human.h"
+#include "report/report.h"
 
 #define MOST_REASONS      12
 #define NAMED             3    /* parameters that the answer names; the table has the others */

@@ -1,3 +1,14 @@
+#ifndef ROTID_PAGE_PAGE_H
+#define ROTID_PAGE_PAGE_H
+
+#include <cJSON.h>
+#include <stdio.h>
+
+#include "base/base.h"
+#include "report/report.h"
+#include "result/result.h"
+#include "run/run.h"
+
 /* Results as a page: one HTML file that holds the answer and the tables as text, the results as data, one style sheet and one
  * script, page.js, which draws the figures from the data.
  *
@@ -7,20 +18,6 @@
  *
  * C draws nothing: where a figure may stand it writes an empty element with the name of a group of figures, and the script knows
  * which figures belong there. Without the script, or without D3 when the program was built, answer and tables stand alone. */
-#ifndef ROTID_PAGE_PAGE_H
-#define ROTID_PAGE_PAGE_H
-
-#include <cJSON.h>
-#include <stdio.h>
-
-#include "base/message.h"
-#include "report/struct_table.h"
-#include "result/ema.h"
-#include "result/judgement.h"
-#include "result/result.h"
-#include "result/study.h"
-#include "result/transfer.h"
-#include "run/sensitivity.h"
 
 /* ---- reading */
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "report/human.h"
+#include "report/report.h"
 
 #define KEYS_SINCE "0.3.0" /* the version whose results hold what a page asks for beyond those of 0.2 */
 

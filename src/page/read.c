@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "result/records.h"
-#include "study/summary.h"
+#include "result/result.h"
+#include "study/study.h"
 
 /* The lines behind the first: each a run of this version, with the place of every mistake. */
 static void check_runs(const struct json_place *lines, const struct study_result *study)

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "fit/interval.h"
+#include "fit/fit.h"
 #include "page/page.h"
-#include "report/human.h"
+#include "report/report.h"
 
 #define COUNT_OF(list)            ((int)(sizeof(list) / sizeof *(list)))
 #define OPEN(pool, caption, list) open_table(pool, caption, COUNT_OF(list), list)

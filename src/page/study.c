@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "report/human.h"
-#include "study/summary.h"
+#include "report/report.h"
+#include "study/study.h"
 
 #define MOST_FAILURES 8
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "fit/interval.h"
+#include "diagnose/causes/causes.h"
+#include "fit/fit.h"
 #include "page/page.h"
 
 const char *or_nothing(const char *text)

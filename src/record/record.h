@@ -1,17 +1,27 @@
+#ifndef ROTID_RECORD_RECORD_H
+#define ROTID_RECORD_RECORD_H
+
+#include <stddef.h>
+
+#include "base/base.h"
+#include "rotid.h"
+
+/* ----------------------------------------------------------------------------------------------------------------- words */
+
+/* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
+
+extern const char *const functional_words[], *const reduction_words[], *const derivative_words[], *const pairing_words[],
+                                                                                                      *const fit_status_words[],
+                                                                                                          *const verdict_words[];
+
+/* ---------------------------------------------------------------------------------------------------------------- record */
+
 /* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the copy that
  * a host keeps, the JSON that is written, the JSON that is read, with the place of every mistake, and docs/schema.
  *
  * A key is the name of the member, and its description in the schema is the comment of the member. A list X has its length in the
  * member nX beside it, unless its row names another one. What is not known is NaN, NULL, ROTID_NONE or a word below 0 in the
  * struct and null in the JSON. */
-#ifndef ROTID_RECORD_RECORD_H
-#define ROTID_RECORD_RECORD_H
-
-#include <stddef.h>
-
-#include "base/pool.h"
-#include "record/words.h"
-#include "rotid.h"
 
 enum field_kind {
     FIELD_NUMBER,  /* double */

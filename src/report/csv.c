@@ -1,10 +1,9 @@
-#include "report/csv.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck_writer.h"
-#include "report/output.h"
+#include "deck/deck.h"
 #include "rotid.h"
 
 void csv_text(FILE *out, const char *before, const char *text)

@@ -1,7 +1,7 @@
 /* Modes of a model and a fit as tables. */
 #include <math.h>
 
-#include "report/csv.h"
+#include "report/report.h"
 #include "rotid.h"
 
 static int write_modes(FILE *out, const void *from)

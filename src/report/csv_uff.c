@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "report/csv.h"
+#include "report/report.h"
 #include "rotid.h"
 #include "uff/uff.h"
 

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/report_frf.h"
-#include "result/transfer.h"
+#include "report/report.h"
+#include "result/result.h"
 #include "uff/uff.h"
 
 static int by_id(const void *left, const void *right)

@@ -1,8 +1,8 @@
-#include "report/html.h"
+#include "report/report.h"
 
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 
 void html_text(FILE *out, const char *text)
 {

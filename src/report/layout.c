@@ -1,10 +1,10 @@
-#include "report/layout.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 
 static void put_number(FILE *out, int width, const char *text)
 {

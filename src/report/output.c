@@ -1,4 +1,4 @@
-#include "report/output.h"
+#include "report/report.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -7,8 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "file/open.h"
-#include "report/terminal.h"
+#include "file/file.h"
 #include "rotid.h"
 
 static volatile sig_atomic_t open_outputs;

@@ -1,7 +1,7 @@
 #include <math.h>
 
-#include "report/report_ema.h"
-#include "result/ema.h"
+#include "report/report.h"
+#include "result/result.h"
 
 static struct ema_source source(const struct ema_report *r)
 {
@@ -94,7 +94,7 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
     return list;
 }
 
-#define MOST_LINES  10000 /* of all curves together: more makes a file of megabytes */
+#define MOST_LINES   10000 /* of all curves together: more makes a file of megabytes */
 #define LEAST_CURVES 3     /* the worst, the middle and the best one */
 
 /* Transfer functions by rising FRAC, without those that have none; their number. */

@@ -1,7 +1,7 @@
 #include <math.h>
 
-#include "report/report_frf.h"
-#include "result/transfer.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define TWO_PI  6.28318530717958647692
 #define DEGREES 57.295779513082321

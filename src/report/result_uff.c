@@ -1,9 +1,9 @@
-#include "report/report_uff.h"
+#include "report/report.h"
 
 #include <math.h>
 
 #include "import/import.h"
-#include "result/uff.h"
+#include "result/result.h"
 
 static const char *text_or_null(const char *text)
 {

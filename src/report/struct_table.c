@@ -1,12 +1,7 @@
-#include "report/struct_table.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "report/csv.h"
-#include "report/html.h"
-#include "report/human.h"
-#include "report/layout.h"
 
 #define DASH "\xe2\x80\x93" /* of human_fixed */
 

@@ -1,4 +1,4 @@
-#include "report/table.h"
+#include "report/report.h"
 
 void table_heading(FILE *out, const struct result_head *head)
 {

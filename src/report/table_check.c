@@ -1,11 +1,10 @@
-#include "report/table.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "report/layout.h"
-#include "rotor/effect.h"
+#include "base/base.h"
+#include "rotor/rotor.h"
 
 /* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
 static void print_target(FILE *out, const struct rotor *rotor, const struct effect *effect)

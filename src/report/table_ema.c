@@ -2,10 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/order.h"
-#include "report/layout.h"
-#include "report/report_ema.h"
-#include "result/ema.h"
+#include "base/base.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define WIDTH       110
 #define COLUMNS     96 /* of the stabilisation picture */

@@ -1,10 +1,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-#include "report/layout.h"
-#include "report/table_diagnose.h"
-#include "result/judgement.h"
+#include "diagnose/causes/causes.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define LEAST_DIGITS 4
 #define MOST_DIGITS  10

@@ -1,10 +1,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "fit/interval.h"
-#include "report/layout.h"
-#include "report/table.h"
-#include "result/judgement.h"
+#include "fit/fit.h"
+#include "report/report.h"
+#include "result/result.h"
 
 static void print_rms(FILE *out, const rotid_identification *fit)
 {

@@ -1,9 +1,7 @@
-#include "report/table.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "report/layout.h"
 
 static void print_shapes(FILE *out, const rotid_spectrum *s)
 {

@@ -1,10 +1,9 @@
-#include "report/table.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "report/layout.h"
-#include "run/sensitivity.h"
+#include "run/run.h"
 
 /* 11 columns */
 static void signed_power(FILE *out, double value)

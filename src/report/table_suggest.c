@@ -1,7 +1,6 @@
 #include <math.h>
 
-#include "report/layout.h"
-#include "report/table.h"
+#include "report/report.h"
 
 #define WIDTH       100
 #define MOST_LISTED 24 /* sensors; more with --verbose */

@@ -1,11 +1,10 @@
-#include "report/report_uff.h"
+#include "report/report.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 #include "import/import.h"
-#include "report/layout.h"
 
 #define ROWS_MOST 40
 

@@ -1,4 +1,4 @@
-#include "report/terminal.h"
+#include "report/report.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/text.h"
-#include "file/open.h"
+#include "base/base.h"
+#include "file/file.h"
 #include "rotid.h"
 
 /* text [length + 1], with a zero behind it; keep: the control characters that stay */

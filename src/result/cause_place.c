@@ -1,4 +1,4 @@
-#include "result/cause_place.h"
+#include "result/result.h"
 
 #include <math.h>
 #include <stdio.h>

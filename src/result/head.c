@@ -1,10 +1,9 @@
-#include "result/head.h"
+#include "result/result.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "record/rows.h"
-#include "result/records.h"
 
 static const struct record_field reference_fields[] = {
     TEXT(rotid_reference, quantity, 0),

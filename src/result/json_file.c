@@ -1,11 +1,11 @@
-#include "result/json_file.h"
+#include "result/result.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "file/open.h"
+#include "file/file.h"
 
 /* The whole file with a zero byte behind it. */
 static int read_text(struct pool *pool, const char *file, struct message_list *messages, char **text, size_t *length)

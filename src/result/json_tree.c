@@ -1,11 +1,11 @@
-#include "result/json_tree.h"
+#include "result/result.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 
 #define DIGITS 9
 #define WIDEST 24 /* characters of such a number, with sign, point and exponent */

@@ -1,10 +1,10 @@
-#include "result/judgement.h"
+#include "result/result.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/decide.h"
-#include "fit/quantile.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
 
 #define SAME 1e-3 /* relative difference of parameters that is not worth a word */
 
@@ -170,7 +170,7 @@ double candidate_lead(const rotid_candidate *a, const rotid_candidate *b)
 }
 
 /* The result has the reasons as sentences alone. */
-int candidate_is_rival(const rotid_candidate *c)
+static int candidate_is_rival(const rotid_candidate *c)
 {
     const char *why = c->rejected_because;
     return c->refitted && isfinite(c->chi2_drop) &&

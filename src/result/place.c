@@ -1,4 +1,4 @@
-#include "result/place.h"
+#include "result/result.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,5 @@
 #include "record/rows.h"
-#include "result/ema.h"
-#include "result/records.h"
-#include "result/transfer.h"
+#include "result/result.h"
 
 const char *const ema_mode_doubts[] = {
     "close to another mode",

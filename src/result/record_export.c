@@ -1,6 +1,5 @@
 #include "record/rows.h"
-#include "result/export.h"
-#include "result/records.h"
+#include "result/result.h"
 
 const char *const export_format_words[] = {"matrix-market", "dmig", NULL};
 static const char *const models[] = {"identified", "stated", NULL};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "record/record.h"
-#include "result/records.h"
+#include "result/result.h"
 
 #define WORDS_MOST 512
 

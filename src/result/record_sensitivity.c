@@ -1,7 +1,6 @@
 #include "record/rows.h"
-#include "result/records.h"
-#include "run/job.h"
-#include "run/sensitivity.h"
+#include "result/result.h"
+#include "run/run.h"
 
 #define CURVE (ELEMENTS_MAY_BE_NULL | FROM_0)
 

@@ -1,7 +1,6 @@
 /* Of a file of results of a study: its first line and its summary. */
 #include "record/rows.h"
-#include "result/records.h"
-#include "result/study.h"
+#include "result/result.h"
 
 const char *const score_words[] = {"quiet",  "false_alarm", "right", "in_set", "other_set",
                                    "silent", "unexplained", "wrong", NULL};

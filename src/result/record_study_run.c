@@ -1,8 +1,7 @@
 /* Of a file of results of a study: the line of a run. */
 #include "record/rows.h"
-#include "result/records.h"
-#include "result/study.h"
-#include "run/job.h"
+#include "result/result.h"
+#include "run/run.h"
 
 static const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};

@@ -1,6 +1,5 @@
 #include "record/rows.h"
-#include "result/records.h"
-#include "result/transfer.h"
+#include "result/result.h"
 
 const char *const transfer_quantity_words[] = {"displacement", "velocity", "acceleration", NULL};
 const char *const transfer_unit_words[] = {"m/N", "m/(s N)", "m/(s2 N)", NULL};

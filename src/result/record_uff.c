@@ -1,6 +1,5 @@
 #include "record/rows.h"
-#include "result/records.h"
-#include "result/uff.h"
+#include "result/result.h"
 
 static const char *const states[] = {"read", "read_over", "not_known", "malformed", NULL};
 static const char *const doubts[] = {

@@ -1,7 +1,7 @@
 #include <math.h>
 
 #include "record/record.h"
-#include "result/records.h"
+#include "result/result.h"
 
 static const char *at(const void *from, size_t offset)
 {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "record/rows.h"
-#include "result/records.h"
 
 /* Rows of the parts that results are made of. */
 #define PROVENANCE INLINE(struct result, head, 0, provenance_record)

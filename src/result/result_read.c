@@ -1,8 +1,172 @@
+#include <math.h>
 #include <string.h>
 
-#include "result/json_file.h"
-#include "result/records.h"
 #include "result/result.h"
+
+#define MOST_SUM 1e9 /* over all places: an int holds it */
+
+static void expect(const struct json_place *at, const char *what, int count, int expected, const char *as)
+{
+    if (count != expected)
+        place_wrong(at, "%s has %d values, expected %d as %s", what, count, expected, as);
+}
+
+/* What a drawing rests on: nothing that is drawn to scale may lack a size. */
+static void check_geometry(const struct json_place *root, const rotid_geometry *geometry)
+{
+    const struct json_place at = {.reader = root->reader, .above = root, .key = "geometry"};
+    int good = geometry->length_m > 0;
+    double elements = 0, members = 0;
+    for (int g = 0; g < geometry->ngroups; g++)
+        for (int s = 0; s < geometry->groups[g].nsegments; s++) {
+            const rotid_segment *segment = &geometry->groups[g].segments[s];
+            good &=
+                segment->to_m > segment->from_m &&
+                (segment->height_m > 0 || (segment->outer_m > 0 && segment->inner_m >= 0 && segment->inner_m < segment->outer_m));
+            elements += segment->elements;
+        }
+    for (int b = 0; b < geometry->ntierods; b++)
+        members += geometry->tierods[b].number;
+    for (int b = 0; b < geometry->nbars; b++)
+        members += geometry->bars[b].number;
+    if (fmax(elements, members) > MOST_SUM)
+        place_wrong(&at, "has %.0f elements, %.0f tie rods and bars, expected fewer than %.0f", elements, members, MOST_SUM);
+    if (!good)
+        place_wrong(&at, "has a length or a section of no size, expected a rotor that can be drawn");
+}
+
+static void check_shapes(const struct json_place *at, const rotid_shapes *shapes)
+{
+    for (int k = 0; k < shapes->nmodes; k++) {
+        const rotid_mode_shapes *mode = &shapes->modes[k];
+        if (mode->measured)
+            expect(at, "shapes.modes[].measured", mode->nmeasured, shapes->nsensor_id, "shapes.sensor_id");
+        if (mode->measured_std)
+            expect(at, "shapes.modes[].measured_std", mode->nmeasured_std, shapes->nsensor_id, "shapes.sensor_id");
+        expect(at, "shapes.modes[].predicted", mode->npredicted, shapes->nsensor_id, "shapes.sensor_id");
+        expect(at, "shapes.modes[].predicted_axis", mode->npredicted_axis, shapes->naxis_z_m, "shapes.axis_z_m");
+    }
+}
+
+static void check_meridian(const struct json_place *at, const rotid_spectrum *modes)
+{
+    const rotid_meridian *meridian = modes->meridian;
+    int corners = meridian ? meridian->nr_m : 0, groups = modes->geometry ? modes->geometry->ngroups : 0, good = 1;
+    for (int e = 0; meridian && e < meridian->nelements; e++) {
+        const rotid_meridian_element *element = &meridian->elements[e];
+        good &= element->group >= 0 && element->group < groups;
+        for (int c = 0; c < 4; c++)
+            good &= element->corner[c] >= 0 && element->corner[c] < corners;
+    }
+    if (!good)
+        place_wrong(at, "meridian.elements[] has a group or a corner that is none, expected less than %d and %d", groups,
+                    corners);
+    for (int j = 0; j < modes->nmodes; j++) {
+        const rotid_meridian_mode *mode = modes->modes[j].meridian;
+        if (!mode)
+            continue;
+        expect(at, "modes[].meridian.u", mode->nu, corners, "meridian.r_m");
+        expect(at, "modes[].meridian.w", mode->nw, corners, "meridian.r_m");
+        expect(at, "modes[].meridian.energy", mode->nenergy, meridian ? meridian->nelements : 0, "meridian.elements");
+    }
+}
+
+static void check_fit(const struct json_place *at, const rotid_identification *fit)
+{
+    for (int i = 0; i < fit->nhistory; i++)
+        expect(at, "history[].x", fit->history[i].nx, fit->nparameters, "parameters");
+    for (int b = 0; b < fit->nbaseline; b++) {
+        expect(at, "baseline[].x", fit->baseline[b].nx, fit->nparameters, "parameters");
+        if (fit->baseline[b].predicted_hz)
+            expect(at, "baseline[].predicted_hz", fit->baseline[b].npredicted_hz, fit->nmodes, "modes");
+    }
+    if (fit->shapes)
+        check_shapes(at, fit->shapes);
+    if ((fit->nco_matrix || fit->mac_matrix) && (!fit->matrix_rows || !fit->matrix_columns))
+        place_wrong(at, "matrix_rows or matrix_columns is missing, expected the numbers of the modes in mac_matrix");
+}
+
+/* What each state has for itself. */
+static void check_states(const struct json_place *root, const rotid_identification *fit)
+{
+    for (int s = 0; s < fit->nstates; s++) {
+        const rotid_identification of_state = fit_of_state(fit, s);
+        check_fit(root, &of_state);
+        check_geometry(root, of_state.geometry);
+    }
+}
+
+/* The candidates stand in the order of their rounds. */
+static void check_rounds(const struct json_place *root, const rotid_diagnosis *d)
+{
+    for (int i = 0; i < d->ncandidates; i++) {
+        int round = d->candidates[i].round, before = i ? d->candidates[i - 1].round : 1;
+        if (round > d->nrounds)
+            place_wrong(root, "candidates[%d].round: is %d, expected one of the %d rounds", i, round, d->nrounds);
+        if (round < before)
+            place_wrong(root, "candidates[%d].round: is %d behind candidates of a later one, expected them in order", i, round);
+    }
+    for (int r = 0; r < d->nrounds; r++) {
+        int count;
+        (void)diagnosis_candidates(d, r, &count);
+        if (d->rounds[r].set > count)
+            place_wrong(root, "rounds[%d].set: is %d, expected no more than its %d candidates", r, d->rounds[r].set, count);
+    }
+}
+
+static void check_diagnosis(const struct json_place *root, const rotid_diagnosis *d)
+{
+    const struct {
+        const char *key;
+        const rotid_identification *fit;
+    } fits[] = {{"today", d->today}, {"base", d->base}, {"extended", d->extended}};
+    for (size_t i = 0; i < sizeof fits / sizeof *fits; i++) {
+        const struct json_place at = {.reader = root->reader, .above = root, .key = fits[i].key};
+        if (fits[i].fit)
+            check_fit(&at, fits[i].fit);
+    }
+    check_rounds(root, d);
+    if (d->base && d->nmodes_standardised)
+        expect(root, "modes_standardised", d->nmodes_standardised, d->base->nmodes, "base.modes");
+}
+
+static void result_check(const struct json_place *root, const struct result *result);
+
+/* What a command found of each state, as if it stood alone. */
+static void check_each_state(const struct json_place *root, const struct result *result)
+{
+    for (int s = 0; s < result->nstates; s++) {
+        struct result own = *result;
+        own.nstates = 0;
+        own.check = result->states[s].check;
+        own.modes = result->states[s].modes;
+        own.sensitivity = result->states[s].sensitivity;
+        own.frf = result->states[s].frf;
+        result_check(root, &own);
+    }
+}
+
+/* What the lengths of its lists, the order of its candidates and the sizes of its rotor have to be for a result to be used: told
+ * as a mistake of `root` where they are not. */
+static void result_check(const struct json_place *root, const struct result *result)
+{
+    const rotid_geometry *geometry = geometry_of_result(result);
+    if (root->reader->status)
+        return;
+    if (geometry)
+        check_geometry(root, geometry);
+    if (result->identify) {
+        check_fit(root, result->identify);
+        check_states(root, result->identify);
+    }
+    if (result->diagnose)
+        check_diagnosis(root, result->diagnose);
+    for (int k = 0; result->modes && k < result->modes->nmodes; k++)
+        expect(root, "modes[].shape", result->modes->modes[k].nshape, result->modes->nsensor_z_m, "sensor_z_m");
+    if (result->modes)
+        check_meridian(root, result->modes);
+    check_each_state(root, result);
+}
 
 /* Keys that results have from 0.3 on, and what cannot be shown without them. */
 static const struct {

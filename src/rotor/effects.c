@@ -1,12 +1,14 @@
-#include "rotor/effects.h"
+#include "rotor/rotor.h"
 
 int effect_parameters(const struct effect *effect)
 {
     return effect->kind->count ? effect->kind->count(effect) : effect->kind->nparameter;
 }
 
-int effect_on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int sections, int p,
-                   struct effect_field *factors)
+/* Factors of one effect along a stretch of the axis, or their derivatives where p >= 0, with the return value of the hooks.
+ * sections: nonzero for a beam, whose EI and kGS then follow e and g with the factors of sections among them. */
+static int effect_on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int sections,
+                          int p, struct effect_field *factors)
 {
     const struct effect_kind *kind = effect->kind;
     struct effect_section section;

@@ -1,8 +1,8 @@
-#include "rotor/parameter.h"
+#include "rotor/rotor.h"
 
 #include <string.h>
 
-#include "base/text.h"
+#include "base/base.h"
 
 enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
 

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "rotor/section.h"
-
 double rotor_length(const struct rotor *rotor)
 {
     double sum = 0;

@@ -1,9 +1,12 @@
-/* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from
- * the left end, resolved and inside [0, length]. How a rotor is discretised is no matter of this room: src/model. */
 #ifndef ROTID_ROTOR_ROTOR_H
 #define ROTID_ROTOR_ROTOR_H
 
-#include "base/pool.h"
+#include "base/base.h"
+
+/* ----------------------------------------------------------------------------------------------------------------- rotor */
+
+/* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from
+ * the left end, resolved and inside [0, length]. How a rotor is discretised is no matter of this room: src/model. */
 
 struct material {
     const char *name;
@@ -133,5 +136,204 @@ struct mass_properties {
     double mass, center; /* kg, m from the left end */
     double inertia;      /* kg.m2 about a diameter through the centre */
 };
+
+/* ---------------------------------------------------------------------------------------------------------------- effect */
+
+/* What a cause changes in a rotor: fields over z, members, masses, joints. Every discretisation of a rotor asks these hooks; the
+ * causes themselves live in src/diagnose/causes. An effect at its neutral values changes nothing. Every hook gives values (p < 0)
+ * or their derivatives with respect to its parameter p (p >= 0), and returns 0 where the effect leaves the thing alone or the
+ * derivative vanishes; the output is then not touched. A hook an effect has no use for is NULL. */
+
+#define EFFECT_MOST_PARAMETERS 4
+
+struct effect_span { /* a stretch of the axis within one segment, from < to: an element, or the share of an integration point */
+    int group, segment;
+    double from, to; /* m */
+};
+
+/* Factors on the material of a stretch, none of which depends on the material's own values: E, G and rho of a group can be
+ * identified beside them. Of the moduli the harmonic mean over the stretch, since the compliances of a row add up; of the density
+ * the plain mean. Neutral: 1 each; derivatives: 0 each. */
+struct effect_field {
+    double e, g, rho;
+};
+
+/* Factors on the stiffness of a beam's section, for what beam theory itself gets wrong; nothing to a model that has no sections.
+ */
+struct effect_section {
+    double ei, kgs;
+};
+
+struct effect_bundle {     /* of tie rods */
+    double young, tension; /* factors on E (and on G with it) and on the tension */
+    int as_rods;           /* nonzero: coupled as RODS whatever the deck says; not differentiated */
+};
+
+struct effect_point {           /* anywhere on the axis, which moves with the rotor there */
+    double z, mass, inertia;    /* m, kg, kg.m2 */
+    double lateral, rotational; /* springs to the ground [N/m, N.m/rad] */
+};
+
+/* What becomes of a spring of the deck: k := factor k, then in series with a compliance, k := k/(1 + c k), at another place. */
+struct effect_spring {
+    double factor;              /* on both stiffnesses */
+    double lateral, rotational; /* compliance [m/N, rad/(N.m)] */
+    double shift;               /* m */
+};
+
+struct effect_parameter_name {
+    const char *name, *unit;
+};
+
+struct effect_kind {
+    const char *id; /* of method and deck: "stiffness_local" */
+    int nparameter;
+    struct effect_parameter_name parameter[EFFECT_MOST_PARAMETERS];
+    int at_sensor; /* nonzero: the target is a sensor */
+    int (*field)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *field);
+    int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_section *section);
+    int (*tierod)(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle);
+    int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change);
+    int moves_springs; /* the hook above may give a shift, which is 0 at neutral */
+    /* the i-th lumped mass or spring to the ground; with p < 0 a 0 says that there is no i-th one */
+    int (*point)(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point);
+    /* rotational spring in series at the end of group `target` [rad/(N.m)]; massless */
+    int (*joint)(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility);
+    /* how many of the parameters this effect uses, which may depend on its variant; NULL: all of them */
+    int (*count)(const struct effect *effect);
+};
+
+struct effect {
+    const char *name; /* of the CAUSE card */
+    const struct effect_kind *kind;
+    int target;  /* index of the group, tie rod, spring, disk or sensor; of the group left of an interface; -1: none */
+    int variant; /* of the kind, such as the shape of a soft zone */
+    double value[EFFECT_MOST_PARAMETERS];
+    int stays;       /* nonzero: it is no cause that was found, and another one of its kind at its target may come */
+    double bound[2]; /* of its size, where a deck states them or they were widened; both 0: those of its cause */
+};
+
+/* The number of parameters in use, the first ones of the kind. */
+int effect_parameters(const struct effect *effect);
+
+/* ------------------------------------------------------------------------------------------------------------- parameter */
+
+/* What of a rotor can vary, by name: the modulus of a group, the stiffness of a spring, the depth of a cause. */
+
+enum parameter_kind {
+    PARAMETER_E,
+    PARAMETER_G,
+    PARAMETER_NU,
+    PARAMETER_RHO,
+    PARAMETER_TIEROD_E,
+    PARAMETER_TENSION,
+    PARAMETER_SPRING_K,
+    PARAMETER_SPRING_K_ROT,
+    PARAMETER_DISK_MASS,
+    PARAMETER_DISK_INERTIA,
+    PARAMETER_EFFECT
+};
+
+struct parameter {
+    enum parameter_kind kind;
+    int index;       /* of the group, tie rod, spring, disk or effect */
+    int component;   /* of the effect, else 0 */
+    int nalso;       /* of E, G, nu or rho: groups that have it in common with that one, */
+    const int *also; /* [nalso] which the owner of the parameters keeps */
+};
+
+#define PARAMETER_SHARED_BY '=' /* "left.E=right.E" is one parameter of two groups */
+
+/* The next name of "left.E=right.E" to `name` [PARAMETER_NAME]. Returns what follows, or NULL behind the last one. */
+#define PARAMETER_NAME 1100 /* as long as a line of a deck */
+const char *parameter_next_name(const char *names, char name[PARAMETER_NAME]);
+
+/* Whether it is a value of the material of this group. */
+int parameter_is_of_group(const struct parameter *parameter, int group);
+
+/* Whether both have a value in common. */
+int parameters_overlap(const struct parameter *a, const struct parameter *b);
+
+/* Finds "group.E", "group.G", ".nu", ".rho", "tierod.E", ".tension", "spring.k", ".k_rot", "disk.mass", ".inertia", and the
+ * parameters of effects that have a name, "cause.depth". Returns 0 and *parameter, 1 when no object has that name, 2 when the
+ * object has no such parameter; *unit is set with 0. */
+int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit);
+
+/* The names there are, "left.E, left.G, ...", for messages; of the object alone that `of` ("left.x") names where there is one.
+ * Behind PARAMETERS_LISTED of them their number. NULL where memory is out. */
+#define PARAMETERS_LISTED 24
+const char *parameter_list(struct pool *pool, const struct rotor *rotor, const char *of);
+
+/* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
+double *parameter_value(const struct rotor *rotor, struct parameter parameter);
+
+/* Sets n parameters to x [n], shared ones in all their groups. */
+void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x);
+
+/* --------------------------------------------------------------------------------------------------------------- effects */
+
+/* What the effects of a rotor (rotor/effect.h) do together: products of their factors, and how one parameter moves the product.
+ */
+
+/* The product over all effects. */
+struct effect_field effects_on_axis(const struct rotor *rotor, const struct effect_span *span, int sections);
+
+/* Derivative of those factors with respect to a parameter of an effect, divided by the factors; 0 where they do not depend on it.
+ */
+int effects_axis_rate(const struct rotor *rotor, struct parameter parameter, const struct effect_span *span, int sections,
+                      struct effect_field *rate);
+
+/* Factors of a tie rod. */
+struct effect_bundle effects_on_tierod(const struct rotor *rotor, int tierod);
+
+/* Their derivatives; 0 where they do not depend on the parameter. as_rods of *d stays 0. */
+int effects_tierod_derivative(const struct rotor *rotor, struct parameter parameter, int tierod, struct effect_bundle *d);
+
+/* Place and stiffness of a spring of the deck, without mass; and how they move with its own stiffness or with a parameter of an
+ * effect, 0 where they do not. */
+void effects_on_spring(const struct rotor *rotor, int spring, struct effect_point *point);
+int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, struct effect_point *d);
+
+/* Whether an effect may move it. */
+int effects_move_spring(const struct rotor *rotor, int spring);
+
+/* Force on the axis at z of a group [N], tension positive: its preload less what the tie rods press together there; and the
+ * derivative, 0 where it does not depend on the parameter. */
+double rotor_axial_force(const struct rotor *rotor, int group, double z);
+double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z);
+
+/* --------------------------------------------------------------------------------------------------------------- section */
+
+/* Cross sections: area and second moment of the stiff part and of the part with mass. */
+
+struct section {
+    double stiff_area, stiff_inertia; /* m2, m4: what carries bending and shear */
+    double mass_area, mass_inertia;   /* of the part that has mass */
+    int rectangular;
+    double ratio, stiff_outer; /* of a round section: inner over outer diameter of the stiff part, and that one [m] */
+};
+
+/* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass.
+ */
+void section_round(double outer, double inner, double stiff_outer, struct section *section);
+/* height lies in the bending plane. */
+void section_rectangular(double height, double width, struct section *section);
+
+/* Takes `number` >= 3 evenly spaced holes of diameter d on the pitch radius e out of a round section: each hole has
+ * I = pi d^4/64 + S e^2/2 on average over the angle, exactly so for 3 or more. Holes outside the stiffness diameter cost mass
+ * only. ratio stays that of the section without holes, and with it the shear coefficient: the equivalent annulus of (6) would
+ * move it. ROTID_OK or ROTID_ERROR_SECTION where less than nothing would be left. */
+int section_perforate(int number, double d, double e, double stiff_outer, struct section *section);
+
+/* Area and second moment of `number` round rods of diameter d at pitch radius e: S = N pi d^2/4, own = N pi d^4/64,
+ * pitch = S e^2/2; own + pitch is the inertia of (7), corrected. */
+void section_rods(int number, double d, double e, double *area, double *own, double *pitch);
+
+/* The section of a segment without its layers, and of a ring of a layer; each with the holes of its own group. ROTID_OK or
+ * ROTID_ERROR_SECTION. */
+int section_of_segment(const struct rotor *rotor, int segment, struct section *section);
+int section_of_ring(const struct rotor *rotor, int ring, struct section *section);
 
 #endif

@@ -1,4 +1,4 @@
-#include "rotor/section.h"
+#include "rotor/rotor.h"
 
 #include "rotid.h"
 

@@ -1,10 +1,9 @@
-#include "run/beside.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "rotor/effect.h"
-#include "run/identify.h"
+#include "rotor/rotor.h"
 
 #define MOST_PLACES  41   /* of the shapes, where the deck has no sensors */
 #define FITTED_MODES 6    /* where nothing was measured */

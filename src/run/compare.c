@@ -1,4 +1,4 @@
-#include "run/compare.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>

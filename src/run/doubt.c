@@ -1,4 +1,4 @@
-#include "run/doubt.h"
+#include "run/run.h"
 
 #include <math.h>
 

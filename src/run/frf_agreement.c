@@ -1,4 +1,4 @@
-#include "run/frf_agreement.h"
+#include "run/run.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "run/held_mesh.h"
+#include "run/run.h"
 
 #include <math.h>
 

@@ -1,12 +1,10 @@
-#include "run/identify.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "modal/prediction.h"
+#include "modal/modal.h"
 #include "model/model.h"
-#include "run/doubt.h"
-#include "run/held_mesh.h"
 
 #define ROUNDS 3    /* of fitting and pairing, should the pairs change with the model */
 #define HELD   1e-5 /* of a frequency: a hundredth of the noise of a good measurement */

@@ -1,4 +1,4 @@
-#include "run/job.h"
+#include "run/run.h"
 
 #include <math.h>
 

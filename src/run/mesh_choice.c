@@ -1,8 +1,6 @@
-#include "run/mesh_choice.h"
+#include "run/run.h"
 
 #include <math.h>
-
-#include "run/spectrum.h"
 
 #define FIRST_PER_WAVE 8   /* elements for half a wave of the highest mode */
 #define ROUNDS         4   /* the second one mostly ends it */

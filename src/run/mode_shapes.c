@@ -1,8 +1,8 @@
-#include "run/mode_shapes.h"
+#include "run/run.h"
 
 #include <math.h>
 
-#include "model/deflection.h"
+#include "model/model.h"
 
 #define AXIS_INTERVALS   400 /* at most: 40 a half wave of a tenth mode, and no picture has many more dots across */
 #define MEMBER_INTERVALS 20  /* at least */

@@ -1,10 +1,10 @@
-#include "run/point_fit.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/order.h"
-#include "fit/quantile.h"
+#include "base/base.h"
+#include "fit/fit.h"
 #include "rotid.h"
 
 #define CONSTANT   1e-10  /* squared variation against the squared size: a column that rounding alone moves */

@@ -1,11 +1,10 @@
-#include "run/spectrum.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "linalg/product.h"
-#include "modal/prediction.h"
+#include "linalg/linalg.h"
+#include "modal/modal.h"
 #include "model/model.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */

@@ -1,4 +1,4 @@
-#include "signal/window.h"
+#include "signal/signal.h"
 
 #include <math.h>
 

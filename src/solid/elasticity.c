@@ -1,4 +1,4 @@
-#include "solid/elasticity.h"
+#include "solid/solid.h"
 
 struct constants { /* engineering constants; as a direction: their derivatives */
     double ep, np, ea, na, g;

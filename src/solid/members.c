@@ -1,12 +1,10 @@
-#include "solid/members.h"
+#include "solid/solid.h"
 
 #include <math.h>
 
-#include "beam/element.h"
-#include "beam/shear_coefficient.h"
-#include "linalg/matrix.h"
-#include "rotor/effects.h"
-#include "rotor/section.h"
+#include "beam/beam.h"
+#include "linalg/linalg.h"
+#include "rotor/rotor.h"
 
 struct member {
     int number;

@@ -1,10 +1,9 @@
-#include "solid/motion.h"
+#include "solid/solid.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "linalg/matrix.h"
-#include "solid/shape.h"
+#include "linalg/linalg.h"
 
 static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};

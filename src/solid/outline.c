@@ -1,8 +1,83 @@
-#include "solid/outline.h"
+#include "solid/solid.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-#include "solid/lines.h"
+#define MOST_HALVINGS 64 /* from one end of an interval: no two doubles are further apart */
+
+static int compare(const void *a, const void *b)
+{
+    double x = ((const struct stop *)a)->at, y = ((const struct stop *)b)->at;
+    return (x > y) - (x < y);
+}
+
+/* Sorts stops, and makes one of those nearer than `tolerance`: the finest of their sizes. Returns how many are left. */
+static int stops_merge(int nstop, struct stop *stop, double tolerance)
+{
+    int count = 0;
+    qsort(stop, (size_t)nstop, sizeof *stop, compare);
+    for (int i = 0; i < nstop; i++)
+        if (count && stop[i].at - stop[count - 1].at <= tolerance) {
+            struct stop *last = &stop[count - 1];
+            if (stop[i].fine > 0 && (last->fine == 0 || stop[i].fine < last->fine))
+                last->fine = stop[i].fine;
+            if (stop[i].upto > 0 && (last->upto == 0 || stop[i].upto < last->upto))
+                last->upto = stop[i].upto;
+        } else {
+            stop[count++] = stop[i];
+        }
+    return count;
+}
+
+/* Lines between two stops, both excluded, into x, or counted only where x is NULL: from each graded end elements that double as
+ * long as both sides leave room for them, and even ones between. */
+static int between(const struct stop *a, const struct stop *b, int multiple, double *x)
+{
+    double from[MOST_HALVINGS], to[MOST_HALVINGS], left = a->at, right = b->at;
+    double l = a->fine > 0 ? fmin(a->fine, a->upto) : a->upto, r = b->fine > 0 ? fmin(b->fine, a->upto) : a->upto;
+    int nleft = 0, nright = 0, count = 0;
+    while (right - left > 1.5 * fmin(l, r) && nleft < MOST_HALVINGS && nright < MOST_HALVINGS && fmin(l, r) < a->upto) {
+        if (l <= r) {
+            left = from[nleft++] = left + l;
+            l = fmin(2 * l, a->upto);
+        } else {
+            right = to[nright++] = right - r;
+            r = fmin(2 * r, a->upto);
+        }
+    }
+    int even = (int)ceil((right - left) / (multiple * fmin(l, r)) - 0.3);
+    even = multiple * (even < 1 ? 1 : even);
+    for (int i = 0; i < nleft; i++, count++)
+        if (x)
+            x[count] = from[i];
+    for (int i = 1; i < even; i++, count++)
+        if (x)
+            x[count] = left + (right - left) * i / even;
+    for (int i = nright - 1; i >= 0; i--, count++)
+        if (x)
+            x[count] = to[i];
+    return count;
+}
+
+/* Lines x [*count] through `nstop` >= 2 stops, increasing: from a graded stop the elements double until they reach the largest,
+ * and there is a multiple of `multiple` of even ones.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+static int lines_graded(struct pool *pool, int nstop, const struct stop *stop, int multiple, int *count, double **x)
+{
+    int total = nstop;
+    for (int i = 0; i + 1 < nstop; i++)
+        total += between(&stop[i], &stop[i + 1], multiple, NULL);
+    *x = POOL_ARRAY(pool, double, total);
+    if (!*x)
+        return ROTID_ERROR_MEMORY;
+    *count = 0;
+    for (int i = 0; i < nstop; i++) {
+        (*x)[(*count)++] = stop[i].at;
+        if (i + 1 < nstop)
+            *count += between(&stop[i], &stop[i + 1], multiple, *x + *count);
+    }
+    return ROTID_OK;
+}
 
 #define SAME      1e-9 /* of the largest radius: radii that are one */
 #define CORNER    0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
@@ -14,7 +89,7 @@
 #define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
 #define INTERFACE 0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
 
-double outline_inner(const struct rotor *rotor, int s)
+static double outline_inner(const struct rotor *rotor, int s)
 {
     double inner = rotor->segment[s].inner;
     for (int i = 0; i < rotor->nring; i++)
@@ -28,7 +103,8 @@ static double own_outer(const struct segment *segment)
     return fmin(segment->outer, segment->stiff_outer) / 2;
 }
 
-double outline_outer(const struct rotor *rotor, int s)
+/* Radii of segment s without and with its rings [m]. */
+static double outline_outer(const struct rotor *rotor, int s)
 {
     double outer = 2 * own_outer(&rotor->segment[s]);
     for (int i = 0; i < rotor->nring; i++)

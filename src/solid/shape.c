@@ -1,4 +1,4 @@
-#include "solid/shape.h"
+#include "solid/solid.h"
 
 #include <math.h>
 

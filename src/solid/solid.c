@@ -1,12 +1,470 @@
 #include "solid/solid.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "linalg/matrix.h"
-#include "solid/attached.h"
-#include "solid/field.h"
-#include "solid/outline.h"
+#include "linalg/linalg.h"
+#include "rotor/rotor.h"
+
+static const double integrals_pi = 3.14159265358979323846;
+static const double place[SHARES] = {-0.77459666924148337704, 0, 0.77459666924148337704};
+static const double weight[SHARES] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+
+static void add_product(double w, const double *x, const double *y, double *sum)
+{
+    for (int b = 0; b < SOLID_NODES; b++)
+        for (int a = 0; a < SOLID_NODES; a++)
+            sum[a + SOLID_NODES * b] += w * x[a] * y[b];
+}
+
+static void add_point(const struct solid_mesh *mesh, const struct solid_element *element, int ix, int iy, struct integrals *out)
+{
+    double n[SOLID_NODES], by_x[SOLID_NODES], by_y[SOLID_NODES], by_r[SOLID_NODES], by_z[SOLID_NODES], r = 0, rx = 0, ry = 0,
+                                                                                                       zx = 0, zy = 0;
+    double(*sum)[SOLID_NODES * SOLID_NODES] = out->value[iy];
+    shape_of_element(place[ix], place[iy], n, by_x, by_y);
+    for (int a = 0; a < SOLID_NODES; a++) {
+        const struct solid_node *node = &mesh->node[element->node[a]];
+        r += n[a] * node->r;
+        rx += by_x[a] * node->r;
+        ry += by_y[a] * node->r;
+        zx += by_x[a] * node->z;
+        zy += by_y[a] * node->z;
+    }
+    double jacobian = rx * zy - ry * zx, w = integrals_pi * weight[ix] * weight[iy] * jacobian * r * element->share;
+    add_product(w, n, n, sum[BY_MASS]);
+    for (int a = 0; a < SOLID_NODES; a++) {
+        by_r[a] = (zy * by_x[a] - zx * by_y[a]) / jacobian;
+        by_z[a] = (rx * by_y[a] - ry * by_x[a]) / jacobian;
+        n[a] /= r;
+    }
+    add_product(w, by_r, by_r, sum[BY_R_R]);
+    add_product(w, n, n, sum[BY_N_N]);
+    add_product(w, by_z, by_z, sum[BY_Z_Z]);
+    add_product(w, by_r, n, sum[BY_R_N]);
+    add_product(w, by_r, by_z, sum[BY_R_Z]);
+    add_product(w, n, by_z, sum[BY_N_Z]);
+}
+
+/* The mass outside the stiffness diameter moves with the outer edge: half of it each in U, V and W, as of a ring. */
+static void add_extra(const struct solid_mesh *mesh, const struct solid_element *element, int iy, double *sum)
+{
+    double n[SOLID_NODES], by_x[SOLID_NODES], by_y[SOLID_NODES], slope = 0;
+    shape_of_element(1, place[iy], n, by_x, by_y);
+    for (int a = 0; a < SOLID_NODES; a++)
+        slope += by_y[a] * mesh->node[element->node[a]].z;
+    add_product(weight[iy] * slope * element->extra / 2, n, n, sum);
+}
+
+static void integrals_of(const struct solid_mesh *mesh, const struct solid_element *element, struct integrals *integrals)
+{
+    memset(integrals, 0, sizeof *integrals);
+    for (int iy = 0; iy < SHARES; iy++) {
+        for (int ix = 0; ix < SHARES; ix++)
+            add_point(mesh, element, ix, iy, integrals);
+        if (element->extra > 0)
+            add_extra(mesh, element, iy, integrals->value[iy][BY_MASS]);
+    }
+}
+
+/* Adds to k [24 * 24] the stiffness of one share, constants c, and of an axial stress [Pa], tension positive; both triangles. */
+static void integrals_add_stiffness(const struct integrals *integrals, int share, const struct elasticity *c, double stress,
+                                    double *k)
+{
+    const double(*sum)[SOLID_NODES * SOLID_NODES] = integrals->value[share];
+    for (int b = 0; b < SOLID_NODES; b++)
+        for (int a = 0; a < SOLID_NODES; a++) {
+            int ab = a + SOLID_NODES * b, ba = b + SOLID_NODES * a;
+            double rr = sum[BY_R_R][ab], nn = sum[BY_N_N][ab], zz = sum[BY_Z_Z][ab], rn = sum[BY_R_N][ab], nr = sum[BY_R_N][ba],
+                   rz = sum[BY_R_Z][ab], zr = sum[BY_R_Z][ba], nz = sum[BY_N_Z][ab], zn = sum[BY_N_Z][ba];
+            double prestress = stress * zz, twist = c->c66 * (nn - rn), back = c->c66 * (nn - nr);
+            double *block = k + 3 * a + (ptrdiff_t)SOLID_DOFS * 3 * b;
+            block[0] += c->c11 * (rr + nn) + c->c12 * (rn + nr) + c->c44 * zz + c->c66 * nn + prestress;
+            block[SOLID_DOFS] += c->c12 * rn + c->c11 * nn + back;
+            block[2 * SOLID_DOFS] += c->c13 * (rz + nz) + c->c44 * zr;
+            block[1] += c->c12 * nr + c->c11 * nn + twist;
+            block[1 + SOLID_DOFS] += c->c11 * nn + c->c66 * (rr - rn - nr + nn) + c->c44 * zz + prestress;
+            block[1 + 2 * SOLID_DOFS] += c->c13 * nz - c->c44 * zn;
+            block[2] += c->c13 * (zr + zn) + c->c44 * rz;
+            block[2 + SOLID_DOFS] += c->c13 * zn - c->c44 * nz;
+            block[2 + 2 * SOLID_DOFS] += c->c33 * zz + c->c44 * (rr + nn) + prestress;
+        }
+}
+
+/* Adds rho times those of mass to m [8 * 8], which stands for each of U, V, W. */
+static void integrals_add_mass(const struct integrals *integrals, int share, double rho, double *m)
+{
+    const double *sum = integrals->value[share][BY_MASS];
+    for (int i = 0; i < SOLID_NODES * SOLID_NODES; i++)
+        m[i] += rho * sum[i];
+}
+
+/* From and to, along z, of a share of a slice. */
+static void integrals_share_span(double left, double right, int share, double *from, double *to)
+{
+    double before = 0;
+    for (int i = 0; i < share; i++)
+        before += weight[i] / 2;
+    *from = left + before * (right - left);
+    *to = left + (before + weight[share] / 2) * (right - left);
+}
+
+static const double pi = 3.14159265358979323846;
+
+static struct effect_span span_of(const struct solid *solid, const struct solid_element *element, int share)
+{
+    struct effect_span span = {.group = element->group, .segment = element->segment};
+    integrals_share_span(solid->mesh.z[element->slice], solid->mesh.z[element->slice + 1], share, &span.from, &span.to);
+    return span;
+}
+
+static double middle_of(const struct solid *solid, const struct solid_element *element)
+{
+    return (solid->mesh.z[element->slice] + solid->mesh.z[element->slice + 1]) / 2;
+}
+
+/* ---- joints: the slice beside the interface, on the side that is thinner, is the softer along the axis by the flexibility c of
+ * a rotational spring, 1/E := 1/E + c I/t,  I of its section, t its length. On the thicker side the parts around it would hold
+ * it. */
+
+static double outer_radius(const struct solid_mesh *mesh, int slice)
+{
+    return mesh->node[mesh->element[solid_mesh_outermost(mesh, slice)].node[1]].r;
+}
+
+/* Whether the joint of an effect is in this slice. */
+static int joint_in(const struct solid *solid, const struct effect *effect, int slice)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    const struct rotor *rotor = &solid->rotor;
+    if (!effect->kind->joint)
+        return 0;
+    for (int left = slice > 0 ? slice - 1 : 0; left <= slice && left + 1 < mesh->nslice; left++)
+        if (rotor->segment[mesh->segment[left]].group == effect->target &&
+            rotor->segment[mesh->segment[left + 1]].group != effect->target)
+            return slice == left + (outer_radius(mesh, left + 1) < outer_radius(mesh, left));
+    return 0;
+}
+
+/* I/t of a slice */
+static double inertia_over_length(const struct solid *solid, int slice)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
+    return pi / 4 * (pow(outer_radius(mesh, slice), 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
+}
+
+/* c I/t, or its derivative with respect to a parameter of an effect */
+static double joint_compliance(const struct solid *solid, int slice, int effect, int p)
+{
+    double sum = 0, flexibility;
+    for (int i = 0; i < solid->rotor.neffect; i++) {
+        const struct effect *e = &solid->rotor.effect[i];
+        if ((effect < 0 || effect == i) && joint_in(solid, e, slice) && e->kind->joint(e, &solid->rotor, p, &flexibility))
+            sum += flexibility;
+    }
+    return sum == 0 ? 0 : sum * inertia_over_length(solid, slice);
+}
+
+static struct elasticity_factors factors_of(const struct solid *solid, const struct solid_element *element, int share,
+                                            double *rho)
+{
+    struct effect_field field = {1, 1, 1};
+    double axial = 1;
+    if (solid->rotor.neffect) {
+        struct effect_span span = span_of(solid, element, share);
+        field = effects_on_axis(&solid->rotor, &span, 0);
+        double e = solid->rotor.group[element->group].material.e * field.e;
+        axial = 1 / (1 + e * joint_compliance(solid, element->slice, -1, -1));
+    }
+    *rho = field.rho;
+    return (struct elasticity_factors){field.e, field.g, axial};
+}
+
+/* ---- axial stress: the force on a section is shared in proportion to E */
+
+static double stiff_area(const struct solid *solid, int segment, int group)
+{
+    const struct rotor *rotor = &solid->rotor;
+    struct section section;
+    double area = 0;
+    if (rotor->segment[segment].group == group && !section_of_segment(rotor, segment, &section))
+        area = section.stiff_area;
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == segment && rotor->ring[i].group == group && !section_of_ring(rotor, i, &section))
+            area += section.stiff_area;
+    return area;
+}
+
+/* E over the sum of E A, and its derivative with respect to the E that `by` is, of one group or several */
+static double share_of_force(const struct solid *solid, const struct solid_element *element, const struct parameter *by,
+                             double *derivative)
+{
+    const struct rotor *rotor = &solid->rotor;
+    double sum = 0, of = 0, e = rotor->group[element->group].material.e;
+    for (int g = 0; g < rotor->ngroup; g++) {
+        double area = stiff_area(solid, element->segment, g);
+        sum += rotor->group[g].material.e * area;
+        of += by && parameter_is_of_group(by, g) ? area : 0;
+    }
+    if (derivative)
+        *derivative = (parameter_is_of_group(by, element->group) - e * of / sum) / sum;
+    return e / sum;
+}
+
+static double axial_force(const struct solid *solid, const struct solid_element *element)
+{
+    return rotor_axial_force(&solid->rotor, solid->rotor.segment[element->segment].group, middle_of(solid, element));
+}
+
+static void field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out)
+{
+    const struct material *material = &solid->rotor.group[element->group].material;
+    double rho;
+    struct elasticity_factors factors = factors_of(solid, element, share, &rho);
+    *out = (struct share){.elasticity = elasticity_of(material, &factors), .rho = material->rho * rho};
+    double force = solid->elastic_only ? 0 : axial_force(solid, element);
+    if (force != 0)
+        out->stress = force * share_of_force(solid, element, NULL, NULL);
+}
+
+/* ---- derivatives */
+
+static void add_elasticity(struct elasticity *sum, const struct elasticity *d)
+{
+    *sum = (struct elasticity){sum->c11 + d->c11, sum->c12 + d->c12, sum->c13 + d->c13,
+                               sum->c33 + d->c33, sum->c44 + d->c44, sum->c66 + d->c66};
+}
+
+static int by_material(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
+                       struct share *rate)
+{
+    const struct material *material = &solid->rotor.group[element->group].material;
+    double rho, force = parameter.kind == PARAMETER_E ? axial_force(solid, element) : 0, derivative;
+    if (force != 0) {
+        (void)share_of_force(solid, element, &parameter, &derivative);
+        rate->stress = force * derivative;
+    }
+    if (!parameter_is_of_group(&parameter, element->group))
+        return rate->stress != 0;
+    struct elasticity_factors factors = factors_of(solid, element, share, &rho);
+    if (parameter.kind == PARAMETER_RHO) {
+        rate->rho = rho;
+        return 1;
+    }
+    rate->elasticity = elasticity_by_material(material, &factors, parameter.kind);
+    if (parameter.kind == PARAMETER_E && factors.axial != 1) { /* f = 1/(1 + E c I/t): df/dE = -f (1 - f)/E */
+        struct elasticity_factors d = {0, 0, -factors.axial * (1 - factors.axial) / material->e};
+        struct elasticity more = elasticity_by_factors(material, &factors, &d);
+        add_elasticity(&rate->elasticity, &more);
+    }
+    return 1;
+}
+
+static int by_effect(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
+                     struct share *rate)
+{
+    const struct material *material = &solid->rotor.group[element->group].material;
+    struct effect_span span = span_of(solid, element, share);
+    struct effect_field relative = {0, 0, 0};
+    double rho, force = rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element));
+    if (force != 0)
+        rate->stress = force * share_of_force(solid, element, NULL, NULL);
+    int moves = effects_axis_rate(&solid->rotor, parameter, &span, 0, &relative);
+    double compliance = joint_compliance(solid, element->slice, parameter.index, parameter.component);
+    if (!moves && compliance == 0)
+        return rate->stress != 0;
+    struct elasticity_factors f = factors_of(solid, element, share, &rho);
+    struct elasticity_factors d = {f.e * relative.e, f.g * relative.g,
+                                   -f.axial * (1 - f.axial) * relative.e - f.axial * f.axial * material->e * f.e * compliance};
+    rate->elasticity = elasticity_by_factors(material, &f, &d);
+    rate->rho = material->rho * rho * relative.rho;
+    return 1;
+}
+
+/* Its derivative with respect to a parameter; returns 0 where that is zero. */
+static int field_derivative(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
+                            struct share *rate)
+{
+    *rate = (struct share){0};
+    if (parameter.kind == PARAMETER_EFFECT)
+        return by_effect(solid, element, share, parameter, rate);
+    if (parameter.kind == PARAMETER_TENSION) {
+        double force = rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element));
+        rate->stress = force == 0 ? 0 : force * share_of_force(solid, element, NULL, NULL);
+        return force != 0;
+    }
+    return parameter.kind <= PARAMETER_RHO ? by_material(solid, element, share, parameter, rate) : 0;
+}
+
+static const struct solid_line *line_at(const struct solid *solid, double z)
+{
+    return &solid->line[solid_mesh_line(&solid->mesh, z)];
+}
+
+/* ---- springs and disks move with the section */
+
+static int disk_of(const struct solid *solid, int i, int p, double *mass, double *inertia)
+{
+    const struct disk *disk = &solid->rotor.disk[i];
+    *mass = disk->mass;
+    *inertia = disk->diametral;
+    if (p < 0)
+        return 1;
+    struct parameter parameter = solid->parameter[p];
+    *mass = parameter.kind == PARAMETER_DISK_MASS;
+    *inertia = parameter.kind == PARAMETER_DISK_INERTIA;
+    return parameter.index == i && *mass + *inertia != 0;
+}
+
+static void add_to_section(rotid_matrix *a, const struct solid_line *line, double v, double theta)
+{
+    if (v != 0)
+        motion_add(a, v, &line->v, &line->v);
+    if (theta != 0)
+        motion_add(a, theta, &line->theta, &line->theta);
+}
+
+/* ---- springs to the ground anywhere: shared between the lines on either side by their nearness, each with the motion that its
+ * section would have there if it went on rigidly, v - dz theta. At a line nothing but that line is left, and no line is coupled
+ * with the next one, which would widen the band. */
+
+/* adds a stiffness on v - dz theta of a line and its derivative by dz, and one on theta */
+static void add_carried(const struct solid_line *line, double dz, double lateral, double by_dz, double rotational,
+                        rotid_matrix *k)
+{
+    motion_add(k, lateral, &line->v, &line->v);
+    motion_add(k, -2 * lateral * dz - 2 * by_dz, &line->v, &line->theta);
+    motion_add(k, lateral * dz * dz + 2 * by_dz * dz + rotational, &line->theta, &line->theta);
+}
+
+/* d: NULL, or the rate of the point; then the derivative */
+static void add_ground(const struct solid *solid, const struct effect_point *point, const struct effect_point *d, rotid_matrix *k)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double length = mesh->z[mesh->nslice], z = fmin(fmax(point->z, 0), length), moves = d && z == point->z ? d->z : 0;
+    int slice = solid_mesh_slice(mesh, z);
+    for (int side = 0; side < 2; side++) {
+        double slope = (side ? 1 : -1) / (mesh->z[slice + 1] - mesh->z[slice]), dz = z - mesh->z[slice + side],
+               share = 1 + slope * dz;
+        const struct solid_line *line = &solid->line[slice + side];
+        if (d)
+            add_carried(line, dz, share * d->lateral + slope * moves * point->lateral, share * moves * point->lateral,
+                        share * d->rotational + slope * moves * point->rotational, k);
+        else
+            add_carried(line, dz, share * point->lateral, 0, share * point->rotational, k);
+    }
+}
+
+static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
+{
+    const struct rotor *rotor = &solid->rotor;
+    for (int i = 0; i < rotor->nspring; i++) {
+        struct effect_point point, d;
+        double line = solid->mesh.z[solid_mesh_line(&solid->mesh, rotor->spring[i].position)];
+        if (p >= 0 && !effects_spring_derivative(rotor, solid->parameter[p], i, &d))
+            continue;
+        effects_on_spring(rotor, i, &point);
+        point.z += line - rotor->spring[i].position; /* which may be a little beside */
+        add_ground(solid, &point, p < 0 ? NULL : &d, k);
+    }
+}
+
+/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass
+ * has beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
+
+/* The i-th lumped mass or spring of all effects; *effect and *i begin at 0 and -1. Returns 0 when there are no more. */
+static int attached_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
+{
+    for (; *effect < solid->rotor.neffect; (*effect)++, *i = -1) {
+        const struct effect *e = &solid->rotor.effect[*effect];
+        if (e->kind->point && e->kind->point(e, &solid->rotor, ++*i, -1, point))
+            return 1;
+    }
+    return 0;
+}
+
+/* d = 0: the mass; 1: its derivative by place; for every component of the motion of the surface */
+static void add_ring(const struct solid *solid, double z, double mass, double inertia, double dz, rotid_matrix *m)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    int dof[2][SURFACE_MOST + 3];
+    double w[2][SURFACE_MOST + 3], radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
+    for (int c = 0; c < 3; c++) {
+        struct motion at, slope;
+        double half = mass / 2 + (c == 2 ? inertia / (radius * radius) : 0);
+        motion_of_surface(mesh, z, c, 0, dof[0], w[0], &at);
+        if (dz == 0) {
+            motion_add(m, half, &at, &at);
+            continue;
+        }
+        motion_of_surface(mesh, z, c, 1, dof[1], w[1], &slope);
+        motion_add(m, 2 * dz * half, &at, &slope);
+    }
+}
+
+/* The masses of effects, and their springs to the ground. */
+static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+{
+    struct effect_point point, d;
+    struct parameter parameter = p < 0 ? (struct parameter){.index = 0} : solid->parameter[p];
+    double length = solid->mesh.z[solid->mesh.nslice];
+    if (p >= 0 && parameter.kind != PARAMETER_EFFECT)
+        return;
+    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
+        const struct effect *e = &solid->rotor.effect[effect];
+        int rate = p >= 0 && parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d);
+        if (p >= 0 && !rate)
+            continue;
+        if (k && !solid->elastic_only &&
+            (point.lateral != 0 || point.rotational != 0 || (rate && (d.lateral != 0 || d.rotational != 0))))
+            add_ground(solid, &point, p < 0 ? NULL : &d, k);
+        if (m && p < 0)
+            add_ring(solid, point.z, point.mass, point.inertia, 0, m);
+        if (m && rate && (d.mass != 0 || d.inertia != 0))
+            add_ring(solid, point.z, d.mass, d.inertia, 0, m);
+        if (m && rate && d.z != 0 && point.z > 0 && point.z < length)
+            add_ring(solid, point.z, point.mass, point.inertia, d.z, m);
+    }
+}
+
+/* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]. k or m may be NULL. */
+static void attached_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct rotor *rotor = &solid->rotor;
+    double a, b;
+    if (k && !solid->elastic_only)
+        add_springs(solid, p, k);
+    for (int i = 0; i < rotor->ndisk && m; i++)
+        if (disk_of(solid, i, p, &a, &b))
+            add_to_section(m, line_at(solid, rotor->disk[i].position), a, b);
+    if (rotor->neffect)
+        add_points(solid, p, k, m);
+    members_assemble(solid, p, k, m);
+}
+
+/* Adds the masses about the left end: zeroth, first and second moments [kg, kg.m, kg.m2]. */
+static void attached_moments(const struct solid *solid, double moment[3])
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct solid_mesh *mesh = &solid->mesh;
+    struct effect_point point;
+    for (int i = 0; i < rotor->ndisk; i++) {
+        double z = mesh->z[solid_mesh_line(mesh, rotor->disk[i].position)], mass = rotor->disk[i].mass;
+        moment[0] += mass;
+        moment[1] += mass * z;
+        moment[2] += mass * z * z + rotor->disk[i].diametral;
+    }
+    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
+        double z = fmin(fmax(point.z, 0), mesh->z[mesh->nslice]),
+               radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
+        moment[0] += point.mass;
+        moment[1] += point.mass * z;
+        moment[2] += point.mass * (z * z + radius * radius / 2) + point.inertia;
+    }
+    members_moments(solid, moment);
+}
 
 #define WASHER 2 /* diameters of a rod: what its nut and washer press on */
 

@@ -1,15 +1,174 @@
-/* A rotor as a body of revolution: its first circumferential harmonic on the mesh of a meridian, with what is attached to it, and
- * the parameters that may vary. A client of src/rotor beside src/beam. What has no meaning here is refused with
- * ROTID_ERROR_SECTION: see solid_refusal. What a cause does to the sections of a beam (rotor/effect.h) does nothing here. */
 #ifndef ROTID_SOLID_SOLID_H
 #define ROTID_SOLID_SOLID_H
 
-#include "base/pool.h"
+#include "base/base.h"
 #include "rotid.h"
-#include "rotor/parameter.h"
-#include "solid/integrals.h"
-#include "solid/mesh.h"
-#include "solid/motion.h"
+#include "rotor/rotor.h"
+
+/* ------------------------------------------------------------------------------------------------------------ elasticity */
+
+/* Elastic constants of a body of revolution that is transversely isotropic about its axis z. In the order rr, tt, zz, rz, rt, tz
+ *   C = [C11 C12 C13; C12 C11 C13; C13 C13 C33] for the first three, C44 for rz and tz, C66 = (C11 - C12)/2 for rt. */
+
+struct elasticity {
+    double c11, c12, c13, c33, c44, c66; /* Pa */
+};
+
+/* What is left of the moduli of a material at a place: factors on E and on G, as a cause gives them, and on E of the axial
+ * direction alone, as a joint gives it. Neutral: 1 each. */
+struct elasticity_factors {
+    double e, g, axial;
+};
+
+/* The constants of a material. With E_p and nu_p in the plane, E_a and G along the axis, and nu_a the contraction in the plane
+ * under axial load:
+ *   isotropic            E_p = E_a = E, nu_p = nu_a = nu, G = E/2(1 + nu);
+ *   E, G and nu given    the same, with G as given: in the plane nothing better is known;
+ *   laminated            E_p = stacking E_sheet, nu_p = nu_sheet, nu_a = nu_sheet E_a/E_sheet: axial stress strains a sheet as
+ *                        it would strain solid steel.
+ * The factor e acts on E of the first two, and on E_a alone of a laminated material, whose sheets stay what they are; the factor
+ * `axial` on E_a alone, with nu_a in proportion. Lekhnitskii, Theory of Elasticity of an Anisotropic Body, 1963, section 4. */
+struct elasticity elasticity_of(const struct material *material, const struct elasticity_factors *factors);
+
+/* Its derivative with respect to E, G or nu of the material (kind; zero for others). */
+struct elasticity elasticity_by_material(const struct material *material, const struct elasticity_factors *factors,
+                                         enum parameter_kind kind);
+
+/* Its derivative in the direction d of the factors. */
+struct elasticity elasticity_by_factors(const struct material *material, const struct elasticity_factors *factors,
+                                        const struct elasticity_factors *d);
+
+/* ------------------------------------------------------------------------------------------------------------------ mesh */
+
+/* The meridian of a rotor as a mesh of eight-node quadrilaterals, and what its nodes do in bending: u_r = U cos t, u_t = V sin t,
+ * u_z = W cos t. Nodes lie on lines of constant z, the ends of a slice, and half-way between; degrees of freedom are numbered
+ * line by line, so that the band is as wide as two lines and what lies between them.
+ *
+ * On the axis V = -U and W = 0. A re-entrant corner of the outline is a singularity like a crack's, of exponent 0.545: the
+ * half-way nodes of the edges that meet there lie at a quarter of their length, by which an element follows a square root. */
+
+#define SOLID_NODES 8 /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
+#define SOLID_DOFS  (3 * SOLID_NODES) /* U, V, W of each */
+
+/* How fine. What is 0 follows from the rotor. */
+struct solid_rule {
+    double corner;  /* m: elements at a re-entrant corner */
+    double largest; /* m */
+    int straight;   /* nonzero: edges at a corner keep their half-way nodes half-way */
+};
+
+struct solid_node {
+    double r, z;
+    int dof[3]; /* of U, V, W; -1: none. On the axis V has that of U, and the sign is -1 */
+};
+
+struct solid_element {
+    int node[SOLID_NODES];
+    int slice, segment, group; /* group: that of the material */
+    double share;              /* of its volume that is not holes */
+    double extra;              /* m2: cross section outside the stiffness diameter, which has mass only, on the outer edge */
+    int sensor;                /* that U of node 5, half-way along the outer edge, stands for, or -1: see solid_mesh.sensor_dof */
+    double at_sensor[3];       /* share of the nodes 1, 5, 2 in the motion of the sensor */
+};
+
+struct solid_mesh {
+    int nslice;
+    double *z;    /* [nslice + 1] lines */
+    int *segment; /* [nslice] */
+    int *first;   /* [nslice + 1] first element of a slice */
+    int nnode;
+    struct solid_node *node; /* line by line, from the axis outwards */
+    int *line;               /* [2 nslice + 2] first node of each line: 2 i is line i, 2 i + 1 half-way to the next */
+    int *surface;            /* [2 nslice + 1] node at the surface of each */
+    double *surface_z;       /* [2 nslice + 1] m: what U of that node is the motion of */
+    int nelement;
+    struct solid_element *element;
+    int *sensor_dof; /* [nsensor] the motion of the surface at the sensor is an unknown itself */
+    int *member_dof; /* [nmember * (nslice + 1)]: solid_mesh_member_dof */
+    int ndof, kd;
+};
+
+#define SOLID_MOST_SLENDER                                                                                                       \
+    (1000 * (1 + 1e-9))            /* length over largest diameter: rounding of K leaves 1e-4 of the first frequency */
+#define SOLID_MOST_UNKNOWNS 200000 /* of the mesh that is not refined: some gigabytes of K and M */
+
+/* ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group in *failed where holes leave nothing, a group is
+ * rectangular or its first section does not touch the one before; groups, tie rods and bars together where the mesh has too many
+ * unknowns or the rotor is too slender. refine >= 1 divides the size of the elements at corners, and by its root the largest; 0:
+ * the coarse mesh, with corners six times as large and across the largest twice. */
+int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
+                     struct solid_mesh *mesh, int *failed);
+
+/* Whether member i moves with the section on all of its lines: tie rods of one element, which lie in the holes of what they press
+ * together. More elements bend by themselves between their ends. */
+int solid_mesh_follows(const struct rotor *rotor, int i);
+
+/* The line nearest to z. */
+int solid_mesh_line(const struct solid_mesh *mesh, double z);
+
+/* Where member i (tie rods, then bars) begins and ends: lines. */
+void solid_mesh_member(const struct rotor *rotor, const struct solid_mesh *mesh, int i, int *from, int *to);
+
+/* The degree of freedom of v of a member on a line, theta following it; -1 where it moves with the rotor or has ended. */
+int *solid_mesh_member_dof(const struct solid_mesh *mesh, int member, int line);
+
+/* The slice that holds z, and its outermost element. */
+int solid_mesh_slice(const struct solid_mesh *mesh, double z);
+int solid_mesh_outermost(const struct solid_mesh *mesh, int slice);
+
+/* ------------------------------------------------------------------------------------------------------------- integrals */
+
+/* What of an element does not depend on its material: integrals over its area, from which K and M of any transversely isotropic
+ * material follow as sums. With n = N/r and strains e_rr = U,r; e_tt = (U + V)/r; e_zz = W,z; g_rz = U,z + W,r;
+ * g_rt = V,r - (U + V)/r; g_tz = V,z - W/r:
+ *   K = pi int B' C B r dr dz,  M = pi rho int N'N r dr dz. */
+
+#define SHARES 3 /* Gauss points along z: causes act on the share of each with factors of its own */
+
+enum integral { BY_R_R, BY_N_N, BY_Z_Z, BY_R_N, BY_R_Z, BY_N_Z, BY_MASS, INTEGRALS };
+
+/* value[i][a + 8 b]: pi int X_a Y_b r dr dz, X and Y being derivatives with respect to r, N/r, or those with respect to z */
+struct integrals {
+    double value[SHARES][INTEGRALS][SOLID_NODES * SOLID_NODES];
+};
+
+/* ---------------------------------------------------------------------------------------------------------------- motion */
+
+/* A motion of something on the rotor as a sum of degrees of freedom, by which springs, masses and members act inside the band:
+ * stiffness s along the motion t'u adds s t t'. */
+
+struct motion {
+    int count;
+    int *dof;       /* [count] each once */
+    double *weight; /* [count] */
+};
+
+/* Of the section at a line as a whole: the means over its area, as of a plate that spreads a load and adds no stiffness,
+ *   v = int (U - V)/2 r dr / int r dr,  theta = int W r^2 dr / int r^3 dr.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta);
+
+/* W of a line at a pitch radius as the annulus pitch -+ reach tilts: pitch int W r^2 dr / int r^3 dr, which is theta pitch where
+ * the section stays plane. A load on a circle would sink in without limit. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION
+ * where the section does not reach there. */
+int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w);
+
+/* U, V or W (component 0, 1, 2) of the surface at z, into room for SURFACE_MOST degrees of freedom; with by_place of its
+ * derivative with respect to z. */
+#define SURFACE_MOST 3
+void motion_of_surface(const struct solid_mesh *mesh, double z, int component, int by_place, int *dof, double *weight,
+                       struct motion *motion);
+
+double motion_value(const struct motion *motion, const double *u);
+
+/* a += value (x y' + y x')/2 */
+void motion_add(rotid_matrix *a, double value, const struct motion *x, const struct motion *y);
+
+/* ----------------------------------------------------------------------------------------------------------------- solid */
+
+/* A rotor as a body of revolution: its first circumferential harmonic on the mesh of a meridian, with what is attached to it, and
+ * the parameters that may vary. A client of src/rotor beside src/beam. What has no meaning here is refused with
+ * ROTID_ERROR_SECTION: see solid_refusal. What a cause does to the sections of a beam (rotor/effect.h) does nothing here. */
 
 struct solid_line { /* of the mesh: the motion of the section there */
     struct motion v, theta;
@@ -64,5 +223,89 @@ void solid_rigid_motions(const struct solid *solid, double *u);
 
 /* Strain energy [J] of each element in the motion u [ndof], for the amplitude u: energy [nelement]. */
 void solid_strain_energy(const struct solid *solid, const double *u, double *energy);
+
+/* ----------------------------------------------------------------------------------------------------------------- field */
+
+/* What the values of a rotor and its causes make of the material of an element, share by share. */
+
+struct share { /* one of an element; as a derivative: its rate */
+    struct elasticity elasticity;
+    double rho, stress; /* kg/m3; Pa, axial, tension positive */
+};
+
+/* ----------------------------------------------------------------------------------------------------------------- lines */
+
+/* Places of mesh lines along one coordinate, graded towards some of them. */
+
+struct stop {
+    double at;   /* m, where a line has to be */
+    double fine; /* m: the size of the elements beside it; 0: not graded towards it */
+    double upto; /* m: the largest element between this stop and the next */
+};
+
+/* --------------------------------------------------------------------------------------------------------------- members */
+
+/* Tie rods and bars beside a solid: chains of beam elements from line to line of the mesh, which bend by themselves. Tie rods
+ * move with the section at both ends and are stretched by W at their pitch radius there; bars move with the section at their
+ * centre. Tie rods of one element move with the section everywhere (solid_mesh_follows): their mass and tension act line by line,
+ * and their own bending stiffness, below a thousandth of that of what they press together, is left out. */
+
+/* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]; the matrices may be NULL. */
+void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m);
+
+/* Adds moments of mass about the left end, as attached_moments. */
+void members_moments(const struct solid *solid, double moment[3]);
+
+/* Deflection of member i at z, in the motion u: cubic between lines, by v and theta there. */
+double members_deflection_at(const struct solid *solid, int i, const double *u, double z);
+
+/* The same, v [npoint], at npoint >= 2 even places z [npoint] from its left end to the right one. */
+void members_deflection(const struct solid *solid, int i, const double *u, int npoint, double *z, double *v);
+
+/* --------------------------------------------------------------------------------------------------------------- outline */
+
+/* The outline of a rotor's meridian: which material is where, its re-entrant corners, and the lines that a mesh needs. */
+
+/* Whether segment s > 0 touches the one before: more than a circle. */
+int outline_touch(const struct rotor *rotor, int s);
+
+/* The group whose material lies at radius r of segment s, or -1. */
+int outline_group(const struct rotor *rotor, int s, double r);
+
+/* Share of the volume of the group's material at radius r that is not holes. */
+double outline_share(const struct rotor *rotor, int group, double r);
+
+/* Whether the end z of segment s < nsegment - 1 has a re-entrant corner at radius r. */
+int outline_corner(const struct rotor *rotor, int s, double r);
+
+/* Length over the largest diameter. */
+double outline_slenderness(const struct rotor *rotor);
+
+/* Whether any end of a segment has one. */
+int outline_has_corners(const struct rotor *rotor);
+
+/* Lines of constant r, x [*nr], and of constant z, z [*nz] with the segment [*nz - 1] of each slice. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int outline_lines(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r,
+                  int *nz, double **z, int **segment);
+
+/* ----------------------------------------------------------------------------------------------------------------- shape */
+
+/* Shape functions of the eight-node quadrilateral and of its edges. */
+
+/* n [8] and its derivatives with respect to x, from the inner to the outer edge, and y, from left to right, both in [-1, 1]. */
+void shape_of_element(double x, double y, double *n, double *by_x, double *by_y);
+
+/* Share n [3] of the ends and the node between in the motion at a place of an edge, whose nodes are at `edge` [3], in the order
+ * first end, node between, second end; by_place [3]: derivatives with respect to the place, or NULL. */
+void shape_of_edge(const double *edge, double place, double *n, double *by_place);
+
+/* -------------------------------------------------------------------------------------------------------------- transfer */
+
+/* A motion of a solid on another mesh of the same rotor: where the solution on a finer mesh begins. */
+
+/* v [ndof of `to`] := the motion u [ndof of `from`] at the nodes, sensors and members of `to`. Elements are taken to be straight,
+ * which those at corners are not: a beginning, no interpolation to the last digit. */
+void solid_transfer(const struct solid *from, const double *u, const struct solid *to, double *v);
 
 #endif

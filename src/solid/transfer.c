@@ -1,9 +1,6 @@
-#include "solid/transfer.h"
+#include "solid/solid.h"
 
 #include <string.h>
-
-#include "solid/members.h"
-#include "solid/shape.h"
 
 /* The element of `mesh` at a place inside the rotor. */
 static const struct solid_element *element_at(const struct solid_mesh *mesh, double z, double r)

@@ -1,4 +1,4 @@
-#include "study/digest.h"
+#include "study/study.h"
 
 #include <stdio.h>
 #include <string.h>

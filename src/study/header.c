@@ -1,10 +1,9 @@
-#include "study/header.h"
+#include "study/study.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "result/records.h"
-#include "result/study.h"
+#include "result/result.h"
 
 struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards)
 {

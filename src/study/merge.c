@@ -1,14 +1,13 @@
-#include "study/merge.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "file/open.h"
-#include "report/output.h"
-#include "result/json_tree.h"
-#include "study/results.h"
+#include "file/file.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */
 

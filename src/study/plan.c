@@ -1,11 +1,10 @@
-#include "study/plan.h"
+#include "study/study.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "deck/deck_cause.h"
-#include "study/plan_cards.h"
+#include "deck/deck.h"
 
 static void heading(struct plan_reader *reader, const struct card *card)
 {

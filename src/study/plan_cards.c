@@ -1,5 +1,5 @@
 /* STUDY, DECKS, and the axes that are lists: VARIANT, MODES, SENSORS, NOISE; DATA, TRUTH, STARTS. */
-#include "study/plan_cards.h"
+#include "study/study.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,8 +2,8 @@
  * of the ranges of its values, when the deck is known. */
 #include <string.h>
 
-#include "deck/deck_cause.h"
-#include "study/plan_cards.h"
+#include "deck/deck.h"
+#include "study/study.h"
 
 /* What the table calls it: its type and what it acts on. */
 static const char *label_of(struct plan_reader *reader, const struct card *card)

@@ -1,7 +1,7 @@
 /* realpath: it is in POSIX 2008, but the headers of glibc want this word for it. NOLINTNEXTLINE(bugprone-reserved-identifier) */
 #define _XOPEN_SOURCE 700
 
-#include "study/record.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,10 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "report/output.h"
-#include "result/json_tree.h"
-#include "study/results.h"
+#include "base/base.h"
+#include "report/report.h"
+#include "result/result.h"
 
 #define SYNC_SECONDS 1.0
 

@@ -1,4 +1,4 @@
-#include "study/results.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -6,8 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "result/json_file.h"
-#include "result/records.h"
+#include "result/result.h"
 
 #define BLOCK     ((size_t)1 << 18)
 #define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */

@@ -1,8 +1,287 @@
 #include "study/study.h"
 
+#include <stdio.h>
 #include <string.h>
 
-#include "study/check.h"
+struct checker {
+    struct pool *pool, scratch; /* scratch: of one deck */
+    struct study *study;
+    struct message_list *messages;
+    struct check *check;
+};
+
+/* The same words at the same place say nothing new: a plan with many decks would say them for each. */
+static int is_known(const struct message_list *list, const char *file, int line, int column, const char *text)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const rotid_message *m = &list->item[i];
+        if (m->file && file && m->line == line && m->column == column && !strcmp(m->file, file) && !strcmp(m->text, text))
+            return 1;
+    }
+    return 0;
+}
+
+static void report(struct checker *c, struct place place, const char *text)
+{
+    if (!is_known(c->messages, place.file, place.line, place.column, text))
+        message_add(c->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
+}
+
+/* Where in the plan the option of a variant or the modes stand that a deck complains of; file NULL where it is something else. */
+static struct place place_in_plan(const struct plan *plan, const struct study_cell *cell, const char *file)
+{
+    const struct plan_variant *variant = &plan->variant[cell->variant];
+    const struct plan_modes *modes = &plan->modes[cell->modes];
+    for (int i = 0; i < variant->noverride && file; i++)
+        if (!strcmp(file, variant->override[i].text))
+            return variant->place[i];
+    return file && modes->text && !strcmp(file, modes->text) ? modes->place : (struct place){NULL, 0, 0};
+}
+
+/* Errors of a deck that can be read as it stands: the plan causes them. */
+static void blame_plan(struct checker *c, const struct study_cell *cell, const struct message_list *found)
+{
+    const struct plan *plan = c->study->plan;
+    const char *deck = plan->deck[cell->deck].name, *variant = plan->variant[cell->variant].name,
+               *modes = plan->modes[cell->modes].text;
+    for (size_t i = 0; i < found->count; i++) {
+        const rotid_message *m = &found->item[i];
+        char text[1500];
+        if (m->severity != SEVERITY_ERROR)
+            continue;
+        struct place place = place_in_plan(plan, cell, m->file);
+        if (place.file)
+            (void)snprintf(text, sizeof text, "%s (deck %s)", m->text, deck);
+        else
+            (void)snprintf(text, sizeof text, "%s (with%s%s%s%s of the plan)", m->text, variant ? " variant " : "",
+                           variant ? variant : "", modes ? " modes " : "", modes ? modes : "");
+        report(c, place.file ? place : (struct place){m->file, m->line, m->column}, text);
+    }
+}
+
+/* The first error, with its place. */
+static const char *first_error(struct checker *c, const struct message_list *found)
+{
+    for (size_t i = 0; i < found->count; i++) {
+        const rotid_message *m = &found->item[i];
+        if (m->severity != SEVERITY_ERROR)
+            continue;
+        if (found->errors > 1)
+            return pool_format(c->pool, "%s:%d:%d: %s (and %d more errors)", m->file ? m->file : "", m->line, m->column, m->text,
+                               found->errors - 1);
+        return pool_format(c->pool, "%s:%d:%d: %s", m->file ? m->file : "", m->line, m->column, m->text);
+    }
+    return "the deck cannot be read";
+}
+
+/* The runs of a deck that is wrong as it stands fail; every error of it is told now, while somebody may be there to read it. */
+static int give_up(struct checker *c, int d, const struct message_list *found)
+{
+    for (size_t i = 0; i < found->count; i++)
+        if (found->item[i].severity == SEVERITY_ERROR)
+            message_add(c->messages, SEVERITY_WARNING, found->item[i].file, found->item[i].line, found->item[i].column, "%s",
+                        found->item[i].text);
+    c->study->deck[d].error = first_error(c, found);
+    return c->study->deck[d].error ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* The deck as it stands. Status of the reader. */
+static int read_plain(struct checker *c, int d, struct message_list *found, struct states *states)
+{
+    struct plan_variant variant = {0};
+    struct plan_modes modes = {0};
+    struct plan plain = *c->study->plan; /* no variant, no modes */
+    struct study study = *c->study;
+    const struct study_cell cell = {.deck = d};
+    plain.variant = &variant;
+    plain.modes = &modes;
+    study.plan = &plain;
+    message_open(found, &c->scratch);
+    return jobs_read_fitted(&c->scratch, &study, &cell, found, states);
+}
+
+/* The files of a deck, those that no deck before it has; of several states the last one has all. */
+static int keep_files(struct checker *c, const struct states *states)
+{
+    struct study *study = c->study;
+    const struct job *job = &states->state[states->nstate - 1].job;
+    for (int i = 0; i < job->nfile; i++) {
+        int known = 0;
+        while (known < study->nfile && strcmp(study->file[known], job->file[i]) != 0)
+            known++;
+        if (known < study->nfile)
+            continue;
+        const char **grown = pool_grow(c->pool, study->file, (size_t)study->nfile, &study->file_room, sizeof *grown);
+        if (!grown || !(grown[study->nfile] = pool_copy_text(c->pool, job->file[i])))
+            return ROTID_ERROR_MEMORY;
+        study->file = grown;
+        study->nfile++;
+    }
+    return ROTID_OK;
+}
+
+static void check_sensors(struct checker *c, const struct study_cell *cell, const struct job *job)
+{
+    const struct plan *plan = c->study->plan;
+    int highest = 0, nsensor = job->rotor.nsensor;
+    char text[512];
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
+    for (int s = 0; s < plan->nsensors; s++) {
+        const struct plan_sensors *sensors = &plan->sensors[s];
+        int left = sensors->keep ? sensors->keep : sensors->every ? (nsensor + sensors->every - 1) / sensors->every : nsensor;
+        if (!sensors->text)
+            continue;
+        *text = 0;
+        if (!nsensor)
+            (void)snprintf(text, sizeof text, "deck %s has no sensors, expected a plan without *SENSORS",
+                           plan->deck[cell->deck].name);
+        else if (left > nsensor)
+            (void)snprintf(text, sizeof text, "deck %s has %d sensors, expected not more than that", plan->deck[cell->deck].name,
+                           nsensor);
+        else if (job->options.fit.reduction != ROTID_REDUCTION_NONE && left < 2 * highest)
+            (void)snprintf(text, sizeof text,
+                           "%d sensors are too few to condense deck %s onto for mode %d, expected at least twice as many as "
+                           "modes, or FIT.REDUCTION=NONE",
+                           left, plan->deck[cell->deck].name, highest);
+        if (*text)
+            report(c, sensors->place, text);
+    }
+}
+
+/* In one of the states at least. */
+static void check_truth(struct checker *c, int d, const struct states *states)
+{
+    const struct plan *plan = c->study->plan;
+    for (int t = 0; t < plan->ntruth; t++) {
+        struct parameter parameter;
+        const char *unit;
+        char text[512];
+        (void)snprintf(text, sizeof text, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
+                       plan->deck[d].name);
+        int found = 0;
+        for (int s = 0; s < states->nstate; s++)
+            found |= !parameter_find(&states->state[s].job.rotor, plan->truth[t].name, &parameter, &unit);
+        if (!found)
+            report(c, plan->truth[t].place, text);
+    }
+}
+
+static int check_hidden(struct checker *c, int d)
+{
+    const struct plan *plan = c->study->plan;
+    int status = ROTID_OK;
+    for (int h = 0; h < plan->nhide && status != ROTID_ERROR_MEMORY; h++) {
+        struct message_list found;
+        struct truth *truth;
+        message_open(&found, &c->scratch);
+        if (plan->hide[h].lower)
+            status = jobs_read_truth(&c->scratch, c->study, d, h, &found, &truth);
+        for (size_t i = 0; i < found.count; i++)
+            if (found.item[i].severity == SEVERITY_ERROR)
+                report(c, (struct place){found.item[i].file, found.item[i].line, found.item[i].column}, found.item[i].text);
+    }
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+}
+
+static int check_variants(struct checker *c, int d)
+{
+    const struct plan *plan = c->study->plan;
+    struct study_cell cell = {.deck = d};
+    for (cell.variant = 0; cell.variant < plan->nvariant; cell.variant++)
+        for (cell.modes = 0; cell.modes < plan->nmodes; cell.modes++) {
+            struct message_list found;
+            struct states states;
+            message_open(&found, &c->scratch);
+            int status = jobs_read_fitted(&c->scratch, c->study, &cell, &found, &states);
+            if (status == ROTID_ERROR_MEMORY)
+                return status;
+            if (status) {
+                blame_plan(c, &cell, &found);
+                continue;
+            }
+            if (keep_files(c, &states))
+                return ROTID_ERROR_MEMORY;
+            for (int s = 0; s < states.nstate; s++) {
+                check_sensors(c, &cell, &states.state[s].job);
+                if (!cell.modes)
+                    digest_measured(&c->check->data, &states.state[s].job);
+            }
+            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = states.nparameter;
+        }
+    return ROTID_OK;
+}
+
+/* What a run cannot do without. */
+static void check_states(const struct plan *plan, const struct states *states, struct message_list *found)
+{
+    const char *deck = states->state[0].job.deck;
+    for (int s = 0; s < states->nstate; s++)
+        if (!states->state[s].job.measurement.nmode)
+            message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                        states->nstate > 1 ? " in state " : "", states->nstate > 1 ? states->state[s].name : "");
+    if (!states->nparameter && plan->command == PLAN_IDENTIFY)
+        message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
+}
+
+static int check_deck(struct checker *c, int d)
+{
+    const struct plan *plan = c->study->plan;
+    struct message_list found;
+    struct deck_text text;
+    struct states states;
+    message_open(&found, &c->scratch);
+    digest_text(&c->check->decks, plan->deck[d].name);
+    int status = deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
+    if (status == ROTID_ERROR_MEMORY)
+        return status;
+    digest_cards(&c->check->decks, &text);
+    status = read_plain(c, d, &found, &states);
+    if (!status)
+        status = keep_files(c, &states);
+    if (status == ROTID_ERROR_MEMORY)
+        return status;
+    if (!status)
+        check_states(plan, &states, &found);
+    if (status || found.errors)
+        return give_up(c, d, &found);
+    check_truth(c, d, &states);
+    status = check_hidden(c, d);
+    return status ? status : check_variants(c, d);
+}
+
+/* Fills study->deck[].error and study->file. Errors of the plan go to the list with their places in it, decks that are wrong as
+ * they stand as warnings. ROTID_OK, ROTID_ERROR_SYNTAX (also where no deck can be used), ROTID_ERROR_MEMORY. */
+static int check_decks(struct pool *pool, struct study *study, struct message_list *messages, struct check *check)
+{
+    const struct plan *plan = study->plan;
+    struct checker c = {.pool = pool, .study = study, .messages = messages, .check = check};
+    int status = ROTID_OK, bad = 0;
+    check->nparameter = POOL_ARRAY(pool, int, (size_t)plan->nvariant *(size_t)plan->ndeck);
+    if (!check->nparameter)
+        return ROTID_ERROR_MEMORY;
+    digest_open(&check->decks);
+    digest_open(&check->data);
+    for (int d = 0; d < plan->ndeck && !status; d++) {
+        pool_open(&c.scratch, pool->allocator);
+        status = check_deck(&c, d);
+        pool_close(&c.scratch);
+        bad += study->deck[d].error != NULL;
+    }
+    for (size_t i = 0; i < messages->count && !status && bad == plan->ndeck;
+         i++) { /* to be said whether warnings are wanted or not */
+        messages->item[i].severity = SEVERITY_ERROR;
+        messages->errors++;
+    }
+    if (!status && bad == plan->ndeck)
+        message_add(messages, SEVERITY_ERROR, plan->path ? plan->path : plan->deck[0].path, 1, 1,
+                    plan->ndeck > 1 ? "none of the decks can be used: nothing was computed"
+                                    : "the deck cannot be used: nothing was computed");
+    if (!status && !messages->errors && bad)
+        message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%d of %d decks cannot be used: their runs are recorded as failed",
+                    bad, plan->ndeck);
+    return status ? status : messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+}
 
 /* Cells of one deck and variant. */
 static long cells(const struct plan *plan)

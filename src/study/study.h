@@ -1,11 +1,129 @@
-/* A study: a plan with the decks it names, checked and counted. Run i of it is known by i alone: its result depends on the plan,
- * its files, the seed and i, not on who computes it or when. */
 #ifndef ROTID_STUDY_STUDY_H
 #define ROTID_STUDY_STUDY_H
 
-#include "base/message.h"
-#include "study/digest.h"
-#include "study/plan.h"
+#include <cJSON.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/types.h>
+
+#include "base/base.h"
+#include "deck/deck.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
+#include "result/result.h"
+#include "run/run.h"
+
+/* ---------------------------------------------------------------------------------------------------------------- digest */
+
+/* What tells whether two things mean the same: 64 bits of everything that is fed in. Comments, blanks and the places of files do
+ * not count. Against accidents, not against malice. */
+
+#define DIGEST_LETTERS 16
+
+struct digest {
+    uint64_t state;
+};
+
+void digest_open(struct digest *digest);
+void digest_bytes(struct digest *digest, size_t count, const void *bytes);
+/* Numbers by their bits. */
+void digest_integer(struct digest *digest, long long value);
+/* Includes the terminating zero, so that "a", "bc" is not "ab", "c". NULL is not "". */
+void digest_text(struct digest *digest, const char *text);
+/* Names, options and data lines of the cards. */
+void digest_cards(struct digest *digest, const struct deck_text *text);
+/* What was measured, as the deck and its files say it. */
+void digest_measured(struct digest *digest, const struct job *job);
+/* Hexadecimal, with an end. */
+void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1]);
+
+/* A number from a text, for streams of random numbers that have names. */
+uint64_t digest_name(const char *name);
+
+/* ------------------------------------------------------------------------------------------------------------------ plan */
+
+/* A plan of many runs, as its file states it: keyword cards, docs/study.md. */
+
+enum plan_command { PLAN_IDENTIFY, PLAN_DIAGNOSE };
+
+struct plan_deck {
+    const char *name, *path; /* as written; as seen from where the program runs */
+    struct place place;
+};
+
+struct plan_variant {
+    const char *name;
+    int noverride;
+    struct override *override; /* their text is that of `place` below, so that what the deck says of them can be placed */
+    struct place *place;       /* [noverride] */
+};
+
+struct plan_modes { /* what FIT, MODES= takes */
+    const char *text;
+    struct place place;
+};
+
+struct plan_sensors { /* keep > 0: so many, drawn anew for each replicate; every > 0: the first and each one so far on; else all
+                       */
+    const char *text;
+    int keep, every;
+    struct place place;
+};
+
+struct plan_noise { /* relative standard deviations, 0: none is added; shape NaN where the line states none */
+    double frequency, shape;
+};
+
+struct plan_truth { /* a parameter of the model that makes the data, drawn between the two */
+    const char *name;
+    double lower, upper;
+    struct place place;
+};
+
+struct plan_hide {
+    const char *name;
+    const struct card *lower, *upper; /* CAUSE cards with the values at either end; NULL: nothing is hidden */
+    struct place place;
+};
+
+struct plan {
+    const char *path; /* NULL where decks were named on the command line */
+    struct deck_text text;
+    enum plan_command command;
+    unsigned long seed;
+    int replicates, baseline, bootstrap; /* bootstrap: replicates inside a diagnosis, 0: its own choice */
+    int ndeck;
+    struct plan_deck *deck;
+    /* axes; one that is not in the file has one entry, with a name or text of NULL */
+    int nvariant, nmodes, nsensors, nnoise, nhide;
+    struct plan_variant *variant;
+    struct plan_modes *modes;
+    struct plan_sensors *sensors;
+    struct plan_noise *noise;
+    struct plan_hide *hide;
+    int has_noise;
+    int from_model; /* DATA, SOURCE=MODEL */
+    int no_shapes;  /* DATA, SHAPES=NO */
+    int ntruth;
+    struct plan_truth *truth;
+    double spread;   /* of the starts, relative; 0: those of the deck */
+    int count, grid; /* starts drawn for each replicate; or points along each parameter */
+};
+
+/* Reads a plan; every error goes to the list with its place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO, ROTID_ERROR_MEMORY. */
+int plan_read(struct pool *pool, const char *path, struct message_list *messages, struct plan *plan);
+
+/* The plan that runs each deck once as it stands. ROTID_OK or ROTID_ERROR_MEMORY. */
+int plan_of_decks(struct pool *pool, int count, char *const *path, struct plan *plan);
+
+/* Whether the cards of a file have *STUDY among them; 0 also where it cannot be read. */
+int plan_is(const char *path);
+
+/* ----------------------------------------------------------------------------------------------------------------- study */
+
+/* A study: a plan with the decks it names, checked and counted. Run i of it is known by i alone: its result depends on the plan,
+ * its files, the seed and i, not on who computes it or when. */
 
 #define STUDY_MOST_RUNS 10000000
 
@@ -47,5 +165,394 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
 
 /* 0 <= run < study->runs. Inside a cell the starts follow each other, then the replicates. */
 struct study_point study_locate(const struct study *study, long run);
+
+/* ----------------------------------------------------------------------------------------------------------------- check */
+
+/* What the decks of a plan are before the first run: which can be read, how many parameters they have, what they mean. */
+
+struct check {
+    int *nparameter; /* [nvariant * ndeck] */
+    struct digest decks, data;
+};
+
+/* ------------------------------------------------------------------------------------------------------------------ draw */
+
+/* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
+ * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
+ * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */
+
+enum draw_purpose { DRAW_TRUTH = 1, DRAW_HIDDEN, DRAW_SENSOR, DRAW_FREQUENCY, DRAW_SHAPE, DRAW_START };
+
+/* ------------------------------------------------------------------------------------------------------------------ jobs */
+
+/* The jobs behind a run: the deck as it is to be fitted, and the deck that makes the data. */
+
+/* The deck of a cell in its variant, with its modes; where it does not state the noise that the plan adds, and its functional
+ * would be another one for that, or none, with that as *NOISE. Statuses of deck_read. */
+int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
+                     struct states *states);
+
+/* A state of a deck, or a deck that is one, as it stands, with a hidden effect. */
+struct truth {
+    struct job job;
+    const struct cause_kind *cause; /* NULL: nothing is hidden */
+    struct effect *effect;          /* of the job's rotor; NULL where the cause acts on the data */
+    struct correction fault;        /* of such a cause */
+    double lower[EFFECT_MOST_PARAMETERS], upper[EFFECT_MOST_PARAMETERS];
+};
+
+/* That of each state; what is hidden is in all. ROTID_ERROR_SYNTAX also where a range is upside down. */
+int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide_index, struct message_list *messages,
+                    struct truth **truths);
+
+/* The name of parameter p of a cause, physical or not; NULL behind the last. */
+const struct effect_parameter_name *truth_parameter(const struct truth *truth, int p);
+
+/* What one process works with: the jobs read last, since runs that follow each other mostly share them. */
+struct jobs {
+    const struct study *study;
+    struct pool fitted_pool, truth_pool;
+    struct study_cell fitted_of, truth_of;
+    int has_fitted, has_truth; /* 1, or -1 where it could not be read: fitted_messages or truth_messages say why */
+    struct states fitted;
+    struct truth *truth; /* of each state */
+    struct message_list fitted_messages, truth_messages;
+};
+
+void jobs_open(const struct study *study, struct jobs *jobs);
+void jobs_close(struct jobs *jobs);
+
+/* Pointers into *jobs, valid until the next call. Statuses as above; the messages say what is wrong. */
+int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct states **states);
+int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **truth);
+
+/* ------------------------------------------------------------------------------------------------------------ experiment */
+
+/* The job of one run: the model that is fitted, with the data, the noise, the sensors and the start of this run. */
+
+struct experiment {
+    struct states states;        /* with the data of this run; of a deck without *STATE one */
+    struct job *job;             /* of the first */
+    double *truth;               /* [states.nparameter] NaN where not known; NULL where the data are measured */
+    const struct truth *made_by; /* [states.nstate] NULL where the data are measured; its effect or fault holds the values that
+                                    were drawn, the same in all */
+    double length;               /* of the rotor, in the first state [m] */
+};
+
+/* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read,
+ * model_open and the prediction; ROTID_ERROR_ARGUMENT where the model has fewer modes than were measured. */
+int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
+                    struct experiment *experiment);
+
+/* The steps of it. */
+
+/* ---------------------------------------------------------------------------------------------------------------- header */
+
+/* The first line of a file of results: which study it is of. */
+
+struct header {
+    const char *version, *commit; /* of the program that computed the runs */
+    const char *plan;             /* path as given, NULL where decks were named */
+    const char *studies;          /* "identify", "diagnose" */
+    const char *plan_digest, *decks_digest, *data_digest, *options_digest;
+    unsigned long seed;
+    long runs;         /* of the whole study */
+    int shard, shards; /* runs with run % shards == shard - 1; 1 of 1: all */
+};
+
+struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards);
+
+/* With the line feed at its end, to be freed with json_free; NULL where memory is out. */
+char *header_text(const struct header *header);
+
+/* Texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is no header of results, ROTID_ERROR_MEMORY. */
+int results_header_read(struct pool *pool, const cJSON *object, struct header *header);
+
+/* What differs in "the file ..., here ...", such as "the plan has changed"; NULL where they are of one study. The shard does not
+ * count. ROTID_OK or ROTID_ERROR_MEMORY. */
+int header_difference(struct pool *pool, const struct header *file, const struct header *here, const char **text);
+
+/* ------------------------------------------------------------------------------------------------------------------ line */
+
+/* The text of one line of the file of results. */
+
+struct line {
+    const struct study *study;
+    long run;
+    struct study_point point;
+    double begin; /* on the clock */
+};
+
+/* result [states of the experiment], fit: of all. Each with the line feed at its end, to be freed with json_free; NULL where
+ * memory is out. */
+char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
+                      const rotid_fit_result *fit, const struct message_list *notes);
+char *line_diagnosed(const struct line *line, const struct experiment *experiment, const struct diagnosis *result,
+                     const struct message_list *notes);
+char *line_failed(const struct line *line, const char *error, double seconds);
+
+/* ----------------------------------------------------------------------------------------------------------------- merge */
+
+/* Shards, or other parts of one study, into one file of results in order of the runs: byte for byte what one program alone would
+ * have written, but for the times. */
+
+struct merge {
+    long runs, missing, failed;
+    const char *list; /* of the runs that are missing, "3, 7-9"; the first few of many */
+};
+
+/* Reads `part` [count] and writes `path`, which must not exist. A run in several parts must have the same result in all, but for
+ * its time; where it failed in some and not in others, it is taken from those where it did not. What is missing is no error: the
+ * file is then that of a study which goes on. ROTID_OK; ROTID_ERROR_ARGUMENT where the parts are not of one study or contradict
+ * each other, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO: the list says so, and nothing is written; ROTID_ERROR_MEMORY. */
+int merge_results(struct pool *pool, int count, char *const *part, const char *path, struct message_list *messages,
+                  struct merge *merge);
+
+/* ------------------------------------------------------------------------------------------------------------ plan cards */
+
+/* The readers of the cards of a plan, by file. */
+
+struct plan_reader {
+    struct deck_reader fields; /* pool, messages and end of memory, for the readers of single fields */
+    struct plan *plan;
+    size_t deck_room, variant_room, modes_room, sensors_room, noise_room, hide_room, truth_room;
+    const struct card *study_card, *data_card, *starts_card, *truth_card, *hide_card;
+};
+
+void plan_study(struct plan_reader *reader, const struct card *card);
+void plan_decks(struct plan_reader *reader, const struct card *card);
+void plan_variant(struct plan_reader *reader, const struct card *card);
+void plan_modes(struct plan_reader *reader, const struct card *card);
+void plan_sensors(struct plan_reader *reader, const struct card *card);
+void plan_data(struct plan_reader *reader, const struct card *card);
+void plan_truth(struct plan_reader *reader, const struct card *card);
+void plan_noise(struct plan_reader *reader, const struct card *card);
+void plan_starts(struct plan_reader *reader, const struct card *card);
+void plan_hide(struct plan_reader *reader, const struct card *card);
+
+/* ---------------------------------------------------------------------------------------------------------------- record */
+
+/* The file of results while a study writes it. Each line goes to its end with one write, so that whatever ends the program leaves
+ * whole lines and at most one that is cut, which the next start removes. One process at a time holds its lock. */
+
+enum record_state { RUN_MISSING, RUN_DONE, RUN_FAILED };
+
+struct study_record {
+    int descriptor;
+    char *path; /* without symbolic links */
+    struct header header;
+    char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
+    char *state;                    /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
+    long wanted, done, failed;      /* of the shard; failed ones are among those done */
+    long next;                      /* where record_take goes on */
+    long last;                      /* of the last line, -1 where there is none */
+    int in_order;                   /* the lines stand in order of the runs, once each */
+    off_t length;
+    int unsynced;
+    double synced; /* on the clock */
+};
+
+/* Opens or creates the file of the study that the header tells, and locks it. What is cut at its end goes; everything else stays
+ * as it is. ROTID_OK; ROTID_ERROR_ARGUMENT where the file is something else, of another study or in use, ROTID_ERROR_IO: the list
+ * says why; ROTID_ERROR_MEMORY. Without ROTID_OK nothing is open. */
+int record_open(struct pool *pool, const char *path, const struct header *header, int retry_failed, struct message_list *messages,
+                struct study_record *record);
+
+/* The next run that is missing and was not given out yet, or -1. */
+long record_take(struct study_record *record);
+
+/* Appends the line of a run, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
+ * before. */
+int record_append(struct study_record *record, long run, const char *line, int failed);
+
+/* To the disk, where there is something new and the last time is a second ago; now [s] of the clock, infinity: in any case.
+ * ROTID_OK or ROTID_ERROR_IO with errno. */
+int record_sync(struct study_record *record, double now);
+
+/* With every run there: writes the lines in order of the runs to a new file, which takes the place of this one, unless they stand
+ * so already. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file is as it was. */
+int record_finish(struct pool *pool, struct study_record *record);
+
+void record_close(struct study_record *record);
+
+/* ----------------------------------------------------------------------------------------------------------------- stamp */
+
+/* What a line of results carries so that it can be told from a line that was changed or belongs elsewhere: which study it is of,
+ * and a digest of everything before. One byte that is changed always changes the digest, more of them but once in 2^64. Against
+ * accidents: whoever wants to forge a line can compute its digest. */
+
+/* Of version and commit of the program, plan, decks, data, options, seed and number of runs: of all that the runs depend on. */
+void stamp_study(const struct header *header, char study[DIGEST_LETTERS + 1]);
+
+/* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
+char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line);
+
+enum stamp_fault { STAMP_GOOD, STAMP_NONE, STAMP_CHANGED, STAMP_OTHER_STUDY };
+
+/* line [length] with its line feed */
+enum stamp_fault stamp_check(const char study[DIGEST_LETTERS + 1], const char *line, size_t length);
+
+/* --------------------------------------------------------------------------------------------------------------- results */
+
+/* Reading a file of results, line by line, without ever holding more than one. */
+
+struct results {
+    int descriptor; /* the caller's: it stays open, and where it stands does not matter */
+    const char *path;
+    struct message_list *messages;
+    struct header header;
+    char study[DIGEST_LETTERS + 1]; /* what its lines are stamped with */
+    char *there;                    /* [header.runs] 1: a line of the run failed, 2: one did not */
+    int number;                     /* of the line read last, from 1 */
+    off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
+    off_t size;                     /* of the file, beyond `next` where the last line is cut */
+    struct pool line;               /* of the line read last */
+    char *buffer;
+    size_t capacity, first, count; /* bytes of the buffer not yet given out */
+};
+
+struct result_line {
+    long run;
+    int failed;
+    const char *text; /* [length] with the line feed; until the next line is read */
+    size_t length;
+    off_t offset;
+    const struct study_run *said; /* until the next line is read */
+};
+
+/* Reads the header. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else, ROTID_ERROR_IO: the list says so;
+ * ROTID_ERROR_MEMORY. Header texts go to the pool; results_close also after an error. */
+int results_open(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results);
+/* ROTID_OK with the next line, 1 behind the last whole one, ROTID_ERROR_SYNTAX, _IO (both with a message) or _MEMORY. *line: the
+ * one before, or zeros. A line that was changed, is of another study or of a run that stands there already, unless that had
+ * failed, is an error: which of the two counts, or what the line said, nobody knows here. */
+int results_next(struct results *results, struct result_line *line);
+void results_close(struct results *results);
+
+struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
+    off_t offset;
+    size_t length;
+};
+
+/* Where the runs of a file stand: *place [header->runs]; *most: the length of the longest line. Statuses of results_next. */
+int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
+                  struct result_place **place, size_t *most);
+
+/* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
+const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
+
+/* Whether the line is that of a run that failed. */
+int result_failed(const char *line);
+
+/* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
+int results_fetch(int descriptor, struct result_place place, char *text);
+
+/* ------------------------------------------------------------------------------------------------------------------- run */
+
+/* One run of a study, as one line of JSON: docs/schema/study_line.schema.json. Knows nothing of files, processes or machines. */
+
+/* Computes a run. *line: its text with the line feed at its end, to be freed with json_free; also where the run failed, which is
+ * a result. ROTID_OK; ROTID_STOP_CANCELLED where the environment ended it, and ROTID_ERROR_MEMORY where there is no room for the
+ * text: then there is no line. Uses one thread. */
+int study_run(struct jobs *jobs, long run, const rotid_environment *environment, char **line);
+
+/* The line of a run that could not be finished, such as "worker ended by signal 9". NULL where memory is out. */
+char *study_run_failed(const struct study *study, long run, const char *error, double seconds);
+
+/* ----------------------------------------------------------------------------------------------------------------- score */
+
+/* The verdict of a diagnosis beside the effect that was hidden. */
+
+enum score {                    /* their words: score_words of result/study.h */
+             SCORE_QUIET,       /* nothing was hidden and nothing was found */
+             SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
+             SCORE_RIGHT,       /* named, and nothing else */
+             SCORE_IN_SET,      /* among those that cannot be told apart */
+             SCORE_OTHER_SET,   /* not among those */
+             SCORE_SILENT,      /* judged adequate */
+             SCORE_UNEXPLAINED,
+             SCORE_WRONG, /* something else was named */
+             SCORE_COUNT
+};
+
+/* The experiment's data were made by a model. A cause is the hidden one by its id, its target, and where it has a place by that,
+ * within its width or 3 % of the length; a mass is a mass, whether it is called added or that of an accelerometer there; one that
+ * is said to act in one state alone is another one. A fault of the data is known by its id, sensors and block. */
+enum score score_make(const struct experiment *experiment, const struct diagnosis *diagnosis);
+
+/* --------------------------------------------------------------------------------------------------------------- summary */
+
+/* What a file of results says as a whole: for each cell how its runs ended, what they found and how far that is from the truth.
+ */
+
+/* Reads a file of results, finished or not, with its header. ROTID_OK; ROTID_ERROR_SYNTAX where it is something else,
+ * ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header,
+                 struct study_result *summary);
+
+/* For a person. */
+void summary_table(FILE *out, const struct study_result *summary);
+
+/* Whether two runs are of one cell. */
+int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
+/* Whether the diagnoses of a cell could be compared with the hidden effects. */
+int summary_is_scored(const struct study_cell_result *cell);
+
+/* ---------------------------------------------------------------------------------------------------------------- worker */
+
+/* One worker process, seen from the one that hands out the runs. */
+
+#define WORKER_NO_MEMORY 3 /* exit code of a process that had no room for its line */
+
+struct worker {
+    pid_t process; /* 0: there is none */
+    int socket;
+    long run;     /* under way, -1: none */
+    double begun; /* on the clock */
+    char *answer; /* [room] the bytes that have arrived: its length, then the line */
+    size_t count, room;
+};
+
+/* Starts a process; others [nothers] are the workers there are, whose sockets it must not keep open. ROTID_OK, or ROTID_ERROR_IO
+ * with errno. */
+int worker_start(const struct study *study, int (*cancelled)(void *context), void *context, int nothers,
+                 const struct worker *others, struct worker *worker);
+
+/* Hands out a run. ROTID_OK, or ROTID_ERROR_IO where the process is gone. */
+int worker_give(struct worker *worker, long run);
+
+/* Takes what has arrived. 1: the answer is whole, its line in *line until the next call and the run no longer under way; 0: not
+ * yet; ROTID_ERROR_IO: the process is gone; ROTID_ERROR_MEMORY. */
+int worker_take(struct worker *worker, const char **line);
+
+/* Tells it to end: at once with the signal, 0: when it reads on. */
+void worker_tell(struct worker *worker, int signal_number);
+
+/* Waits until it has ended and forgets it; returns what waitpid says. */
+int worker_end(struct worker *worker);
+
+/* --------------------------------------------------------------------------------------------------------------- workers */
+
+/* Runs of a study in processes of this machine. Each takes the number of a run, computes it and gives back its line; one that
+ * dies costs its run, which is recorded as failed, and is replaced. */
+
+struct study_progress {
+    long done, wanted, failed; /* of the file */
+    long computed;             /* by this program */
+    double seconds;            /* since it began with them */
+};
+
+struct workers_options {
+    int workers;    /* >= 1 */
+    double timeout; /* [s] a run may take, 0: any time */
+    int (*cancelled)(void *context);
+    void (*progress)(void *context, const struct study_progress *progress); /* NULL, or called a few times a second */
+    void *context;
+};
+
+/* Computes the runs that are missing in the record. Handlers of signals are inherited by the workers, of which `cancelled` is
+ * asked as well. ROTID_OK: every run is there; ROTID_STOP_CANCELLED: what was finished is there; ROTID_ERROR_IO (errno): the file
+ * cannot be written, or no process can be started; ROTID_ERROR_MEMORY. Leaves no process behind. */
+int workers_run(struct pool *pool, const struct study *study, const struct workers_options *options, struct study_record *record);
 
 #endif

@@ -1,4 +1,4 @@
-#include "study/summary.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <math.h>
@@ -6,9 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "file/open.h"
-#include "result/judgement.h"
-#include "study/results.h"
+#include "file/file.h"
+#include "result/result.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
 #define NO_OBJECTIVE   1e-10 /* exact data leave rounding, which has no relative accuracy */

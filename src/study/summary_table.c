@@ -2,9 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "report/layout.h"
-#include "study/score.h"
-#include "study/summary.h"
+#include "report/report.h"
+#include "study/study.h"
 
 #define WIDTH      100
 #define WIDEST     28 /* of a column of names */

@@ -1,4 +1,4 @@
-#include "study/worker.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -12,9 +12,8 @@
 #include <sys/prctl.h>
 #endif
 
-#include "base/clock.h"
-#include "result/json_tree.h"
-#include "study/run.h"
+#include "base/base.h"
+#include "result/result.h"
 
 struct worker_stop {
     int (*cancelled)(void *context);

@@ -1,4 +1,4 @@
-#include "study/workers.h"
+#include "study/study.h"
 
 #include <errno.h>
 #include <math.h>
@@ -8,11 +8,8 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include "base/clock.h"
-#include "result/json_tree.h"
-#include "study/results.h"
-#include "study/run.h"
-#include "study/worker.h"
+#include "base/base.h"
+#include "result/result.h"
 
 #define TICK        0.2 /* s between two looks at the clock */
 #define GRACE       0.3 /* s for a worker to end by itself once it has been told to */

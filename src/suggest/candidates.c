@@ -1,12 +1,169 @@
-#include "suggest/candidates.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "suggest/joint_fit.h"
-#include "suggest/margin.h"
-#include "suggest/pair_design.h"
+#include "diagnose/diagnose.h"
+#include "run/run.h"
+
+#define OWN_RANGE 1e3 /* bounds of what has a value of its own in a state, from its start */
+
+int joint_measurement(struct pool *pool, const struct rival *a, const double *x, const struct test *test,
+                      struct job_measurement *measured)
+{
+    int n = a->job.unknowns.nparameter;
+    const struct planned plan = {test->modes, test->number, test->frequency_std, test->nsensor ? test->shape_std : 0};
+    double *x_test = POOL_ARRAY(pool, double, n);
+    int *own = POOL_ARRAY(pool, int, n);
+    struct job job;
+    int status = x_test && own ? test_apply(pool, test, &a->job, x, &job, x_test, own) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = planned_measure(pool, &job, x_test, &plan, &job);
+    if (!status)
+        *measured = job.measurement;
+    return status;
+}
+
+/* The state of the test behind those of the rival, its unknowns those of the rival's home but for the ones of its own, which
+ * follow in states->bounds. */
+static int open_state(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
+                      struct states *states)
+{
+    const struct state *home = &b->states.state[b->home];
+    struct state *state = &states->state[states->nstate - 1];
+    int n = b->job.unknowns.nparameter, *own = POOL_ARRAY(pool, int, n);
+    double *x = POOL_ARRAY(pool, double, n);
+    *state = (struct state){.name = "test", .ncommon = n, .unknown = POOL_ARRAY(pool, int, n)};
+    int status = own && x && state->unknown ? test_apply(pool, test, &b->job, b->x, &state->job, x, own) : ROTID_ERROR_MEMORY;
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n);
+    if (status || !bounds)
+        return status ? status : ROTID_ERROR_MEMORY;
+    state->job.measurement = *measured;
+    for (int p = 0; p < n; p++) {
+        bounds[p] = b->job.unknowns.bounds[p];
+        state->unknown[p] = state_unknown(home, p);
+        if (!own[p])
+            continue;
+        bounds[p] = (rotid_parameter){.name = pool_format(pool, "test:%s", bounds[p].name),
+                                      .unit = bounds[p].unit,
+                                      .lower = x[p] / OWN_RANGE,
+                                      .upper = x[p] * OWN_RANGE,
+                                      .start = x[p]};
+        if (!bounds[p].name)
+            return ROTID_ERROR_MEMORY;
+        state->unknown[p] = states->nparameter;
+        states->bounds[states->nparameter++] = bounds[p];
+    }
+    state->job.unknowns.bounds = bounds;
+    return ROTID_OK;
+}
+
+int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
+               const rotid_environment *environment, double *chi2)
+{
+    int n = b->states.nparameter, count = b->states.nstate + 1;
+    struct states states = {count, POOL_ARRAY(pool, struct state, count), n, POOL_ARRAY(pool, rotid_parameter, 2 * n)};
+    struct identification *out = POOL_ARRAY(pool, struct identification, count);
+    rotid_fit_result *fit = NULL;
+    struct message_list quiet;
+    message_open(&quiet, pool);
+    if (!states.state || !states.bounds || !out)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s + 1 < count; s++) {
+        states.state[s] = b->states.state[s];
+        states.state[s].name = states.state[s].name ? states.state[s].name : "measured";
+    }
+    for (int p = 0; p < n; p++)
+        states.bounds[p] = b->states.bounds[p];
+    int status = open_state(pool, b, test, measured, &states);
+    if (!status)
+        status = identify_states(pool, &states, 0, environment, &quiet, out, &fit);
+    if (status)
+        return status;
+    if (fit->status == ROTID_STOP_CANCELLED)
+        status = ROTID_STOP_CANCELLED;
+    *chi2 = fit->chi2;
+    rotid_fit_free(fit);
+    return status;
+}
+
+#define MOST_OF_SET 3 /* rivals, of which all pairs are taken */
+
+static const struct effect_kind nothing = {.id = "none"};
+
+static int one_pair(struct pool *pool, const struct rivals *rivals, const struct rival *a, const struct rival *b,
+                    const struct places *places, double frequency_std, double shape_std, struct design *d)
+{
+    struct effect none = {.kind = &nothing};
+    struct columns *c = POOL_NEW(pool, struct columns);
+    const struct planned plan = {rivals->nmode, rivals->number, frequency_std, shape_std};
+    struct job source, job;
+    int n = b->fit->n, used = 0, q = 0;
+    for (int p = 0; p < n; p++)
+        used += rival_uses(b, p);
+    int status = c ? planned_sensors(pool, &a->job, places->n, places->z, &source) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = planned_measure(pool, &source, a->x, &plan, &source);
+    if (!status)
+        status = planned_sensors(pool, &b->job, places->n, places->z, &job);
+    if (status)
+        return status;
+    job.measurement = source.measurement;
+    status = columns_open(pool, &job, job.measurement.number, job.measurement.holdout, &none, b->x, c);
+    if (!status)
+        status = columns_prepare(c);
+    if (!status)
+        status = design_new(pool, rivals->nmode, places->n, used, 1, d);
+    if (status)
+        return status;
+    d->targets_alone = 1;
+    rival_gram(b, NULL, used, d->prior);
+    for (int p = 0; p < n && !status; p++) {
+        double *column = d->column + (ptrdiff_t)q * c->nrow;
+        if (!rival_uses(b, p))
+            continue;
+        int own = rival_own(b, p);
+        if (own >= 0)
+            status = columns_parameter(c, own, column);
+        for (int i = 0; i < c->nrow && own >= 0; i++)
+            column[i] *= b->x[own];
+        d->prior[q + (ptrdiff_t)q * used] *= 1 + 1e-9; /* a direction that the data leave open */
+        q++;
+    }
+    memcpy(d->column + (ptrdiff_t)used * c->nrow, c->r, (size_t)c->nrow * sizeof *c->r);
+    for (int k = 0; k < d->nmode && !status; k++)
+        for (int i = 0; i < d->nplace; i++) {
+            ptrdiff_t cell = i + (ptrdiff_t)k * d->nplace;
+            d->scale[cell] = c->mode[k].weighted[i];
+            d->largest[cell] = fabs(job.measurement.shape[cell]);
+        }
+    return status;
+}
+
+/* design [ndesign]: the target is what rival b lacks where a is true, in the same test again at all the places, the parameters
+ * are those of b with what is measured as prior; for the pairs of the best of the set, both ways, beside the model as it is where
+ * there is one alone. None where the modes of such a pair have no partner. Statuses of memory and cancellation only. */
+static int pair_designs(struct pool *pool, const struct rivals *rivals, const struct places *places, double frequency_std,
+                        double shape_std, int *ndesign, struct design **design)
+{
+    int set = rivals->n - 1, most = set > MOST_OF_SET ? MOST_OF_SET : set;
+    *ndesign = 0;
+    *design = POOL_ARRAY(pool, struct design, (size_t)(most + 1) * (size_t)(most + 1));
+    if (!*design)
+        return ROTID_ERROR_MEMORY;
+    for (int a = 0; a < most; a++)
+        for (int b = 0; b < (set > 1 ? most : 2); b++) {
+            if (a == b)
+                continue;
+            int status = one_pair(pool, rivals, &rivals->rival[a], &rivals->rival[b], places, frequency_std, shape_std,
+                                  *design + *ndesign);
+            if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+                return status;
+            *ndesign += !status;
+        }
+    return ROTID_OK;
+}
 
 #define MOST_TESTS    16
 #define MASS_PLACES   9

@@ -1,9 +1,9 @@
-#include "suggest/design.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "linalg/cholesky.h"
+#include "linalg/linalg.h"
 #include "rotid.h"
 
 #define MOST_PASSES 4    /* of exchanges: the second one seldom finds anything */

@@ -1,12 +1,11 @@
-#include "suggest/margin.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/random.h"
-#include "diagnose/columns.h"
-#include "linalg/cholesky.h"
-#include "linalg/product.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "linalg/linalg.h"
 
 static const struct effect_kind nothing = {.id = "none"};
 
@@ -169,7 +168,8 @@ int margin_distances(struct pool *pool, const struct rivals *rivals, const struc
     return status;
 }
 
-int margin_suffices(const struct rivals *rivals, int truth, const double *lead)
+/* Whether a lead M [n] of rival `truth` over each other one names it: the last one is the model as it is. */
+static int margin_suffices(const struct rivals *rivals, int truth, const double *lead)
 {
     for (int b = 0; b < rivals->n; b++)
         if (b != truth && !(lead[b] > (b == rivals->n - 1 ? rivals->base_margin : rivals->margin)))

@@ -1,9 +1,9 @@
-#include "suggest/planned.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "run/spectrum.h"
+#include "run/run.h"
 
 #define SAME 1e-9 /* of the length: two positions that are one */
 

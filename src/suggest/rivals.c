@@ -1,12 +1,11 @@
-#include "suggest/rivals.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "diagnose/decide.h"
-#include "diagnose/refit.h"
-#include "fit/quantile.h"
-#include "linalg/product.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
+#include "linalg/linalg.h"
 
 #define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
 #define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */

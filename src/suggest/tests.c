@@ -1,4 +1,4 @@
-#include "suggest/tests.h"
+#include "suggest/suggest.h"
 
 #include <math.h>
 #include <string.h>

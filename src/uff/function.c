@@ -1,4 +1,4 @@
-#include "uff/reader.h"
+#include "uff/uff.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "uff/reader.h"
+#include "uff/uff.h"
 
 #include <errno.h>
 #include <float.h>
@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/host.h"
-#include "file/open.h"
+#include "base/base.h"
+#include "file/file.h"
 
 static int is_digit(char c)
 {

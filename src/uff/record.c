@@ -1,4 +1,4 @@
-#include "uff/reader.h"
+#include "uff/uff.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "base/random.h"
+#include "base/base.h"
 #include "more_garbow_hillstrom.h"
 
 #define TOLERANCE   1e-12

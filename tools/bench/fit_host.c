@@ -11,12 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/deck_handle.h"
-#include "base/clock.h"
-#include "base/pool.h"
-#include "modal/functional.h"
+#include "api/api.h"
+#include "base/base.h"
+#include "modal/modal.h"
 #include "model/model.h"
-#include "run/job.h"
+#include "run/run.h"
 
 #define MOST      8 /* parameters */
 #define HALF      3 /* bandwidth of a beam */

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
-#include "base/parallel.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "diagnose/decide.h"
+#include "diagnose/diagnose.h"
 #include "hidden_states.h"
 #include "power.h"
 

@@ -5,8 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/parallel.h"
+#include "base/base.h"
 #include "power.h"
 
 struct run {

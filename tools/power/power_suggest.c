@@ -5,10 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
-#include "base/parallel.h"
+#include "base/base.h"
 #include "deck/deck.h"
-#include "deck/deck_proposed.h"
 #include "power.h"
 #include "suggest/suggest.h"
 

@@ -5,10 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "diagnose/causes/catalogue.h"
-#include "diagnose/decide.h"
-#include "diagnose/refit.h"
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
 #define PLACE_WIDEST    0.25 /* of it: what an interval may span that tells a place */

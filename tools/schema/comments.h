@@ -2,7 +2,7 @@
 #ifndef ROTID_TOOLS_SCHEMA_COMMENTS_H
 #define ROTID_TOOLS_SCHEMA_COMMENTS_H
 
-#include "base/pool.h"
+#include "base/base.h"
 
 struct comment {
     const char *structure, *member; /* member NULL: of the struct itself */

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "record/record.h"
-#include "result/records.h"
 #include "result/result.h"
 #include "schema.h"
 

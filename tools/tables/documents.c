@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "deck/card_table.h"
 #include "generated.h"
 

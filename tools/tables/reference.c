@@ -2,10 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "deck/card_table.h"
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/causes.h"
 #include "generated.h"
 
 /* `-o, --output FILE`, `--method lscf|quadrature` */

@@ -2,8 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "generated.h"
 
 static void put_commands(FILE *out)

@@ -2,8 +2,7 @@
  * per point the measured frequency is the mean over all places, which to first order is that of mass/nsensor at every sensor. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 enum { MOVING, FIXED };
 

@@ -1,7 +1,6 @@
 /* The diametral inertia of a disk is another one than stated, often none. At most it is that of its mass on a ring as wide as the
  * rotor is long, m (L/2)^2/2; a disk without mass is taken to weigh what the rotor weighs. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
 {

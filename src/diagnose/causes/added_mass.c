@@ -1,6 +1,5 @@
 /* A mass that the model does not have: at a point, or spread evenly over a width. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 enum { POINT, BOX };
 enum { MASS, PLACE, WIDTH };

@@ -1,6 +1,6 @@
 /* The rotor is no beam: a step of the diameter, which a beam cannot know, a short section, a section that warps. It acts on no
  * hook and has no parameter: the remedy is the same rotor as a solid, with what is identified fitted anew. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 static const struct effect_kind kind = {.id = "beam_theory"};
 

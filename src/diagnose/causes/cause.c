@@ -1,4 +1,4 @@
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 #include <math.h>
 

@@ -2,8 +2,7 @@
  * rotation. At most it gives way an eighth as much as the whole rotor does that is held there, by 1/EI in rotation and by
  * (z - clamp)^2/EI in deflection: from twice that on most of the energy of the
  * first mode is in the clamp, which is a hinge then and the mode one of a rigid body. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 enum { ROTATIONAL, LATERAL };
 

@@ -1,6 +1,5 @@
 /* The density of a group. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *out)

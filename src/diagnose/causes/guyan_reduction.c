@@ -1,5 +1,5 @@
 /* Condensation to the measured points raises the frequencies. It acts on no hook: the remedy is the full model. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 const struct cause_kind cause_guyan_reduction = {
     .id = "guyan_reduction",

@@ -4,8 +4,7 @@
  * its first hundredth where a hub is three times as thick as the shaft. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 /* Mean over the stretch of what the compliances of bending and shear lose. */
 struct loss {

@@ -2,8 +2,7 @@
  * stated in beam/hinge.h. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int joint(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility)
 {

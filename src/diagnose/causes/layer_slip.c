@@ -4,8 +4,7 @@
  * may be nothing at the very end. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static const double at_end = 1 - 1e-9; /* of a */
 

@@ -1,5 +1,5 @@
 /* The elements are too long for the frequencies asked for. It acts on no hook: the remedy is a finer mesh. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 const struct cause_kind cause_mesh = {
     .id = "mesh",

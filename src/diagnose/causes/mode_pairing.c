@@ -1,6 +1,6 @@
 /* A mode that is paired wrongly, measured twice, missing, or no bending mode. A finding: what the shapes say about the pairing is
  * settled before the fit, and the numbers of *MODES are the user's to correct. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 const struct cause_kind cause_mode_pairing = {
     .id = "mode_pairing",

@@ -1,9 +1,8 @@
 /* The stated noise is not that of the data: every standard deviation of a block times one factor. */
 #include <math.h>
 
-#include "base/text.h"
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/sensor.h"
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)
 {

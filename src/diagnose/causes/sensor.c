@@ -1,4 +1,4 @@
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 
 #include <math.h>
 #include <string.h>

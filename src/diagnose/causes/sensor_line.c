@@ -2,8 +2,7 @@
  * the end that they are counted from is shift + scale z, z the stated position. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)
 {

@@ -2,8 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 #include "model/model.h"
 
 /* Whether sensor s at z has a node of its own. ROTID_OK or ROTID_ERROR_MEMORY. */

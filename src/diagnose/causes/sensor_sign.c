@@ -1,7 +1,6 @@
 /* A channel with reversed sign: an accelerometer mounted the other way round, or a reversed direction in the table of channels.
  */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)
 {

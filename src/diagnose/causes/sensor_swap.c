@@ -1,6 +1,5 @@
 /* Two channels whose positions were exchanged in the table or at the amplifier. The noise goes with the channel. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/causes.h"
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)
 {

@@ -1,8 +1,8 @@
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 #include <math.h>
 
-#include "rotor/section.h"
+#include "rotor/rotor.h"
 
 static const double pi = 3.14159265358979323846;
 

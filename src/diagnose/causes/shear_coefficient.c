@@ -1,6 +1,5 @@
 /* The shear coefficient of a group that is not identified; on an identified one it cannot be told from G. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int section(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_section *out)

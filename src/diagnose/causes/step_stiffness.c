@@ -8,8 +8,7 @@
  * the section without the cone: it would move by 1 % where a bore is narrow, the diameter decides. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 #define STEPS_AT_ONCE 64 /* that reach into one element: those farther to the right are left out, which no real rotor has */
 

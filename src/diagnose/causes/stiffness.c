@@ -1,6 +1,5 @@
 /* E and G of a group that is not identified. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *out)

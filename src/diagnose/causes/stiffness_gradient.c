@@ -1,6 +1,5 @@
 /* A group whose stiffness rises from one end to the other: E and G times 1 + slope xi, xi from -1 to 1 along it. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static double shape(double xi)
 {

@@ -2,8 +2,7 @@
  * `width` or a box of length `width`. The words with _SHEAR give the shear stiffness a depth of its own. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 enum { GAUSSIAN, BOX, GAUSSIAN_SHEAR, BOX_SHEAR };
 enum { DEPTH, PLACE, WIDTH, DEPTH_SHEAR, PARAMETERS };
@@ -80,8 +79,8 @@ static int count(const struct effect *effect)
     return has_shear(effect) ? PARAMETERS : DEPTH_SHEAR;
 }
 
-/* A zone is local: a wider one imitates a gradient, a profile or the stiffness of a whole group, which are causes of their own. The
- * box has the standard deviation of the Gaussian. */
+/* A zone is local: a wider one imitates a gradient, a profile or the stiffness of a whole group, which are causes of their own.
+ * The box has the standard deviation of the Gaussian. */
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
 {
     double length = rotor_length(rotor);

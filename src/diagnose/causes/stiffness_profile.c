@@ -1,7 +1,6 @@
 /* A group that is stiffer at its ends than in its middle, or the reverse: E and G times 1 + profile (xi^2 - 1/3), xi from -1 to 1
  * along it. The mean over the group stays. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static double shape(double xi)
 {

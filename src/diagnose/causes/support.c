@@ -1,6 +1,5 @@
 /* A spring that is stiffer or softer than stated. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
 {

@@ -1,8 +1,7 @@
 /* A spring to the ground that the model does not have: a seal that touches, a cable, a stinger, a foam pad. Up to the modal
  * stiffness of the first free bending of a uniform shaft, 500 EI/L^3, at which it holds as firmly as the rotor bends: beyond,
  * the rotor has a support more and its modes are others. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static const double first_mode = 500.56; /* (4.730)^4 */
 

@@ -2,8 +2,7 @@
  * from another end. A support that is farther off than an eighth of the rotor is another one: support_extra. */
 #include <math.h>
 
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
 {

@@ -1,7 +1,6 @@
 /* A rotational spring to the ground that the model does not have: a bearing or a bush so long that it holds the rotation, a
  * coupling. Up to twenty times EI/L, what turns the end of a shaft as long as the rotor: nearly a clamp. */
-#include "diagnose/causes/cause.h"
-#include "diagnose/causes/shared.h"
+#include "diagnose/causes/causes.h"
 
 static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
 {

@@ -1,6 +1,6 @@
 /* Rods coupled as rods where the deck has the wall of a tube: slender rods at a pitch radius do not resist the shearing of the
  * bundle. There is nothing to identify. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
 {

@@ -1,5 +1,5 @@
 /* E of the tie rods, and their G with it: threads and washers make them softer than the steel they are of. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
 {

@@ -1,5 +1,5 @@
 /* The tension of the tie rods. */
-#include "diagnose/causes/cause.h"
+#include "diagnose/causes/causes.h"
 
 static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
 {

@@ -1,0 +1,93 @@
+#ifndef ROTID_API_API_H
+#define ROTID_API_API_H
+
+#include <stdatomic.h>
+
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "model/model.h"
+#include "record/record.h"
+#include "run/run.h"
+
+/* ------------------------------------------------------------------------------------------------------------------ call */
+
+/* One call of the first layer: the environment that its run sees, its notes, and why it failed. */
+
+struct call {
+    struct entry entry; /* with the environment of the host, and the scratch */
+    atomic_int cancelled;
+    rotid_environment environment; /* of the run: once the host has said stop it is not asked, and told of nothing, again */
+    struct message_list notes;     /* on the scratch */
+    struct host_locale locale;     /* as it was, while `entered` */
+    int entered;
+};
+
+/* `result`: what the call is to set; `name`: of that argument. ROTID_OK, with exceptions masked and the locale "C" until
+ * call_close; ROTID_ERROR_ARGUMENT where it is NULL or the environment is none, ROTID_ERROR_MEMORY. To be closed in any case. */
+int call_open(struct call *call, const rotid_environment *given, char *failure, const void *result, const char *name);
+
+/* Leaves in the `failure` of the host the errors among the notes, joined and cut off, where nothing was said before. Returns
+ * status. */
+int call_close(struct call *call, int status);
+
+/* ----------------------------------------------------------------------------------------------------------- deck handle */
+
+/* What stands behind the `memory` of a rotid_deck. */
+
+/* The states of a deck, for reading alone; NULL where there is none to compute with (deck NULL, or with errors): the notes of the
+ * call say why then. */
+const struct states *deck_states(const rotid_deck *deck, struct call *call);
+
+/* The job of a deck of one state; NULL also where it has several. */
+const struct job *deck_job(const rotid_deck *deck, struct call *call);
+
+/* All states, and the job of the first one, without a call that has to be explained; NULL of a deck with errors. */
+const struct states *deck_states_of(const rotid_deck *deck);
+const struct job *deck_job_of(const rotid_deck *deck);
+
+/* ------------------------------------------------------------------------------------------------------------------ keep */
+
+/* What of a result on the scratch of a call the host keeps. */
+
+/* A copy of the struct `made`, which `record` describes: it leans on nothing, and its member `memory`, of which the address in
+ * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
+void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
+
+/* ------------------------------------------------------------------------------------------------------ result diagnosis */
+
+/* A diagnosis as hosts and files have it. */
+
+/* deck: the states as the user states them, whose FIT `today` was fitted with. It leans on both. Without
+ * messages and the extended deck. The result of `d`; where memory is out the pool says so. */
+rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d);
+
+/* A candidate at its best values; where memory is out the pool says so. */
+rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
+
+/* ------------------------------------------------------------------------------------------------------- result geometry */
+
+/* A model as it is drawn and meshed, for results. */
+
+/* Of the beam, with the values of the parameters and the end springs that it has; of the rotor as it stands, without nodes, where
+ * beam is NULL. It leans on
+ * both. NULL where memory is out. */
+rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model);
+
+/* ------------------------------------------------------------------------------------------------- result identification */
+
+/* An identification as hosts and files have it. */
+
+/* Leans on the job and on what was found. Without noise, geometry and messages. NULL where there is no fit, or memory is out. */
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found);
+
+/* The same of all states together, with noise and geometry and those of each in `states`; found [nstate], fit: of all. */
+rotid_identification *result_identification_states(struct pool *pool, const struct states *states,
+                                                   const struct identification *found, const rotid_fit_result *fit);
+
+/* Measured mode k beside the frequency predicted for its partner. Without residual, which is NaN. */
+rotid_compared_mode result_compared_mode(const struct job *job, const struct comparison *compared, int k, double predicted_hz);
+
+/* Typical noise of the data of a job, and what the intervals of the fit rest on. NULL where memory is out. */
+rotid_noise *result_noise(struct pool *pool, const struct job *job, const rotid_fit_result *fit);
+
+#endif

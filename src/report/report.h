@@ -1,0 +1,404 @@
+#ifndef ROTID_REPORT_REPORT_H
+#define ROTID_REPORT_REPORT_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/base.h"
+#include "ema/ema.h"
+#include "import/import.h"
+#include "result/result.h"
+#include "rotid.h"
+#include "run/run.h"
+#include "uff/uff.h"
+
+/* ----------------------------------------------------------------------------------------------------------------- chart */
+
+/* Charts of one line in plain ASCII: a signed bar, and strips along the axis of the rotor. */
+
+#define STRIP_MOST 120
+
+struct strip {
+    double length; /* of the axis [m], begins at 0 */
+    int columns;
+    char line[STRIP_MOST + 1];
+    const char *letter[STRIP_MOST]; /* of columns that no char holds, in the labels, which are the caller's */
+};
+
+void strip_open(struct strip *strip, double length, int columns);
+/* "|name   ", cut to what lies between from and to. */
+void strip_name(struct strip *strip, double from, double to, const char *name);
+/* label in the width given, then the strip without the blanks at its end. */
+void strip_print(const struct strip *strip, FILE *out, int width, const char *label);
+
+/* ------------------------------------------------------------------------------------------------------------------- csv */
+
+/* Results as tables for a spreadsheet: commas, a decimal point, names in the first row, which `FILE=` of a deck reads. */
+
+#define CSV_MOST_FILES 2
+
+/* A file NAME.suffix; `from` is handed to `write`. */
+struct csv_part {
+    const char *suffix;
+    int (*write)(FILE *out, const void *from); /* a status */
+};
+
+/* The modes of the model, and their shapes at the sensors. */
+struct csv_spectrum {
+    const rotid_spectrum *spectrum;
+    const struct job *job;
+};
+extern const struct csv_part csv_spectrum_parts[CSV_MOST_FILES];
+
+/* The parameters, and the modes, of a rotid_identification. */
+extern const struct csv_part csv_identify_parts[CSV_MOST_FILES];
+
+/* The modes of a universal file, and their shapes: real, in the one direction in which they move most. */
+struct csv_universal {
+    int count, nnode, direction; /* direction: of the values of a node, from 0 */
+    int points;                  /* the file has frequencies at single points, which the tables do not have */
+    const struct uff_shape **mode;
+    int *number;           /* [count] */
+    double *frequency_std; /* [count] Hz, NaN where it is not known */
+    double *value, *std;   /* [nnode * count] a mode after the other; std relative to its largest value */
+    struct uff_node *node; /* [nnode] by their ids; coordinates in the unit of the file, NaN where it has none */
+};
+extern const struct csv_part csv_universal_parts[CSV_MOST_FILES];
+
+/* Reads modes and shapes. Errors go to the list. ROTID_OK, ROTID_ERROR_SYNTAX where the file has none, _IO, _MEMORY. */
+int csv_universal_read(struct pool *pool, const char *path, struct message_list *messages, struct csv_universal *universal);
+
+/* The files of path, all of them or none. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO with errno and the file in *failed. */
+int csv_write(struct pool *pool, const char *path, const struct csv_part part[CSV_MOST_FILES], const void *from,
+              const char **failed);
+/* The name of a file of them; NULL where memory is out. */
+const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part);
+
+/* Cells. A text is quoted where it has to be, and one that a spreadsheet would take for a formula gets an apostrophe in front; a
+ * number has the digits that give it back, and is blank where it is not finite. `before`: "" or ",". */
+void csv_text(FILE *out, const char *before, const char *text);
+void csv_number(FILE *out, const char *before, double value);
+
+/* ------------------------------------------------------------------------------------------------------------------ html */
+
+/* Text and elements of a page, escaped and closed. */
+
+/* A text of any origin: & < > and quotes as references; bytes that are not UTF-8, and controls (of direction as
+ * well, which would show another text than there is), as U+FFFD. */
+void html_text(FILE *out, const char *text);
+
+/* <NAME>text</NAME> and a line feed; name: with attributes. */
+void html_element(FILE *out, const char *name, const char *text);
+
+/* ----------------------------------------------------------------------------------------------------------------- human */
+
+/* Numbers and units for people: "115.7 GPa", "-4.4 %" with a true minus sign. Texts are UTF-8 in the pool; where memory is out
+ * they are "", and the pool's user notices at the next allocation that counts. */
+
+/* The prefix a unit is read best with at a value: value in it = factor * value. Unit "1", which NULL stands for, and unknown ones
+ * stay as they are. */
+struct human_unit {
+    double factor;
+    char text[24]; /* "GPa", "kN/m"; "" for a pure number */
+};
+struct human_unit human_unit(double value, const char *unit);
+
+/* Decimals that show three significant digits of `spread` (0 ... 8, of a value below 0.001 to 20); four significant digits of
+ * value where there is no spread.
+ */
+int human_decimals(double value, double spread);
+
+/* With a number of decimals; "\u2013" where there is none (not finite). Below 0.001 with more than three decimals as 1.20e-5,
+ * with the digits that the decimals show. Signed: a plus in front too. */
+const char *human_fixed(struct pool *pool, double value, int decimals);
+const char *human_signed(struct pool *pool, double value, int decimals);
+/* With a number of significant digits; very large and small ones as 1.2e-7, as decks have them. */
+const char *human_digits(struct pool *pool, double value, int digits);
+
+/* The same without zeros at the end: "60" rather than "60.00". */
+const char *human_trimmed(struct pool *pool, double value, int digits);
+
+/* "115.7 GPa", "60 GPa": four significant digits without zeros at the end. */
+const char *human_value(struct pool *pool, double value, const char *unit);
+/* "115.7 GPa (95 %: 55.1 to 176.4)", without the bracket where there is no interval. */
+const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit);
+/* Half an interval in per cent of the value, NaN where there is none. */
+double human_half_width_percent(double value, const double ci[2]);
+
+/* "one", "two", ... "twelve", "13": for running text. */
+const char *human_count(struct pool *pool, int count);
+/* "iteration" or "iterations". */
+const char *human_plural(int count, const char *one, const char *many);
+/* "6 ms", "1.2 s", "3 min" */
+const char *human_seconds(struct pool *pool, double seconds);
+
+/* ---------------------------------------------------------------------------------------------------------------- layout */
+
+/* Cells of tables and running text of a given width. A text may be UTF-8: columns are counted, not bytes. */
+
+/* A number in the width given, or a dash where there is none; one that is too large for it with an exponent. Width 0:
+ * as wide as it is. */
+void number_cell(FILE *out, int width, int decimals, double value);
+void signed_cell(FILE *out, int width, int decimals, double value);
+/* The same with a number of significant digits, and with decimals before a power of ten. */
+void digits_cell(FILE *out, int width, int digits, double value);
+void power_cell(FILE *out, int width, int decimals, double value);
+/* A number within a sentence, or a dash. Returns text. */
+const char *layout_number(char text[64], int digits, double value);
+#define IN_DIGITS(digits, value) layout_number((char[64]){""}, (digits), (value))
+/* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
+const char *layout_unit(const char *unit);
+const char *layout_gap(const char *unit);
+/* A probability: three decimals, "<0.001" below. */
+void chance_cell(FILE *out, int width, double value);
+/* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
+void text_cell(FILE *out, int width, const char *text);
+/* The same of any length, with at least `width` columns. */
+void name_cell(FILE *out, int width, const char *text);
+
+int text_columns(const char *text);
+/* The character that begins here, or U+FFFD. */
+void text_character(FILE *out, const char *text);
+
+/* Running text: lines of `width` columns, all but the first indented. */
+struct wrap {
+    FILE *out;
+    int indent, width, column, fresh;
+};
+
+/* Begins with `head`. */
+void wrap_open(struct wrap *wrap, FILE *out, int indent, int width, const char *head);
+/* Text that is broken between words. */
+void wrap_words(struct wrap *wrap, const char *text);
+/* Text that stays on one line where it fits on one; 255 bytes of it. */
+void wrap_item(struct wrap *wrap, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void wrap_close(struct wrap *wrap);
+
+/* All of that for one text. */
+void wrap_text(FILE *out, int indent, int width, const char *head, const char *text);
+
+/* ---------------------------------------------------------------------------------------------------------------- output */
+
+/* Files that are whole or not there: written beside their final name, then renamed. */
+
+/* Writes text to path, "-" being standard output. ROTID_OK or ROTID_ERROR_IO (errno tells why), ROTID_ERROR_MEMORY. */
+int output_write(const char *path, const char *text);
+
+/* The same for a file that is written piece by piece: the caller writes to `stream`, then closes the output. */
+struct output {
+    FILE *stream;
+    const char *path; /* of the caller, who keeps it until the end */
+    char *beside;
+};
+
+/* ROTID_OK, ROTID_ERROR_IO (errno tells why) or ROTID_ERROR_MEMORY; then there is nothing to close. */
+int output_open(struct output *output, const char *path);
+/* status: of the caller's writing. Renames the file when that is ROTID_OK and all has arrived, else removes it and keeps errno.
+ * Returns the status, or ROTID_ERROR_IO (errno). */
+int output_close(struct output *output, int status);
+/* The same for several files, all of them or none: those that had taken their names when one could not are put back as they were
+ * (where the file system has hard links). *failed is the index of that one. */
+int output_close_all(int count, struct output *output, int *failed);
+/* Whether there is a file that is not closed yet, for the handler of a signal. */
+int output_is_open(void);
+/* Removes it; errno stays. */
+void output_abandon(struct output *output);
+/* Why one of these failed, by errno. */
+const char *output_error(void);
+
+/* ------------------------------------------------------------------------------------------------------------ report ema */
+
+/* Results of the modal extraction: as a table, and as the struct of their JSON. */
+
+struct ema_report {
+    const char *file;   /* that was read */
+    const char *output; /* that was written, or NULL */
+    const struct measurement *measurement;
+    const struct ema_options *options;
+    const struct ema *ema;
+    double seconds;
+};
+
+/* Modes, quality flags, stabilisation table as a picture, MAC of the result with itself, worst channels. all: every pole, every
+ * channel.
+ */
+void table_ema(FILE *out, const struct ema_report *report, int all);
+/* On the pool; NULL where memory is out. */
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *report);
+
+/* ------------------------------------------------------------------------------------------------------------ report frf */
+
+/* Synthesised transfer functions beside measured ones: as tables with a plot, as the struct of their
+ * JSON, as universal file. */
+
+struct frf_view {
+    struct pool *pool; /* for curves, row by row */
+    const char *state; /* NULL of a deck that is one */
+    const struct job *job;
+    const struct identification *identified; /* NULL: the model as the deck states it */
+    const struct frf_set *set;               /* NULL: nothing measured beside */
+    const struct frf_result *result;
+    int verbose; /* every function a row */
+};
+
+/* Behind a heading. ROTID_OK or ROTID_ERROR_MEMORY. */
+int table_frf(FILE *out, const struct frf_view *view);
+
+/* The functions of JSON carry their curves up to this many lines of all of them together; more belong in a universal file. */
+#define JSON_FRF_MOST_LINES 250000
+
+/* On view->pool; NULL where memory is out. */
+const struct transfer_result *frf_result_of(const struct frf_view *view);
+
+/* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write.h, ROTID_ERROR_MEMORY. */
+int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
+
+/* ------------------------------------------------------------------------------------------------------------ report uff */
+
+/* What a universal file holds: as tables, and as the struct of their JSON. */
+
+/* The summary, the sets, the doubtful places. all: each set a row; else those that are alike share one, at most about forty. */
+void table_uff(FILE *out, const char *path, const struct listing *listing, int summary_count, const char *const *summary,
+               int all);
+
+/* all: with every node and every shape. messages: their errors. On the pool; NULL where memory is out. */
+const struct uff_result *uff_result_of(struct pool *pool, const char *path, const struct listing *listing, int summary_count,
+                                       const char *const *summary, int all, const struct message_list *messages);
+
+/* ---------------------------------------------------------------------------------------------------------- struct table */
+
+/* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. Cells are added
+ * row by row, from the left. What was added when memory was out is lost and marks the table. Texts are not copied. */
+
+enum table_format {
+    TABLE_TEXT,
+    TABLE_FIXED,   /* `digits` decimals */
+    TABLE_SIGNED,  /* the same with a sign */
+    TABLE_DIGITS,  /* `digits` significant digits */
+    TABLE_TRIMMED, /* the same without zeros at the end */
+    TABLE_CHANCE   /* a probability: "<0.001" below that, else significant digits */
+};
+
+struct table_column {
+    const char *name, *unit; /* unit: NULL of a text, a count and a pure number */
+    enum table_format format;
+    int digits;
+};
+
+struct table_cell {
+    const char *text; /* as it is shown; "" of a cell that stays blank */
+    double value;     /* of a number, in the unit of its column, or of its row where a column of the table holds the unit */
+    int is_number;
+};
+
+struct table {
+    struct pool *pool;
+    int failed;                 /* memory was out */
+    const char *caption, *note; /* note: what a reader has to know of it, under the table; NULL: nothing */
+    int ncolumns, ncells;
+    size_t column_room, cell_room;
+    struct table_column *column;
+    struct table_cell *cell; /* by rows; a row that is not full ends in blanks */
+};
+
+/* A table without columns; NULL where memory is out, which all that adds takes. */
+struct table *table_open(struct pool *pool, const char *caption);
+/* Columns, before the first cell. */
+void table_add_column(struct table *table, const char *name, const char *unit, enum table_format format, int digits);
+void table_add_columns(struct table *table, int count, const struct table_column column[]);
+int table_rows(const struct table *table);
+
+/* The next cell. A number that is not finite is shown as a dash. */
+void cell_text(struct table *table, const char *text);
+void cell_number(struct table *table, double value);
+/* A number with its own count of decimals in place of that of its column. */
+void cell_decimals(struct table *table, double value, int decimals);
+/* Four cells: the unit that suits the value, the value, both ends of its 95 % interval. */
+void cell_interval(struct table *table, double value, const double ci95[2], const char *unit);
+
+/* Whether a column holds anything: one of dashes and blanks alone is shown in no form but CSV. The first one always does. */
+int table_column_is_shown(const struct table *table, int column);
+/* Lines with a head, columns two blanks apart, numbers to the right; the caption in front and the note behind, both wrapped to
+ * `width` columns. */
+void table_write_text(FILE *out, const struct table *table, int width);
+/* A head and a line a row; numbers with the digits that give them back, blank where there is none. */
+void table_write_csv(FILE *out, const struct table *table);
+/* <table> with caption; number: of the table on its page, for the id of the caption. */
+void table_write_html(FILE *out, const struct table *table, int number);
+
+/* ----------------------------------------------------------------------------------------------------------------- table */
+
+/* Results as tables for a person. */
+
+void table_heading(FILE *out, const struct result_head *head);
+/* The warnings that have no place in a file: the others have been said on standard error. */
+void table_notes(FILE *out, const struct message_list *notes);
+/* Before what is said of state i, where there are several: a line with its name. */
+void table_state(FILE *out, int i, const char *name);
+/* job: one for each state, whose CAUSE cards are told. */
+void table_check(FILE *out, const struct result *result, const struct job *const *job);
+/* shapes: with the shape of every mode at every sensor. */
+void table_modes(FILE *out, const struct result *result, int shapes);
+/* all: every pair of rivals of every test. */
+void table_suggest(FILE *out, const struct result *result, int all);
+void table_sensitivity(FILE *out, const struct result *result);
+/* baseline: NLopt was asked for; history: with the iterations. */
+void table_identify(FILE *out, const struct result *result, int baseline, int history);
+
+/* -------------------------------------------------------------------------------------------------------- table diagnose */
+
+/* The diagnosis on one screen for a test engineer, in plain ASCII. */
+
+struct diagnosis_view {
+    FILE *out;
+    const struct result_head *head;
+    const rotid_diagnosis *diagnosis;
+    int verbose; /* all candidates, times of the steps */
+    int width;   /* columns of texts and charts, 100 to 120; tables take no more than 100 */
+};
+
+void table_diagnose(const struct diagnosis_view *view);
+
+/* "1.157 (1.150 ... 1.164) e+11 Pa": one power of ten for all three; "-" where p is NULL. Returns text. */
+#define PARAMETER_TEXT 128
+const char *parameter_text(const rotid_fitted_parameter *p, char text[PARAMETER_TEXT]);
+
+/* Its parts. */
+void table_gain(const struct diagnosis_view *view);             /* before and after: quality and parameters */
+void table_detection_limits(const struct diagnosis_view *view); /* smallest sizes that would show */
+
+/* -------------------------------------------------------------------------------------------------------------- terminal */
+
+/* Standard output and standard error. What is printed passes one filter here, whatever deck, file or argument it comes from:
+ * control characters and bytes that are no UTF-8 become U+FFFD; line feeds and tabs stay. No other file of the program names the
+ * two. */
+
+/* Before anything is printed and any file is opened: no file of the program takes the place of a standard stream that is closed.
+ * ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO where that cannot be seen to. */
+int terminal_open(void);
+
+/* Where tables are written to: memory, until terminal_flush or a message sends it to standard output. */
+FILE *terminal_out(void);
+
+/* ROTID_OK, or ROTID_ERROR_IO with errno where something did not arrive, now or before. */
+int terminal_flush(void);
+
+/* Appends the text to standard output. Statuses of terminal_flush. */
+int terminal_print(const char *text);
+
+/* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */
+void terminal_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Marks on standard error: what is said until the next mark stands out where that is a terminal with colours, unless the
+ * environment has a NO_COLOR that is not empty or TERM=dumb. */
+enum terminal_mark { TERMINAL_PLAIN, TERMINAL_BOLD, TERMINAL_WARNING, TERMINAL_ERROR };
+void terminal_mark(enum terminal_mark mark);
+
+/* What stands in terminal_out to standard error instead. */
+void terminal_to_error(void);
+
+/* A line on standard error that the next one is written over, and its end. */
+void terminal_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void terminal_progress_end(void);
+
+#endif
