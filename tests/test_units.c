@@ -341,6 +341,8 @@ static void numbers_too_far_apart_are_refused_with_their_place(void **state)
                  {"2e11", "*DISK\nend, 1e8\n", NULL, 0},
                  {"2e11", "1e-9, 0.2, 0, 1\n", "1e-09 m long in a rotor", 11},
                  {"2e11", "1e-6, 0.2, 0, 1\n", NULL, 0},
+                 {"2e11", "0.2, 5e-6, 0, 4\n", "5e-06 m thick in a rotor of up to 0.1 m", 11},
+                 {"2e11", "0.2, 2e-5, 0, 4\n", NULL, 0},
                  {"150", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", "Young's modulus of steel is 150 Pa", 1},
                  {"2e9", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", NULL, 0}};
     (void)state;

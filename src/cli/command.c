@@ -16,11 +16,12 @@ void command_print_messages(struct command *command)
         const rotid_message *m = &command->messages.item[command->printed];
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
-        if (m->file) {
-            terminal_mark(TERMINAL_BOLD);
+        terminal_mark(TERMINAL_BOLD);
+        if (m->file)
             terminal_say("%s:%d:%d: ", m->file, m->line, m->column);
-            terminal_mark(TERMINAL_PLAIN);
-        }
+        else if (m->severity == SEVERITY_ERROR && command->deck && strncmp(m->text, command->deck, strlen(command->deck)) != 0)
+            terminal_say("%s: ", command->deck);
+        terminal_mark(TERMINAL_PLAIN);
         terminal_mark(m->severity == SEVERITY_ERROR     ? TERMINAL_ERROR
                       : m->severity == SEVERITY_WARNING ? TERMINAL_WARNING
                                                         : TERMINAL_PLAIN);

@@ -9,6 +9,7 @@
 
 /* Beside the whole rotor; ten times and more from where solutions fail. */
 #define SHORTEST 1e-7
+#define THINNEST 1e-4 /* of the largest diameter: EI falls by its fourth power */
 #define STIFFEST 1e13 /* times EI/L^3 */
 #define HEAVIEST 1e7
 #define SOFTEST  1e6 /* between the moduli of two materials */
@@ -148,8 +149,10 @@ void deck_doubt(struct deck_reader *reader, struct place place, const char *what
 static void refuse_contrast(struct deck_reader *reader, struct place place, double mass, double length)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    double bending = 0;
+    double bending = 0, thickest = 0;
     int soft = -1, hard = -1;
+    for (int s = 0; s < rotor->nsegment; s++)
+        thickest = fmax(thickest, rotor->segment[s].rectangular ? rotor->segment[s].height : rotor->segment[s].outer);
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *g = &rotor->segment[s];
         double e = rotor->group[g->group].material.e, d = g->outer, b = g->inner;
@@ -158,6 +161,12 @@ static void refuse_contrast(struct deck_reader *reader, struct place place, doub
             deck_error(reader, reader->group_place[g->group],
                        "a section of %s is %.3g m long in a rotor of %.4g m, expected at least %.1g of the length",
                        rotor->group[g->group].name, g->length, length, SHORTEST);
+        if ((g->rectangular ? g->height : g->outer) < THINNEST * thickest)
+            deck_error(
+                reader, reader->group_place[g->group],
+                "a section of %s is %.3g m thick in a rotor of up to %.4g m, expected at least %.1g of that: a diameter in "
+                "another unit?",
+                rotor->group[g->group].name, g->rectangular ? g->height : g->outer, thickest, THINNEST);
     }
     bending /= length * length * length;
     for (int i = 0; i < rotor->nspring; i++) {
