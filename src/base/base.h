@@ -1,6 +1,24 @@
 #ifndef ROTID_BASE_BASE_H
 #define ROTID_BASE_BASE_H
 
+/* Base: services of one call and one job that every other room uses. No mechanics, no files, no static state.
+ * In: the environment of the host (allocator, cancellation), requests for memory, sizes, texts. Out: memory, reasons, messages.
+ *
+ *   memory           pool.c      pool_open, pool_get, pool_close: blocks hang on a pool, one pool_close frees all of them
+ *   public call      entry.c     entry_open, entry_close: traps masked, environment checked, scratch pool, text of the failure
+ *   host             host.c      floating-point environment and locale of the calling thread, saved and restored
+ *   host's structs   sized.c     sized_take: reads a struct that begins with `size`, fills new members with zeros
+ *   reason           failure.c   failure_say, refuse: why a call failed; status.c: the text of a status
+ *   messages         message.c   message_add: note, warning or error with file, line and column, kept until somebody prints it
+ *   threads          parallel.c  parallel_for: tasks 0 ... count - 1; the status returned is independent of the number of threads
+ *   random numbers   random.c    splitmix64; uniform in (0, 1), normal by random_normal; the state is the caller's
+ *   order            order.c     sorting, rank and median of doubles
+ *   text             text.c      comparison without case, edit distance, UTF-8, control characters
+ *   other            clock.c, version.c
+ *
+ * Callers: all rooms. A job belongs to one thread at a time; a pool is never shared between threads.
+ * Base must not know what a rotor, a deck or a result is, and includes no header of another room but rotid.h. */
+
 #include <complex.h>
 #include <fenv.h>
 #include <locale.h>
@@ -9,13 +27,9 @@
 
 #include "rotid.h"
 
-/* ----------------------------------------------------------------------------------------------------------------- clock */
-
 /* Wall-clock time for reports, and for when a run of a study has taken too long. Timings decide nothing else. */
 
 double clock_seconds(void); /* since an arbitrary moment */
-
-/* --------------------------------------------------------------------------------------------------------------- complex */
 
 /* Complex numbers of C. glibc defines CMPLX for compilers that call themselves GCC 4.7 or later, which clang does not. */
 

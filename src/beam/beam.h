@@ -1,6 +1,24 @@
 #ifndef ROTID_BEAM_BEAM_H
 #define ROTID_BEAM_BEAM_H
 
+/* Beam: K(x) and M(x) of a rotor as a chain of Timoshenko elements along its axis, with exact dK/dx and dM/dx.
+ * In: struct rotor, parameters, values x. Out: beam_assemble (K, M), beam_differentiate (dK, dM), mass properties, deflections.
+ *
+ *   set-up         build.c (beam_build): sections, mesh, hinges; mesh.c (mesh_build): nodes at ends, sensors, springs, tie rods
+ *   element        element.c (element_matrices): k = K_f + K_G (A.1, A.4), m = M_v + M_theta (B.1, B.2), phi = 12 EI/(kGS l^2);
+ *                  v cubic, theta quadratic; element_derivatives: the same along a direction of (EI, kGS, rho S, rho I, F)
+ *   quantities     quantities.c (axis_quantities): EI, rho S, rho I as sums over the layers, F = rotor_axial_force;
+ *                  axis_direction: their derivatives; factors.c: factors of the effects on each element
+ *   shear          shear_coefficient.c (shear_stiffness): kGS by Cowper, of layers by Saint-Venant's flexure
+ *   tie rods       quantities.c (tierod_quantities): F = N T, the prestress, enters K by K_G of the bundle's own elements, and by
+ *                  -N T in the F of the axis (rotor_axial_force, SELF_EQUILIBRATED); stretch E S e^2/(2 L) [1 -1; -1 1] on
+ *                  (theta_from, theta_to) for RODS; cylinder.c: the equivalent cylinder (6) for TUBE
+ *   joints         hinge.c (hinge_condense): K := K - g g' c/(1 + c k), a rotational spring in series, condensed
+ *   masses, springs at any place   lumped.c (lumped_add): carried by the static shapes of the element
+ *   assembly       assembly.c (beam_assemble, beam_differentiate); deflection.c: deflection between nodes and in members
+ *
+ * Callers: model/discrete.c; solid/members.c for the elements of rods; export. The room must not know modes, data or causes. */
+
 #include "base/base.h"
 #include "rotid.h"
 #include "rotor/rotor.h"
@@ -74,7 +92,7 @@ double shear_stiffness_plain(const struct section *section, const struct materia
 
 /* A rotor as a chain of Timoshenko beam elements: its mesh, and the parameters that may vary. */
 
-struct hinge { /* of a joint: see beam/hinge.h */
+struct hinge { /* of a joint: see hinge_place */
     int effect, element, end;
 };
 
@@ -127,11 +145,8 @@ void beam_rigid_motions(const struct beam *beam, double *u);
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);
 
-/* -------------------------------------------------------------------------------------------------------------- cylinder */
-
-/* The paper's equivalent cylinder of a bundle of rods. */
-
-/* Cylinder of the given area and inertia (6). ROTID_OK or ROTID_ERROR_SECTION. */
+/* The paper's equivalent cylinder of a bundle of rods. Cylinder of the given area and inertia (6). ROTID_OK or
+ * ROTID_ERROR_SECTION. */
 int section_equivalent(double area, double inertia, struct section *section);
 
 /* ------------------------------------------------------------------------------------------------------------ deflection */

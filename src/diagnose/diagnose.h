@@ -1,6 +1,24 @@
 #ifndef ROTID_DIAGNOSE_DIAGNOSE_H
 #define ROTID_DIAGNOSE_DIAGNOSE_H
 
+/* Diagnosis: whether the model explains the data and, if it does not, which cause of the catalogue (src/diagnose/causes) does.
+ * In: states of a deck (struct states), seed, replicates. Out: struct diagnosis: verdict, causes, extended model, gain, limits.
+ * diagnose.c (diagnose_states) runs the steps on struct engine (engine.c); changed_job there: what changed between two states.
+ *
+ *   1 data       data.c (data_prepare): copies, assumed noise; correct.c (data_correct): takes a fault out of the data
+ *   2 base       base.c (base_prepare): fit of the full model, mesh refined; accelerometer.c: mass of a roving one
+ *   3 scan       scan_list.c: causes at all targets and places; columns.c: c = dr/da by adjoints (K - lambda M)^+; scan.c
+ *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
+ *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
+ *   5 refit      refit.c (refit_set), widen.c; round.c (round_run): steps 3 to 7 of a round, pairs of causes; far_starts.c
+ *   6 doubts     pairing.c; faults.c with sensor_check.c and sensor_field.c: channels; noise_check.c: level of the noise
+ *   7 decision   evidence.c, leave_out.c: modes and sensors left out; decide.c (decide): score S = chi2 + 3 n, margins
+ *   8 verdict    verdict.c (accept_cause, reach_verdict); discrepancy.c: noise that an approximate cause leaves
+ *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
+ *
+ * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
+ * properties of a cause by struct cause_kind; it must not read files, print, or change the deck. */
+
 #include <stddef.h>
 
 #include "base/base.h"
@@ -139,14 +157,14 @@ double moving_mass_residue(double mass, double square, double others, double ben
 
 /* Sensitivity of the residuals to anything that changes K and M, at one point of a model: the adjoint way. For every fitted mode
  * the rows of (K - lambda M)^+ at the sensors are solved for once; a change dK, dM then costs products only.
- * Residuals as in modal/functional.h for the likelihood: frequencies of the fitted modes first, then shapes mode by mode, each
+ * Residuals as in struct functional for the likelihood: frequencies of the fitted modes first, then shapes mode by mode, each
  * with its best scale, so a column is already orthogonal to the scales. */
 
 struct columns_mode {
     int k, pair, sensors; /* measured mode; pair of the prediction; components measured */
     const int *sensor;    /* [sensors] indices */
     double scale;         /* a: predicted shape times a is the best fit to the measured one */
-    int first, members;   /* pairs of its cluster (modal/eigenvector_derivative.h) */
+    int first, members;   /* pairs of its cluster (eigenvalue_cluster) */
     double *adjoint;      /* [sensors * n] */
     double *weighted;     /* [sensors] phi_s/s_s: the direction of the scale */
     double square;        /* its squared length */
@@ -215,7 +233,7 @@ struct scan_candidate {     /* a cause at a target, with all its places */
     int first, count;         /* items */
     int best;                 /* item of the largest drop, -1: none is usable */
     double promise;           /* drop where there is no column */
-    const struct effect *far; /* where a fit starts as well (far_starts.h), NULL */
+    const struct effect *far; /* where a fit starts as well (far_starts_mark), NULL */
 };
 
 struct scan {
@@ -270,7 +288,7 @@ double scan_best_drop(const struct scan *scan, int candidate);
 
 /* The state that the steps of a diagnosis share. */
 
-struct far_start; /* far_starts.h */
+struct far_start; /* below */
 
 struct engine {
     struct pool *pool;
@@ -510,19 +528,15 @@ int base_note_reduction(struct engine *engine);
 /* Residuals of the base by mode and by sensor. */
 int base_residuals(struct engine *engine);
 
-/* --------------------------------------------------------------------------------------------------------------- changed */
-
-/* What changed between two states: the unknowns and what imitates the errors of the model are fitted to the first, what the model
- * still misses there is taken out of the data of the second, and the second is diagnosed with the unknowns held. An error of the
- * model that both states have is in neither. */
-
-/* *out := the job of state `after` with the unknowns that it shares held at what fits `before`, beside effects that imitate what
- * else is there. Its modes are those that both states have, with the frequencies f_a p_b/f_b, p_b what the fitted model predicts
- * for f_b on a mesh without error, and with the shapes a - g (b - s phi_b) at the sensors that both have, s and g the
- * least-squares scales of the model's shape to b and of b to a. The noise of both adds in squares, and so does what is missed
- * times how much the mode is another one in both, d, d^2 = (2 ln f_a/f_b)^2 + 1 - MAC(a, b) less what noise makes of that: what
- * the model misses of a mode moves with it. ROTID_ERROR_ARGUMENT where a name is none of a state, or the data of one do not
- * suffice (the list says what was expected); statuses of identify_run. */
+/* What changed between two states: the unknowns and what imitates the errors of the model are fitted to the first, what the
+ * model still misses there is taken out of the data of the second, and the second is diagnosed with the unknowns held. An error
+ * of the model that both states have is in neither. *out := the job of state `after` with the unknowns that it shares held at
+ * what fits `before`, beside effects that imitate what else is there. Its modes are those that both states have, with the
+ * frequencies f_a p_b/f_b, p_b what the fitted model predicts for f_b on a mesh without error, and with the shapes a - g (b - s
+ * phi_b) at the sensors that both have, s and g the least-squares scales of the model's shape to b and of b to a. The noise of
+ * both adds in squares, and so does what is missed times how much the mode is another one in both, d, d^2 = (2 ln f_a/f_b)^2 + 1
+ * - MAC(a, b) less what noise makes of that: what the model misses of a mode moves with it. ROTID_ERROR_ARGUMENT where a name is
+ * none of a state, or the data of one do not suffice (the list says what was expected); statuses of identify_run. */
 int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
                 const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
                 struct job *out);
@@ -697,21 +711,14 @@ struct line_fault {
  * ROTID_OK or ROTID_ERROR_MEMORY. */
 int line_check(struct pool *pool, const struct shape_data *data, double length, struct line_fault *fault, int *found);
 
-/* ---------------------------------------------------------------------------------------------------------------- faults */
-
-/* Faults of channels as rivals of the physical causes: a sensor that looks wrong beside one model may be sound beside another. */
-
-/* Behind the refits of a round, while nothing is named. The model without a cause and the best refits each say which channels
+/* Faults of channels as rivals of the physical causes: a sensor that looks wrong beside one model may be sound beside another.
+ * Behind the refits of a round, while nothing is named. The model without a cause and the best refits each say which channels
  * they find faulty, and are fitted again with these put right. The best of these explanations by score counts: its faults are
  * taken out of the judged data, each with a finding, if every explanation within the margin of a name has them too; *changed
  * then, and the round has to be repeated. A fault that stays open beside a physical cause goes to result->fault. */
 int faults_settle(struct engine *engine, struct round_result *result, int *changed);
 
-/* -------------------------------------------------------------------------------------------------------------- finalise */
-
-/* The final model, the gain, the verdict in words. */
-
-/* last: the round that named nothing more, or NULL. */
+/* The final model, the gain, the verdict in words. last: the round that named nothing more, or NULL. */
 int finalise(struct engine *engine, const struct round_result *last);
 
 /* ---------------------------------------------------------------------------------------------------------------- hidden */
@@ -719,7 +726,7 @@ int finalise(struct engine *engine, const struct round_result *last);
 /* What a cause below its detection limit does to the parameters that are identified. */
 
 /* result.hidden of *engine->out. With the scan of the last round, c the whitened column of a cause, J those of what is fitted,
- * both free of the scales of the shapes, and s the smallest size that shows at a place (detectable.h), or the largest that is
+ * both free of the scales of the shapes, and s the smallest size that shows at a place (amplitude_shown), or the largest that is
  * physical, the fit without the cause is off by
  *   dx = (J'J)^-1 J'c s.
  * Of all places and widths of a cause the one counts that moves a parameter most; of all causes those that move it most, three at
@@ -771,11 +778,8 @@ void fitted_errors(const struct states *states, const int *holdout, const rotid_
  * component being 1. NaN without a shape. */
 double shape_difference(const struct job *job, int k, double mac);
 
-/* --------------------------------------------------------------------------------------------------------- loaded shapes */
-
-/* What the mass of an accelerometer that went from sensor to sensor did to the measured shapes. */
-
-/* The fitted model at the sensors, mode by mode, without the accelerometer. */
+/* What the mass of an accelerometer that went from sensor to sensor did to the measured shapes. The fitted model at the sensors,
+ * mode by mode, without the accelerometer. */
 struct weighing {
     struct columns columns; /* of the base: its fitted modes */
     int nmode, npoint;
@@ -826,15 +830,12 @@ int pairing_note_again(struct engine *engine);
  * instead. */
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
 
-/* ----------------------------------------------------------------------------------------------------------------- pairs */
-
-/* Two causes at once, for a round in which one alone does not suffice. */
-
-/* The pairs of a scan that promise most, in score: every two items of different candidates, or of one with a place at two places,
- * drop together -2 b'u - u'Gu with G the products of their columns, b those with the residual, and the steps u within what
- * physics allows. Of the places of two candidates the best ones are taken, and no pair that would leave fewer than
- * LEAST_RESIDUALS. Pairs of causes that act in all states that have them are listed first, then those of which one or both act
- * in one state alone: set [2 * most], each `most` at most and best first, *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Two causes at once, for a round in which one alone does not suffice. The pairs of a scan that promise most, in score: every
+ * two items of different candidates, or of one with a place at two places, drop together -2 b'u - u'Gu with G the products of
+ * their columns, b those with the residual, and the steps u within what physics allows. Of the places of two candidates the best
+ * ones are taken, and no pair that would leave fewer than LEAST_RESIDUALS. Pairs of causes that act in all states that have them
+ * are listed first, then those of which one or both act in one state alone: set [2 * most], each `most` at most and best first,
+ * *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
 int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
                  int *count);
 

@@ -1,6 +1,22 @@
 #ifndef ROTID_FIT_FIT_H
 #define ROTID_FIT_FIT_H
 
+/* Fit: values of unknowns from measured modes, with their covariance. rotid_fit (one model), rotid_fit_states (several).
+ * In: rotid_model, rotid_measured, rotid_parameter (start, bounds), options. Out: rotid_fit_result: x, covariance, intervals.
+ *
+ *   entrance       fit.c (rotid_fit, rotid_fit_states): min f(x) = 1/2 sum r^2 r, dr/dx of modal/joint.c; checks: fit_check.c
+ *   bounds         bounds.c: x = alpha + (beta - alpha)/(1 + exp(chi y)) (30); the minimiser works on y
+ *   minimiser      lm.c (rotid_lm): (J'J + mu s^2 D^2 + F^2) h = -J'r by QR (linalg/least_squares.c), gain ratio, radius
+ *   covariance     fit.c (covariance_compute): C = w^2 (J'J)^-1 J'S J (J'J)^-1 in relative parameters; std of a parameter is
+ *                  sqrt(C_pp), w^2 = max(1, chi2/dof) where the noise S is known, else w^2 S = 2f/dof; intervals by 1.96 or
+ *                  Student's t; directions of small singular value are reported as not determined
+ *   quantiles      quantile.c: Student's t, chi-square; interval.c: when an interval counts as wide, its text in per cent
+ *   second opinion baseline.c (baseline_run): BOBYQA, Sbplx, SLSQP of NLopt on the same problem
+ *   host's model   check_jacobian.c (rotid_check_jacobian), check_model.c (rotid_check_model): derivatives against differences
+ *
+ * Callers: run/identify.c and hosts; diagnose, suggest, report, page, ... for quantiles and the rules of interval.c. The only
+ * room that calls NLopt. It must not know rotors or causes, nor how measured modes were paired: it fits the numbers given. */
+
 #include "base/base.h"
 #include "modal/modal.h"
 #include "rotid.h"
@@ -84,7 +100,7 @@ int fit_check_parameters(const char *count, int nparam, const rotid_parameter *p
 /* What is said of the interval of a parameter: one rule for every command. */
 
 /* A parameter is determined where its fit says so (`identifiable`: the 95 % interval does not hold zero, and no combination that
- * the data leave open has a part of it; fit/covariance.h). One that is determined is wide where half of its interval is more than
+ * the data leave open has a part of it). One that is determined is wide where half of its interval is more than
  * this part of its value: it says little about a modulus. */
 #define INTERVAL_WIDE 0.15
 /* Of a value: a change that a linear calculation promises beyond it is only known to be large. */

@@ -1,6 +1,25 @@
 #ifndef ROTID_LINALG_LINALG_H
 #define ROTID_LINALG_LINALG_H
 
+/* Linear algebra: symmetric banded matrices with a small dense block, their factors, eigenpairs and condensation; dense kernels.
+ * In: K, M (rotid_matrix), right-hand sides, masters. Out: solutions, pairs K phi = lambda M phi with phi'M phi = 1, K~ and M~.
+ *
+ *   storage           matrix.c; matrix_check.c checks matrices of a host; pencil.c: nonzero entries of wide K and M side by side
+ *   K - s M = L L', L U or L S L'   factor.c (factor_new, factor_compute, factor_solve): the far block by a Schur complement
+ *                     S = A_ff - A_fr A_rr^-1 A_rf; narrow inner part band.c, half band >= FACTOR_WIDE wide.c; factor_gather.c
+ *   full eigenpairs   eigen_full.c (eigen_full_solve) chooses: eigen_band.c, block Krylov on (K - s M)^-1 M with Rayleigh-Ritz
+ *                     (ritz.c), near pairs by arrow.c; wide bands (eigen_wide_solve), block Lanczos (lanczos.c); nearly full
+ *                     ones eigen_dense.c. A Sturm count (factor_negative_count, arrow_count) shows that no pair is missed
+ *   condensation      reduction.c (reduction_compute): u = T x, K~ = T'KT, M~ = T'MT by Guyan (11-13) or IRS, their derivatives
+ *   condensed pairs   eigen_dense.c, dsygvx on M phi = mu (K - s M) phi; eigen_guyan.c: Guyan's without K~ and M~, on arrow.c,
+ *                     bordered band factors of four shifts at once; shift.c: the shift s < 0
+ *   dense kernels     least_squares.c: damped step min |J h + r|^2 + mu |D h|^2, singular values; cholesky.c, positive.c,
+ *                     symmetric.c (indefinite), product.c, roots.c (polynomial by its companion matrix)
+ *   public doors      eigenpairs.c, condense.c, matrix_entry.c: rotid_eigenpairs, rotid_condense, rotid_matrix_*
+ *
+ * Callers: every room that computes. The only room that calls LAPACKE. It must not know what a degree of freedom or parameter is;
+ * derivatives of eigenvectors (Nelson) are in src/modal. */
+
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -56,7 +75,7 @@ void arrow_solve(const struct arrow *a, double *b);
 /* ------------------------------------------------------------------------------------------------------------------ band */
 
 /* Factors of a narrow band and their solutions, in LAPACK's storage. A beam's band is so narrow that LAPACK, which calls a BLAS
- * routine for every column, would spend its time on calls. Wide bands: wide.h.
+ * routine for every column, would spend its time on calls. Wide bands: struct wide.
  * Right-hand sides are interleaved, b[i * lanes + lane], lanes = 1, 2 or 4: the recurrences of one wait for each other; those
  * of four are one vector. What is computed in a lane does not depend on their number. */
 
@@ -369,7 +388,7 @@ struct eigen_band {
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e);
 
 /* Near pairs, of the call before or by block Krylov iteration on (K - s M)^-1 M with a shift s < 0 and Rayleigh-Ritz on K; then
- * inverse iteration with a shift for each (eigen_polish.h), or where that fails the block iteration to the end. A Sturm count at
+ * inverse iteration with a shift for each (eigen_band.c), or where that fails the block iteration to the end. A Sturm count at
  * the end proves that none was missed. K positive semidefinite, M positive definite. lambda [count], phi [n * count]. ROTID_OK,
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
@@ -384,7 +403,7 @@ void eigen_band_within(struct eigen_band *e, double residual);
 /* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
 void eigen_band_begin(struct eigen_band *e, const double *phi);
 
-/* ---- whichever is the fastest one: dense, of narrow bands, of wide ones (eigen_wide.h), on the matrices of the full model */
+/* ---- whichever is the fastest one: dense, of narrow bands, of wide ones (eigen_wide), on the matrices of the full model */
 
 struct eigen_full {
     int dense;
@@ -424,7 +443,7 @@ int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_ma
  * 2. of these the slaves follow from (K u)_s = 0. That is a constraint with forces w for
  *      [K - sigma M, K_.s; K_s., 0] [u; w] = [M u_before; 0],
  *    a band as well, whose solution is one inverse iteration with a shift on the condensed problem.
- * From near pairs (of the call before, or given) this converges as Rayleigh quotients do, as in eigen_polish.h. */
+ * From near pairs (of the call before, or given) this converges as Rayleigh quotients do, as in eigen_band.c. */
 
 struct guyan_piece {       /* between two pairs that are kept */
     int from, length;      /* degrees of freedom */
@@ -471,12 +490,9 @@ int eigen_guyan_solve(struct eigen_guyan *e, const rotid_matrix *k, const rotid_
 /* u [n] := T x of pair j of the last solution */
 void eigen_guyan_expand(const struct eigen_guyan *e, int j, double *u);
 
-/* ---------------------------------------------------------------------------------------------------------- eigen polish */
-
-/* Near pairs made exact: inverse iteration with a shift of its own for each, the inner part of eigen_band. */
-
-/* Rayleigh-Ritz in the span of the first `count` columns of image: value and ritz get that many pairs. Returns 0, or 1 where the
- * columns are not independent. */
+/* Near pairs made exact: inverse iteration with a shift of its own for each, the inner part of eigen_band. Rayleigh-Ritz in the
+ * span of the first `count` columns of image: value and ritz get that many pairs. Returns 0, or 1 where the columns are not
+ * independent. */
 int eigen_ritz_pairs(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m);
 
 /* --------------------------------------------------------------------------------------------------------- factor gather */
@@ -586,12 +602,8 @@ int matrix_check_entries(const char *name, const rotid_matrix *a, char *failure)
 /* Both for a [count], called k, m, dk, dm; ROTID_ERROR_ARGUMENT also where they are not of one structure. */
 int matrices_check(int count, const rotid_matrix *const *a, char *failure);
 
-/* -------------------------------------------------------------------------------------------------------------- positive */
-
-/* Dense symmetric positive definite matrices (LAPACK dpotrf, dpotri). */
-
-/* A [n * n], of which the lower triangle is read, is overwritten by A^-1, both triangles; *log_determinant of A. n >= 0. Returns
- * 0, or 1 where A is not positive definite. */
+/* Dense symmetric positive definite matrices (LAPACK dpotrf, dpotri). A [n * n], of which the lower triangle is read, is
+ * overwritten by A^-1, both triangles; *log_determinant of A. n >= 0. Returns 0, or 1 where A is not positive definite. */
 int positive_invert(int n, double *a, double *log_determinant);
 
 /* --------------------------------------------------------------------------------------------------------------- product */

@@ -1,6 +1,24 @@
 #ifndef ROTID_MODAL_MODAL_H
 #define ROTID_MODAL_MODAL_H
 
+/* Modal: modes of any rotid_model, their derivatives, and the residuals between them and measured modes.
+ * In: rotid_model, rotid_measured, values x. Out: lambda, phi, dlambda/dx, dphi/dx; r(x) and dr/dx; correlations; pairs.
+ *
+ *   modes          prediction.c (prediction_compute): K(x), M(x), condensed by Guyan or IRS or in full, K phi = lambda M phi
+ *   dlambda/dx     prediction.c (prediction_differentiate): phi'(dK - lambda dM) phi; condensed (36) by linalg/reduction.c
+ *   dphi/dx        eigenvector_derivative.c: Nelson (nelson_dense_solve condensed, nelson_band_solve full), (K - lambda M) V = P
+ *                  without the row of the largest component, dphi = V + (Q - phi'MV) phi (34, 35, 38); modal_superposition (37);
+ *                  clusters within 1e-6 (eigenvalue_cluster) are taken not to turn in their subspace
+ *   residuals      functional.c (functional_residual, functional_jacobian): HYBRID 1 - R*_k/w_k^2 (14, 15), HYBRID_F (16),
+ *                  LIKELIHOOD (f~/f - 1)/s_k and (a_k phi~_kj - phi_kj)/s_kj, a_k the best scale of the shape; the standard
+ *                  deviations s of a measured mode are data (rotid_measured), which src/ema or a deck states
+ *   states         joint.c (joint_residual, joint_jacobian): residuals of several states over common unknowns, stacked
+ *   correlation    correlation.c (rotid_mac, rotid_nco): NCO (45); pairing.c (pair_modes): by shape where it decides, or number
+ *   checks         measured_check.c; eigenpair_derivative.c: rotid_eigenpair_derivative, one pair for a host
+ *
+ * Callers: fit; run, study; diagnose/columns.c for adjoints. The room sees a rotor through rotid_model alone: it must not
+ * know beams, solids, causes or decks. */
+
 #include "base/base.h"
 #include "linalg/linalg.h"
 #include "rotid.h"
@@ -148,7 +166,7 @@ int prediction_compute(struct prediction *p, const double *x);
 int prediction_matrix_derivatives(struct prediction *p, const double *x, int q);
 
 /* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
- * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, nearly so where it
+ * prediction_compute. Vectors of a cluster (eigenvalue_cluster) are taken not to turn in it, nearly so where it
  * goes on behind the pairs that are known, those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE. */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
 
@@ -240,12 +258,9 @@ int joint_residual(struct joint *joint, const double *x, double *r);
 /* dr/dx [nresidual * nparam] at the x of the last joint_residual. Parameters of a model that are one unknown add up. */
 int joint_jacobian(struct joint *joint, const double *x, double *jacobian);
 
-/* -------------------------------------------------------------------------------------------------------- measured check */
-
-/* What measured modes have to be before a functional is made of them. */
-
-/* ROTID_OK; ROTID_ERROR_ARGUMENT where data are out of range or missing for the functional `kind`; ROTID_ERROR_UNPAIRED where a
- * mode number lies beyond those of the model after `reduction`. `failure` as in rotid.h. */
+/* What measured modes have to be before a functional is made of them. ROTID_OK; ROTID_ERROR_ARGUMENT where data are out of range
+ * or missing for the functional `kind`; ROTID_ERROR_UNPAIRED where a mode number lies beyond those of the model after
+ * `reduction`. `failure` as in rotid.h. */
 int measured_check(const rotid_model *model, const rotid_measured *measured, int kind, int reduction, char *failure);
 
 /* --------------------------------------------------------------------------------------------------------------- pairing */

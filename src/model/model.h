@@ -1,6 +1,23 @@
 #ifndef ROTID_MODEL_MODEL_H
 #define ROTID_MODEL_MODEL_H
 
+/* Model: a rotor as equations of motion behind rotid_model, the door that a host's own model uses as well. The one place that
+ * knows both a beam and a solid.
+ * In: struct rotor, parameters, refinement of the mesh. Out: struct rotor_model; its `equations` evaluate K(x), M(x), dK/dx_p,
+ * dM/dx_p and name the masters (the lateral degrees of freedom at the sensors) and the number of rigid modes.
+ *
+ *   opening        model.c (model_open): discretises, chooses the masters, counts rigid modes, fills rotid_model
+ *   beam or solid  discrete.c (discrete_build, discrete_assemble, discrete_differentiate): one branch for each discretisation
+ *   rigid modes    discrete.c (discrete_count_rigid): the lowest two, where their eigenvalue is near zero or
+ *                  less than half of their potential energy phi'K phi is in bending and shear
+ *   mesh limit     discrete.c (discrete_mesh_limit): f - share (g - f) of a mesh f and a refined or coarse one g (Richardson)
+ *   one run        models.c (models_for_run, models_discretise): meshes, mode counts and vectors are made once and used again;
+ *                  models_hold: the ratios f/f_coarse that a fit of a solid holds
+ *   deflection     deflection.c: along the axis, at sensors, of members; meridian.c: the solid's mesh and motion for results
+ *
+ * Callers: run, diagnose, api, export, study, which give rotor_model.equations to src/modal or src/fit for modes and fits. Of
+ * the rooms above only export looks into `discrete`. The room must not know measured data, residuals or fits. */
+
 #include "base/base.h"
 #include "beam/beam.h"
 #include "rotid.h"

@@ -1,12 +1,28 @@
 #ifndef ROTID_RECORD_RECORD_H
 #define ROTID_RECORD_RECORD_H
 
+/* Record: the description of every result of rotid.h as a table, one struct record a struct, one row (struct record_field) a key.
+ * In: the structs of rotid.h, in which a result is computed. Out: tables, from which follow
+ *   the copy that a host keeps        record_copy.c (record_copy), called by src/api
+ *   JSON written and read             src/result walks the same tables
+ *   docs/schema                       tools/schema, from the tables and from the comments of rotid.h
+ *
+ * The tables, a file a result:
+ *   record_geometry.c    geometry: materials, groups, segments, tie rods, bars, disks, springs, sensors, causes in the model
+ *   record_modes.c       spectrum: modes, mesh of a solid, beam beside solid; check of a deck; messages
+ *   record_identify.c    identification: parameters with intervals, compared modes, shapes, minimisers, noise, hidden causes
+ *   record_diagnose.c    diagnosis: verdict, findings, rounds, candidates, gain, detection limits
+ *   record_suggest.c     suggestion: plans of sensors, rivals, proposed tests
+ *   rows.h               macros that make a row of a member (NUMBER, TEXT, WORD, ...), for these files and for src/result
+ * A word of a result (LIKELIHOOD, named, ...) is an index into a list such as functional_words; cards use the same lists.
+ *
+ * Callers: api, result, tools/schema; deck, export and run for the words. The room must not know how a result is
+ * computed or printed: a new key is a member of rotid.h and a row here. */
+
 #include <stddef.h>
 
 #include "base/base.h"
 #include "rotid.h"
-
-/* ----------------------------------------------------------------------------------------------------------------- words */
 
 /* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
 

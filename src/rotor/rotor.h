@@ -1,6 +1,23 @@
 #ifndef ROTID_ROTOR_ROTOR_H
 #define ROTID_ROTOR_ROTOR_H
 
+/* Rotor: what a rotor is, whatever discretises it: geometry, materials, attachments, the parameters that vary, the effects of
+ * causes. In: struct rotor as src/deck fills it, values x of parameters. Out: a rotor at x, sections, forces, factors, rates.
+ *
+ *   structure      rotor.c (rotor_length, rotor_mass, ...); copy.c (rotor_copy; rotor_same_shape: may two rotors share a mesh?)
+ *   sling          copy.c (rotor_set_sling): end springs (44) from mass and centre of mass
+ *   sections       section.c (section_of_segment, section_of_ring): S, I of annulus or rectangle less N holes, each
+ *                  pi d^4/64 + S e^2/2; section_rods: S = N pi d^2/4, I = I_0 + S e^2/2 of a bundle (7)
+ *   parameters     parameter.c: parameter_find resolves a name ("core.E", "front.k", "cause.depth"); parameters_set writes x
+ *   effects        hooks of struct effect_kind, implemented in src/diagnose/causes: field (factors on E, G, rho along z), section
+ *                  (EI, kGS of a beam), tierod, spring, point (mass or ground spring), joint. Each returns its value or the
+ *                  exact derivative with respect to its parameter p
+ *   all effects    effects.c: products of the factors (effects_on_axis, effects_on_tierod, effects_on_spring) and their rates
+ *   axial force    effects.c (rotor_axial_force): F(z) = preload - sum N T of the self-equilibrated tie rods around z; from F
+ *                  src/beam and src/solid make the geometric stiffness K_G of the axis
+ *
+ * Callers: beam, solid, model, the causes, run and all above. The room must not know meshes, matrices, modes or measured data. */
+
 #include "base/base.h"
 
 /* ----------------------------------------------------------------------------------------------------------------- rotor */
@@ -77,7 +94,7 @@ struct sensor {
     double position;
 };
 
-struct effect; /* rotor/effect.h */
+struct effect; /* below */
 
 #define ROTOR_MOST_ELEMENTS 10000 /* with its bundles: what a deck may have, and what no mesh is refined beyond */
 
@@ -274,7 +291,7 @@ void parameters_set(const struct rotor *rotor, int n, const struct parameter *pa
 
 /* --------------------------------------------------------------------------------------------------------------- effects */
 
-/* What the effects of a rotor (rotor/effect.h) do together: products of their factors, and how one parameter moves the product.
+/* What the effects of a rotor do together: products of their factors, and how one parameter moves the product.
  */
 
 /* The product over all effects. */

@@ -1,6 +1,25 @@
 #ifndef ROTID_RUN_RUN_H
 #define ROTID_RUN_RUN_H
 
+/* Run: what the commands compute from a job. A job (struct job) is a deck resolved to numbers: rotor, measurement, unknowns,
+ * options; a deck with several measurements is a job a state over common unknowns (struct states). job.c, states.c.
+ * In: job or states. Out: plain structs (spectrum, comparison, identification, ...), which src/api makes the results of rotid.h.
+ *
+ *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
+ *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
+ *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
+ *   mesh             held_mesh.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
+ *                    mesh_choice.c (mesh_choose): elements of sections without a number, from the noise of the frequencies
+ *   frequency and its standard deviation of a mode read at several sensors   point_fit.c (point_mean): weighted regression
+ *                    f_j = c + b shape_j^2; point_fit, point_drop_outliers
+ *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']
+ *                    of the modes and of those left out; frf_agreement.c: FRAC, scale, level
+ *   sensitivity      sensitivity.c (sensitivity_run): E_k over steps (29), d ln f/d ln x; growth_run: growth of the functionals
+ *   pictures, checks mode_shapes.c; beside.c (beside_make): beam beside solid; doubt.c (doubt_units): frequencies in a wrong unit
+ *
+ * Callers: deck (fills jobs), diagnose, suggest, api, cli, study; result, report, page, export read the structs. The room must
+ * not read files, nor know the text of decks, the catalogue of causes (a cause is an effect of the rotor here) or printing. */
+
 #include "base/base.h"
 #include "modal/modal.h"
 #include "model/model.h"
@@ -41,7 +60,7 @@ struct frf_pair { /* a transfer function: ids of sensors, or of nodes of the mea
     int response, reference;
 };
 
-/* Which transfer functions are to be synthesised: the FRF card. What it leaves open is settled in frf_run.h. */
+/* Which transfer functions are to be synthesised: the FRF card. What it leaves open is settled by frf_run. */
 struct frf_request {
     int given;                       /* nonzero: the deck has the card */
     const char *file;                /* absolute path of the measured ones, NULL where there are none */
@@ -70,7 +89,7 @@ struct job_measurement {
     int has_noise_floor; /* the user allows for more than the scatter of the test: that is not taken for overstated noise */
     int *holdout;        /* [nmode] */
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
-     * none. frequency_hz of a mode that has any is then their mean over all sensors: see run/point_fit.h. */
+     * none. frequency_hz of a mode that has any is then their mean over all sensors: see point_mean. */
     double *point_frequency_hz, *point_frequency_std;
     int hammer; /* id of the sensor beside the hammer while that accelerometer went round, 0 where not known */
 
@@ -138,14 +157,10 @@ int job_knows_shape_noise(const struct job *job);
 /* Whether a likelihood can use shapes: there are some, with their noise. */
 int job_fits_shapes(const struct job *job);
 
-/* ---------------------------------------------------------------------------------------------------------------- beside */
-
 /* The rotor as a beam beside the same rotor as a solid of revolution: their modes, and what a beam that is fitted to the solid
- * would take its moduli for. */
-
-/* At the values x [nparameter] of the parameters of the job; nmode modes as far as both have them. Without sensors the shapes are
- * compared at nodes of the beam. ROTID_OK; ROTID_ERROR_SECTION with an error in the list where a part of the rotor has no meaning
- * in one of the two; statuses of spectrum_compute, comparison_make and rotid_fit. */
+ * would take its moduli for. At the values x [nparameter] of the parameters of the job; nmode modes as far as both have them.
+ * Without sensors the shapes are compared at nodes of the beam. ROTID_OK; ROTID_ERROR_SECTION with an error in the list where a
+ * part of the rotor has no meaning in one of the two; statuses of spectrum_compute, comparison_make and rotid_fit. */
 int beside_make(struct pool *pool, const struct job *job, const double *x, int nmode, const rotid_environment *environment,
                 struct message_list *notes, rotid_beam_beside_solid **beside);
 
@@ -575,15 +590,12 @@ struct mesh_choice {
  * first mesh is left. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mesh_choose(struct pool *pool, struct job *job, int count, const int *section, struct mesh_choice *choice);
 
-/* ----------------------------------------------------------------------------------------------------------- mode shapes */
-
 /* Measured shapes beside those of the full model, as a picture of them needs it: on one scale, the model's along the whole axis
- * and along the members beside it, and which measured shape looks like which mode. */
-
-/* Fills `shapes` and, where a measured shape has two components, the matrices of the MAC and, with a mass matrix of the masters,
- * of the NCO with their rows and columns; zeros before. The best scale of a shape of the model to the measured one is
- * a = sum p m/s^2/sum p^2/s^2 with the stated noise s, 1 where it is not known of all; NaN without a partner. Leans on the job
- * and the spectrum, which is that of spectrum_compute at the model that `compared` paired. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * and along the members beside it, and which measured shape looks like which mode. Fills `shapes` and, where a measured shape
+ * has two components, the matrices of the MAC and, with a mass matrix of the masters, of the NCO with their rows and columns;
+ * zeros before. The best scale of a shape of the model to the measured one is a = sum p m/s^2/sum p^2/s^2 with the stated noise
+ * s, 1 where it is not known of all; NaN without a partner. Leans on the job and the spectrum, which is that of spectrum_compute
+ * at the model that `compared` paired. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mode_shapes_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared,
                      rotid_identification *out);
 

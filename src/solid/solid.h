@@ -1,6 +1,25 @@
 #ifndef ROTID_SOLID_SOLID_H
 #define ROTID_SOLID_SOLID_H
 
+/* Solid: K(x) and M(x) of a rotor as a body of revolution, first circumferential harmonic, with exact dK/dx and dM/dx.
+ * In: struct rotor, parameters, values x. Out: solid_assemble (K, M), solid_differentiate (dK, dM), mass, strain energy.
+ *
+ *   displacement   u_r = U cos t, u_t = V sin t, u_z = W cos t over the meridian (r, z)
+ *   mesh           outline.c (outline_lines): lines graded towards re-entrant corners; mesh.c (solid_mesh_build): eight-node
+ *                  quadrilaterals, quarter-point nodes at corners; shape.c: shape functions
+ *   material       elasticity.c (elasticity_of): transversely isotropic C, of a laminated stack too, and its derivatives
+ *   elements       solid.c (integrals_of, once a mesh): K = pi int B'CB r dr dz, M = pi rho int N'N r dr dz as sums;
+ *                  field_of_share: C, rho and axial stress of each share of an element, with the factors of the effects
+ *   prestress      solid.c: sigma = share of rotor_axial_force over the area; K += pi sigma int (U,z^2 + V,z^2 + W,z^2) r dr dz
+ *   attachments    motion.c (motion_of_section): v = int (U - V)/2 r dr/int r dr, theta = int W r^2 dr/int r^3 dr of a section;
+ *                  on these solid.c (attached_assemble) puts springs and disks; point masses are rings of the surface
+ *   tie rods, bars members.c (members_assemble): beam elements beside the solid; tension N T of the rods enters their K_G there;
+ *                  stretch by W at the pitch radius (motion_axial)
+ *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
+ *   transfer       transfer.c (solid_transfer): a motion on another mesh, to begin an eigensolution with
+ *
+ * Callers: src/model; export reads the mesh. The room must not know modes, data, or the limit of two meshes. */
+
 #include "base/base.h"
 #include "rotid.h"
 #include "rotor/rotor.h"
@@ -168,7 +187,7 @@ void motion_add(rotid_matrix *a, double value, const struct motion *x, const str
 
 /* A rotor as a body of revolution: its first circumferential harmonic on the mesh of a meridian, with what is attached to it, and
  * the parameters that may vary. A client of src/rotor beside src/beam. What has no meaning here is refused with
- * ROTID_ERROR_SECTION: see solid_refusal. What a cause does to the sections of a beam (rotor/effect.h) does nothing here. */
+ * ROTID_ERROR_SECTION: see solid_refusal. What a cause does to the sections of a beam (effect_section) does nothing here. */
 
 struct solid_line { /* of the mesh: the motion of the section there */
     struct motion v, theta;
@@ -224,16 +243,12 @@ void solid_rigid_motions(const struct solid *solid, double *u);
 /* Strain energy [J] of each element in the motion u [ndof], for the amplitude u: energy [nelement]. */
 void solid_strain_energy(const struct solid *solid, const double *u, double *energy);
 
-/* ----------------------------------------------------------------------------------------------------------------- field */
-
 /* What the values of a rotor and its causes make of the material of an element, share by share. */
 
 struct share { /* one of an element; as a derivative: its rate */
     struct elasticity elasticity;
     double rho, stress; /* kg/m3; Pa, axial, tension positive */
 };
-
-/* ----------------------------------------------------------------------------------------------------------------- lines */
 
 /* Places of mesh lines along one coordinate, graded towards some of them. */
 
@@ -300,12 +315,9 @@ void shape_of_element(double x, double y, double *n, double *by_x, double *by_y)
  * first end, node between, second end; by_place [3]: derivatives with respect to the place, or NULL. */
 void shape_of_edge(const double *edge, double place, double *n, double *by_place);
 
-/* -------------------------------------------------------------------------------------------------------------- transfer */
-
-/* A motion of a solid on another mesh of the same rotor: where the solution on a finer mesh begins. */
-
-/* v [ndof of `to`] := the motion u [ndof of `from`] at the nodes, sensors and members of `to`. Elements are taken to be straight,
- * which those at corners are not: a beginning, no interpolation to the last digit. */
+/* A motion of a solid on another mesh of the same rotor: where the solution on a finer mesh begins. v [ndof of `to`] := the
+ * motion u [ndof of `from`] at the nodes, sensors and members of `to`. Elements are taken to be straight, which those at corners
+ * are not: a beginning, no interpolation to the last digit. */
 void solid_transfer(const struct solid *from, const double *u, const struct solid *to, double *v);
 
 #endif

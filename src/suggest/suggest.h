@@ -1,6 +1,23 @@
 #ifndef ROTID_SUGGEST_SUGGEST_H
 #define ROTID_SUGGEST_SUGGEST_H
 
+/* Suggest: what to measure next: where sensors should stand before a test, and which test separates the causes that a diagnosis
+ * leaves open. In: states of a deck, options. Out: struct suggestion: plans of sensors, rivals, tests with expected leads.
+ *
+ *   entrance     suggest.c (suggest_states): diagnosis of what is measured, rivals, plan, tests
+ *   plan         suggest.c (plan_design): columns of sensitivities at all places; design.c (design_choose): greedy choice and
+ *                exchanges on ln det(P + G) + mean ln(1 + q_t); effective_independence; design_half_widths: 196 sqrt((G^-1)_pp) %
+ *   rivals       rivals.c (rivals_find): alternatives of the diagnosis, each fitted anew; rival_gram: J'J
+ *   tests        tests.c (test_apply): mass added, supports stiffer, softer or moved, more modes or sensors; planned.c
+ *                (planned_measure): the modes of a model as noise-free measurements of a test
+ *   margin       margin.c (margin_judge): lead of a over b, M_b = score_b - score_a + Q_b(w - d_b) - Q_a(w) with
+ *                Q_b(z) = |z|^2 - (J_b2'z)' H_b^-1 (J_b2'z); chances by draws of noise
+ *   choice       candidates.c (candidates_judge): which tests and places are tried, their rank; joint_chi2: a rival fitted to
+ *                the measurement and to a test together, in place of the linear margin
+ *
+ * Callers: api makes rotid_suggestion of it, deck writes the cards of a test. The room uses src/diagnose and src/run as they are:
+ * it must not decide which cause is true, read files or print. */
+
 #include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "run/run.h"
@@ -226,12 +243,8 @@ struct plan_request {
     const rotid_environment *environment;
 };
 
-/* ------------------------------------------------------------------------------------------------------------ candidates */
-
-/* The tests worth a thought for the rivals of a diagnosis, each judged. */
-
-/* Fills tests, in the order of their rank, rivals' margins of places, and out->test. options: with defaults settled. Statuses of
- * memory, cancellation and the models of plan_design. */
+/* The tests worth a thought for the rivals of a diagnosis, each judged. Fills tests, in the order of their rank, rivals' margins
+ * of places, and out->test. options: with defaults settled. Statuses of memory, cancellation and the models of plan_design. */
 int candidates_judge(struct pool *pool, const struct places *places, const rotid_suggest_options *options,
                      const rotid_environment *environment, struct suggestion *out);
 

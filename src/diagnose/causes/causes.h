@@ -1,6 +1,22 @@
 #ifndef ROTID_DIAGNOSE_CAUSES_CAUSES_H
 #define ROTID_DIAGNOSE_CAUSES_CAUSES_H
 
+/* Causes: the catalogue of what can be wrong with numbers, data or rotor. One file a cause, one line each in catalogue.c.
+ * In: a rotor or a job, a target (group, interface, spring, tie rod, sensor, ...), parameter values of the cause. Out: struct
+ * cause_kind: how the cause changes the model or the data, its bounds, when it applies, its words for reports and CAUSE cards.
+ *
+ *   catalogue      catalogue.c (catalogue_item, catalogue_find, catalogue_of): by number, by id, by effect; correction_apply
+ *   bounds         cause.c (cause_bounds, cause_reach, cause_widen): usual and physically possible bounds of a parameter
+ *   numbers        mesh.c, guyan_reduction.c, beam_theory.c: entries without an effect; the last one asks for a solid
+ *   measurement    sensor_gain.c, sensor_sign.c, sensor_swap.c, sensor_position.c, sensor_line.c, duplicate_channel.c,
+ *                  noise_level.c, mode_pairing.c: hook `correct` takes the fault out of a job's data; sensor.c: shared routines
+ *   rotor          all others (stiffness_local.c, joint.c, support.c, tie_tension.c, ...): hooks of struct effect_kind
+ *                  (src/rotor/rotor.h) with exact derivatives; tie_tension.c: a factor on the tension T; shared.c: Gauss rule,
+ *                  mean compliance 1/f of a soft zone, flexibility int (z - z0)^n/EI dz
+ *
+ * Callers: diagnose, suggest by way of it; deck (CAUSE cards), api, report, page and study for names and words. A cause must not
+ * know the mesh, the modes or the scan: it states factors, compliances and masses, and src/beam and src/solid apply them. */
+
 #include "base/base.h"
 #include "rotor/rotor.h"
 #include "run/run.h"
