@@ -18,7 +18,7 @@
  *
  * Writing: deck_write (deck_write*.c, deck_writer.c) gives a text that reads as the same job to the last bit; deck_write_states;
  * deck_extended.c the deck of a diagnosis; deck_proposed.c the *STATE of a test that src/suggest proposes.
- * Callers: src/api, src/cli, src/study. The room states a problem and computes nothing of it: no K, no M, no fit. */
+ * Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no fit. */
 
 #include <stdio.h>
 #include <sys/stat.h>

@@ -20,7 +20,7 @@
  *   shapes.c         shapes_of_mode: A_cr to a real shape (real_mode.c: mode_axis), its std, MPC, MPD, modal mass
  *   synthesis.c      ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
  *
- * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor, no file. */
+ * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
 
 #include <stddef.h>
 
@@ -32,7 +32,7 @@
 
 /* What the estimators work on: the usable channels of a set as accelerance, on the lines of a band. Accelerance because its peaks
  * are of one size for modes of one damping and mass, whatever their frequency; and off its peaks it is real, which the basis of
- * LSCF wants. */
+ * LSCF needs. */
 
 struct ema_band {
     int nline;
