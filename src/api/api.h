@@ -1,6 +1,25 @@
 #ifndef ROTID_API_API_H
 #define ROTID_API_API_H
 
+/* api: the first layer of rotid.h: a deck and its results as plain structs of which the host owns a copy.
+ *
+ * Comes in: a path or text of a deck, a rotid_deck, options, an environment. Goes out: a status, a struct of rotid.h, the reason
+ * of a failure. Each routine of rotid.h opens a call (call_open: scratch memory, cancellation, locale "C"), lets src/run,
+ * src/diagnose or src/suggest compute on the scratch, makes a struct of pointers into the scratch, and copies the struct for the
+ * host (call_keep, by the tables of src/record); call_close explains errors.
+ *
+ *   deck_handle.c     rotid_deck_read, rotid_deck_read_text; deck_states, deck_job: what stands behind a rotid_deck
+ *   check.c           rotid_deck_check: mass, geometry, sensors
+ *   spectrum.c        rotid_spectrum_compute, rotid_spectrum_beside: frequencies, shapes, pairing with measured modes
+ *   identification.c  rotid_identify; result_identification.c: parameters with std and interval, chi^2, modes, noise
+ *   diagnosis.c       rotid_diagnose; result_diagnosis.c: candidates, verdict, rounds, gain
+ *   suggestion.c      rotid_suggest: tests to do next
+ *   result_geometry.c the model as it is drawn and meshed
+ *   call.c, keep.c    the frame of a call; the copy
+ *
+ * Hosts and src/cli call rotid.h; src/cli takes deck_job_of and deck_states_of besides. Models and fits of a host (rotid_model,
+ * rotid_fit) belong to src/modal and src/fit. The room prints nothing and keeps nothing between calls. */
+
 #include <stdatomic.h>
 
 #include "base/base.h"
@@ -30,7 +49,7 @@ int call_open(struct call *call, const rotid_environment *given, char *failure, 
  * status. */
 int call_close(struct call *call, int status);
 
-/* ----------------------------------------------------------------------------------------------------------- deck handle */
+/* ----------------------------------------------------------------------------------------------------- deck handle, keep */
 
 /* What stands behind the `memory` of a rotid_deck. */
 
@@ -45,39 +64,25 @@ const struct job *deck_job(const rotid_deck *deck, struct call *call);
 const struct states *deck_states_of(const rotid_deck *deck);
 const struct job *deck_job_of(const rotid_deck *deck);
 
-/* ------------------------------------------------------------------------------------------------------------------ keep */
-
-/* What of a result on the scratch of a call the host keeps. */
-
 /* A copy of the struct `made`, which `record` describes: it leans on nothing, and its member `memory`, of which the address in
  * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
 void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
 
-/* ------------------------------------------------------------------------------------------------------ result diagnosis */
+/* --------------------------------------------------------------------------------------------------------------- results */
 
-/* A diagnosis as hosts and files have it. */
-
-/* deck: the states as the user states them, whose FIT `today` was fitted with. It leans on both. Without
- * messages and the extended deck. The result of `d`; where memory is out the pool says so. */
+/* A diagnosis as hosts and files have it. deck: the states as the user states them, whose FIT `today` was fitted with. It leans
+ * on both. Without messages and the extended deck. The result of `d`; where memory is out the pool says so. */
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d);
 
 /* A candidate at its best values; where memory is out the pool says so. */
 rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
 
-/* ------------------------------------------------------------------------------------------------------- result geometry */
-
-/* A model as it is drawn and meshed, for results. */
-
-/* Of the beam, with the values of the parameters and the end springs that it has; of the rotor as it stands, without nodes, where
- * beam is NULL. It leans on
- * both. NULL where memory is out. */
+/* A model as it is drawn and meshed: of the beam, with the values of the parameters and the end springs that it has; of the rotor
+ * as it stands, without nodes, where beam is NULL. It leans on both. NULL where memory is out. */
 rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model);
 
-/* ------------------------------------------------------------------------------------------------- result identification */
-
-/* An identification as hosts and files have it. */
-
-/* Leans on the job and on what was found. Without noise, geometry and messages. NULL where there is no fit, or memory is out. */
+/* An identification as hosts and files have it. Leans on the job and on what was found. Without noise, geometry and messages.
+ * NULL where there is no fit, or memory is out. */
 rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found);
 
 /* The same of all states together, with noise and geometry and those of each in `states`; found [nstate], fit: of all. */

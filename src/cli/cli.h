@@ -1,6 +1,25 @@
 #ifndef ROTID_CLI_CLI_H
 #define ROTID_CLI_CLI_H
 
+/* cli: the program rotid: arguments, one file a command, messages, signals, exit codes.
+ *
+ * Comes in: argv. Goes out: tables on standard output, files, messages on standard error, an exit code (0 done, 1 doubtful,
+ * 2 usage, 3 internal). The way of a run:
+ *
+ *   main.c              main: terminal, arguments, deck, command, exit code; threads of BLAS: blas.c
+ *   arguments.c         arguments_parse: the rows of option_table.c to struct command; --help
+ *   arguments_refuse.c  options that do not go together, files that would be lost
+ *   command_deck.c      command_read_deck: the deck by rotid_deck_read; states; command_fit_deck: fits before frf, export, ...
+ *   command_NAME.c      command_check, _modes, _sensitivity, _identify, _diagnose, _suggest, _frf, _ema, _uff, _report, _export,
+ *                       _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command_csv.c)
+ *   command_table.c     the list of the commands; option_table.c: the options, a row each, from which `make tables` writes the
+ *                       completions and the lists of docs/rotid.1
+ *   command.c           messages, head of the result, failures, environment of a long call
+ *   interrupt.c         command_watch_signals, command_cancelled: the first signal asks a run to end, the second ends it
+ *
+ * src/mpi uses study_prepare and study_conduct; no other room includes cli. The room computes nothing: what a command finds comes
+ * from rotid.h, src/run, src/ema, src/import or src/study. Only this room and src/mpi exit and handle signals. */
+
 #include <stddef.h>
 #include <stdio.h>
 
@@ -222,10 +241,8 @@ int study_conduct(struct command *command, const struct study *study, study_comp
 
 /* --------------------------------------------------------------------------------------------------------------- options */
 
-/* The options of the program, a row each. From the rows follow what is accepted and what is said where it is not (arguments.c,
- * option_value.c), `rotid COMMAND --help` (help.c), and the completions of the shells and the lists of docs/rotid.1, which `make
- * tables` writes.
- */
+/* The options of the program, a row each. From the rows follow what is accepted, what is said where it is not, and `rotid COMMAND
+ * --help` (arguments.c), and the completions of the shells and the lists of docs/rotid.1, which `make tables` writes. */
 
 struct command;
 

@@ -1,6 +1,25 @@
 #ifndef ROTID_DECK_DECK_H
 #define ROTID_DECK_DECK_H
 
+/* deck: input decks (docs/deck.md) to jobs of src/run, and jobs to decks.
+ *
+ * Comes in: a deck as file or text, --set overrides. Goes out: struct states, one struct job a state, in SI; all errors with
+ * file, line, column. Entrances: deck_read_states, deck_read (deck.c). Steps of reading:
+ *   deck_text.c          cards, options, data lines with their places, *INCLUDE; deck_override.c: --set
+ *   deck_table.c         tables of FILE= (table_text.c) become data lines
+ *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
+ *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
+ *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, read and written by deck_row.c
+ *   deck_fields.c        one number, option or position with range and unit; deck_units.c: factors to SI
+ *   deck_model.c, deck_layer.c, deck_members.c  materials, sections; rings; tie rods, bars, holes, *PRELOAD (group.preload)
+ *   deck_measured.c, deck_frequencies.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
+ *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
+ *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
+ *
+ * Writing: deck_write (deck_write*.c, deck_writer.c) gives a text that reads as the same job to the last bit; deck_write_states;
+ * deck_extended.c the deck of a diagnosis; deck_proposed.c the *STATE of a test that src/suggest proposes.
+ * Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no fit. */
+
 #include <stdio.h>
 #include <sys/stat.h>
 
@@ -131,8 +150,6 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
 const struct card_option *card_option(const struct card *card, const char *name);
 
 /* ------------------------------------------------------------------------------------------------------------------ deck */
-
-/* Input decks: keyword cards as in docs/deck.md. */
 
 /* Reads a deck, a file or one from memory (not NULL), applies the overrides, reads the measured data it names and checks
  * everything. All errors of the deck are in the list, each with file, line and column. ROTID_OK, ROTID_ERROR_SYNTAX,
@@ -319,7 +336,7 @@ void deck_apply_corrections(struct deck_reader *reader);
  * data, which this reports, or of a card that was refused, which has been reported. */
 int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place);
 
-/* ------------------------------------------------------------------------------------------------------------ deck cause */
+/* --------------------------------------------------------------------------------------------- deck cause, deck extended */
 
 /* The reader of CAUSE cards, by file: the card and its values, its target, what corrections do to the data. */
 
@@ -341,13 +358,9 @@ const char *cause_target_expected(enum cause_target target);
  * error. */
 int cause_read_target(struct cause_card *c);
 
-/* --------------------------------------------------------------------------------------------------------- deck extended */
-
-/* The extended deck of a diagnosis: what was named is in it, the moduli stand at their fitted values, the verdict in its heading.
- */
-
-/* The deck of a diagnosis that has a verdict (sentence), of the base model where nothing was named; from: path of the deck that
- * was diagnosed. ROTID_OK and *text on the pool; statuses of deck_write. */
+/* The extended deck of a diagnosis that has a verdict (sentence): with what was named, the base model where nothing was named,
+ * the moduli at their fitted values, the verdict in its heading. from: path of the deck that was diagnosed. ROTID_OK and *text on
+ * the pool; statuses of deck_write. */
 int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, const char *from, char **text);
 
 /* ------------------------------------------------------------------------------------------------------ deck frequencies */
@@ -416,7 +429,7 @@ int deck_add_state(struct pool *pool, const char *path, const char *deck, const 
 int deck_propose(struct pool *pool, const char *from, const char *to, const char *home, const rotid_suggested_test *test,
                  struct message_list *notes, char **text);
 
-/* ------------------------------------------------------------------------------------------------------------ deck state */
+/* -------------------------------------------------------------------------------------------------- deck state, deck uff */
 
 /* Decks of several states: the cards before the first *STATE and those of a state are the deck of that state, which is read like
  * any other. */
@@ -432,17 +445,14 @@ void deck_set(struct deck_reader *reader, const struct card *card);
 /* What *SET says of lengths, before anything refers to positions. */
 void deck_set_lengths(struct deck_reader *reader);
 
-/* ---------------------------------------------------------------------------------------------------------- deck uff std */
-
-/* The sets of a universal file that say how far its modes can be trusted. */
-
-/* Reads file->extra of a file that MEASURED names at `path`, after its modes: chosen [count] are the sets behind the modes of the
- * job, component is the value of a node that DIRECTION asks for where there are several. Sets 55 of analysis type 0, behind a
- * mode n of the file, by their first line of text: ROTID STANDARD DEVIATION OF MODE n: of the components, in their unit; the
- * second line of text is FREQUENCY_HZ value DAMPING value, standard deviations as well; ROTID FREQUENCY AT POINT OF MODE n: Hz,
- * with the accelerometer at each node, less what a second line ABOVE_HZ value says; ROTID STANDARD DEVIATION OF FREQUENCY AT
- * POINT OF MODE n: Hz. They fill frequency_std, shape_std and the frequencies at single sensors of the job. Zero stands for what
- * is not known; sets with other texts are left alone. Anything malformed is an error of the deck. */
+/* Reads the sets that say how far the modes of a universal file can be trusted, file->extra of a file that MEASURED names at
+ * `path`, after its modes: chosen [count] are the sets behind the modes of the job, component is the value of a node that
+ * DIRECTION asks for where there are several. Sets 55 of analysis type 0, behind a mode n of the file, by their first line of
+ * text: ROTID STANDARD DEVIATION OF MODE n: of the components, in their unit; the second line of text is FREQUENCY_HZ value
+ * DAMPING value, standard deviations as well; ROTID FREQUENCY AT POINT OF MODE n: Hz, with the accelerometer at each node, less
+ * what a second line ABOVE_HZ value says; ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE n: Hz. They fill frequency_std,
+ * shape_std and the frequencies at single sensors of the job. Zero stands for what is not known; sets with other texts are left
+ * alone. Anything malformed is an error of the deck. */
 void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff_file *file, int count,
                   const struct uff_shape *const *chosen, int component);
 

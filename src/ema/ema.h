@@ -1,6 +1,27 @@
 #ifndef ROTID_EMA_EMA_H
 #define ROTID_EMA_EMA_H
 
+/* ema: experimental modal analysis, from transfer functions to poles, shapes and their standard deviations.
+ *
+ *     H_c(w) = (i w)^q { sum_r [A_cr/(i w - lambda_r) + conj(A_cr)/(i w - conj(lambda_r))] - L_c/w^2 + U_c }
+ *
+ * Comes in: struct frf_set of src/signal, struct ema_options. Goes out: struct ema. Entrance: ema_compute (ema.c), which calls
+ *   band.c           ema_band_new: usable channels (channels.c: channels_check) as accelerance on the lines of the band
+ *   stabilisation.c  stabilisation_compute: LSCF, B_c(z)/A(z), z = exp(i theta), common A; roots of A for each even order;
+ *                    stabilisation_candidates: poles that come back from order to order
+ *   selection.c      selection_screen, selection_earn: a candidate stays where sum |A|^2/var(A) exceeds chance
+ *   ema.c            zoom_compute: a long band in parts; guard_poles: poles beyond the band; picking_compute: EMA_QUADRATURE
+ *   modal_fit.c      modal_fit_evaluate: residues, L, U for given poles, linear least squares with weights 1/variance
+ *   refine.c         refine_poles: all poles by variable projection, Levenberg-Marquardt; covariance C of the poles = inverse of
+ *                    the information, wider where the scores of the channels scatter more
+ *   modes.c          modes_of_pole: std of frequency and damping from C; modes_judge: quality flags, MAC
+ *   residues.c       residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
+ *   per_point.c      per_point_frequencies: a pole for each channel (local.c: local_fit) where the channels disagree
+ *   shapes.c         shapes_of_mode: A_cr to a real shape (real_mode.c: mode_axis), its std, MPC, MPD, modal mass
+ *   synthesis.c      ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
+ *
+ * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
+
 #include <stddef.h>
 
 #include "base/base.h"
@@ -11,7 +32,7 @@
 
 /* What the estimators work on: the usable channels of a set as accelerance, on the lines of a band. Accelerance because its peaks
  * are of one size for modes of one damping and mass, whatever their frequency; and off its peaks it is real, which the basis of
- * lscf.h wants. */
+ * LSCF needs. */
 
 struct ema_band {
     int nline;
@@ -41,12 +62,8 @@ int ema_band_line(const struct ema_band *band, double value);
 
 /* ------------------------------------------------------------------------------------------------------------------- ema */
 
-/* Experimental modal analysis: poles and shapes from transfer functions.
- *
- *     H_c(omega) = (i omega)^q [ sum_r  A_cr/(i omega - lambda_r) + conj(A_cr)/(i omega - conj(lambda_r))  - L_c/omega^2 + U_c ]
- *
- * for channel c (a response over a reference), q = 0, 1, 2 for displacement, velocity, acceleration; L_c and U_c stand for what
- * lies below and above the band. lambda = -zeta w0 + i w0 sqrt(1 - zeta^2), the frequency of a mode is w0/(2 pi). */
+/* The model above, for channel c (a response over a reference): q = 0, 1, 2 for displacement, velocity, acceleration; L_c and U_c
+ * stand for what lies below and above the band. lambda = -zeta w0 + i w0 sqrt(1 - zeta^2), the frequency is w0/(2 pi). */
 
 enum ema_method { EMA_LSCF, EMA_QUADRATURE };
 
@@ -55,7 +72,7 @@ struct ema_options {
     int method;
     double low_hz, high_hz; /* band; [the lines of the set] */
     int order; /* largest order of the denominator, of which half are poles of positive frequency; [120], and two thirds of the
-                  number of lines at most. Parts of a long band take 60 of it at most (zoom.h) */
+                  number of lines at most. Parts of a long band take 60 of it at most */
     int npick; /* frequencies that the user wants, instead of those that the stabilisation table proposes */
     const double *pick_hz;
     double frequency_tolerance, damping_tolerance; /* of a stable pole from order to order; [0.002], [0.05] */
@@ -133,7 +150,7 @@ struct ema { /* everything on the pool */
     int npole;
     struct ema_pole *pole; /* stabilisation table: order by order, rising frequency */
     int nmode;
-    struct ema_mode *mode; /* rising frequency; behind them nguard that stand for what is beyond the band, see guard.h */
+    struct ema_mode *mode; /* rising frequency; behind them nguard that stand for what is beyond the band */
     int nguard;
     double *mac;                   /* [nmode * nmode] of the complex shapes with themselves */
     double complex *lower, *upper; /* [nfrf] L_c, U_c */
@@ -157,7 +174,7 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
 void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int with_residuals, int n,
                     const double *frequency_hz, double complex *h);
 
-/* -------------------------------------------------------------------------------------------------------------- channels */
+/* ------------------------------------------------------------------------------------------------------ channels, guards */
 
 /* What is wrong with a transfer function, before and after the modes are known. */
 
@@ -169,8 +186,6 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
 
 /* fit and MISFIT of the usable channels over the same lines, from the modes in out. ROTID_OK or ROTID_ERROR_MEMORY. */
 int channels_compare(struct pool *pool, const struct frf_set *set, int first, int last, const int *usable, struct ema *out);
-
-/* ----------------------------------------------------------------------------------------------------------------- guard */
 
 /* Modes beyond the ends of the band, as far as the band feels them. */
 
@@ -194,11 +209,11 @@ struct modal_gram {
 };
 
 /* Fills the table and the denominators for the lines nu [nline], rising, and the columns basis [2 nline * (4 nmode + 4)] of
- * modal_fit.h at these poles; where psi is not filled, neither are the products with it. Returns 0, or 1 where a pole is not
- * damped or too many are close. */
+ * modal_fit_columns at these poles; where psi is not filled, neither are the products with it. Returns 0, or 1 where a pole is
+ * not damped or too many are close. */
 int modal_gram_fill(struct modal_gram *gram, const double *nu, const double complex *pole, const double *basis);
 
-/* ------------------------------------------------------------------------------------------------------------- modal fit */
+/* ---------------------------------------------------------------------------------------------------- modal fit, impacts */
 
 /* The modal model on a choice of lines, linear in its residues, nonlinear in its poles: the kernel of the residues, of their
  * refinement and of fits to single channels. As accelerance, s = i omega,
@@ -263,10 +278,6 @@ void modal_fit_local_noise(const struct modal_fit *fit, int count, double widths
  * third ... of those further than three bandwidths from all poles where there would be more than `most`. Returns their number,
  * line [band->nline]. */
 int modal_fit_lines(const struct ema_band *band, int nmode, const double complex *pole, double widths, int most, int *line);
-
-/* --------------------------------------------------------------------------------------------------------------- impacts */
-
-/* What the impacts say about the residues, line by line independent or not. */
 
 /* The covariance `spread` of the residues takes the noise of neighbouring lines for independent. That of the force is not: behind
  * the window of the force its spectrum is smooth, and moves a whole peak up or down, as a gain would. So the residues are fitted
@@ -360,19 +371,14 @@ void modes_from_fit(const struct ema_band *band, const struct modal_fit *fit, co
  * hold. */
 int modes_judge(struct pool *pool, const struct ema_band *band, double decay, struct ema *out);
 
-/* ------------------------------------------------------------------------------------------------------------ next roots */
+/* ----------------------------------------------------------------------------------------------------------------- poles */
 
-/* Roots of the polynomial of an order from those of the order before: an order of a stabilisation table after the other. */
-
-/* root [n] of x^n + c[0] x^(n-1) + ... + c[n-1] by Ehrlich's and Aberth's iteration (Aberth 1973), which takes n^2 operations a
- * step where the eigenvalues of the companion matrix take n^3. It begins with `before` [n - 2], roots of the polynomial of the
- * order before, and a pair in the largest gap. Real roots come out real, others as conjugate pairs. Returns 0, or 1 where that
- * was not reached: the roots are then to be had as eigenvalues. done [n] and angle [n] are workspace. */
+/* Roots of the polynomial of an order from those of the order before: root [n] of x^n + c[0] x^(n-1) + ... + c[n-1] by Ehrlich's
+ * and Aberth's iteration (Aberth 1973), which takes n^2 operations a step where the eigenvalues of the companion matrix take n^3.
+ * It begins with `before` [n - 2], roots of the polynomial of the order before, and a pair in the largest gap. Real roots come
+ * out real, others as conjugate pairs. Returns 0, or 1 where that was not reached: the roots are then to be had as eigenvalues.
+ * done [n] and angle [n] are workspace. */
 int next_roots(int n, const double *c, const double complex *before, double complex *root, int *done, double *angle);
-
-/* ------------------------------------------------------------------------------------------------------------- per point */
-
-/* Frequencies of each point, and their consequences for the modes. */
 
 /* For each mode with suspect [nmode] nonzero (all with point_frequency_hz asked for): the pole of every channel alone. Where they
  * scatter beyond three times their standard deviations and a fiftieth of the half bandwidth, and leave less than two thirds of
@@ -385,14 +391,10 @@ int next_roots(int n, const double *c, const double complex *before, double comp
 int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
                           const double *gain, const rotid_environment *environment, struct ema *out);
 
-/* ----------------------------------------------------------------------------------------------------------------- poles */
-
-/* Poles lambda [1/s] in the order of their frequencies. */
-
-/* By rising Im lambda. pole [count] in and out. */
+/* Sorts poles lambda [1/s] by rising Im lambda. pole [count] in and out. */
 void sort_poles(size_t count, double complex *pole);
 
-/* ------------------------------------------------------------------------------------------------------------- real mode */
+/* -------------------------------------------------------------------------------------------------- real modes, residues */
 
 /* Real normal modes from complex ones, and how far they are from real. */
 
@@ -406,14 +408,9 @@ double mode_phase_deviation(int n, const double complex *shape);
 /* exp(i a) along that line: the sum of Re(shape exp(-i a))^2 is largest. 1 where all vanish. */
 double complex mode_axis(int n, const double complex *shape);
 
-/* -------------------------------------------------------------------------------------------------------------- residues */
-
-/* Residues of an evaluated modal fit (least-squares frequency domain), with standard deviations that carry the uncertainty of the
- * poles. */
-
-/* Of mode r in channel c of the fit, evaluated with spread: A of displacement, and the standard deviation of its part along its
- * own phase, V = spread + mix C mix' with the covariance C [(2 nmode)^2] of the poles, NULL for poles that are known. NaN where
- * the columns of the channel depend on each other. */
+/* Residue of mode r in channel c of a modal fit (least-squares frequency domain), evaluated with spread: A of displacement, and
+ * the standard deviation of its part along its own phase, V = spread + mix C mix' with the covariance C [(2 nmode)^2] of the
+ * poles, NULL for poles that are known. NaN where the columns of the channel depend on each other. */
 void residue_of_mode(const struct modal_fit *fit, int c, int r, const double *covariance, double complex *residue,
                      double *residue_std);
 

@@ -1,26 +1,29 @@
 #ifndef ROTID_EXPORT_EXPORT_H
 #define ROTID_EXPORT_EXPORT_H
 
+/* export: the model of a rotor for other programs.
+ *
+ * Comes in: a job, with the fit of its parameters or without. Goes out: files of K and M, a table of what was written, the struct
+ * of its JSON. Called by rotid export alone (src/cli). Steps:
+ *
+ *   export_model_open   assembles K(x), M(x) of src/model at x = the identified or the stated parameters, computes the    model.c
+ *                       frequencies that the files state, and condenses onto the sensors where that is asked for:
+ *                       K_c = T'K T, M_c = T'M T, T by Guyan or IRS
+ *   triplet_next        the entries of a lower triangle one by one                                                   model.c
+ *   matrix_market_*     Matrix Market, 17 digits: K and M full and condensed; a table of the nodes                   files.c
+ *   dmig_full, dmig_condensed   Nastran: DMIG matrices, GRID points, supports, SOL 103; dmig_number: 16 columns      files.c
+ *   remark_put          the comments that both formats begin with                                                    files.c
+ *   export_files_name, export_files_write   which files there will be; all of them or none, by src/report/output.c   files.c
+ *   table_export, export_result_of          what was written, for a person and as JSON                               files.c
+ *
+ * Signs: a node has v and theta = -dv/dz; DMIG has R2 = dv/dz, so entries between a deflection and a rotation change their sign.
+ * The room reads no deck and fits nothing: the caller hands over the identification. */
+
 #include <stdio.h>
 
 #include "model/model.h"
 #include "result/result.h"
 #include "run/run.h"
-
-/* The model of a rotor for other programs.
- *
- * Comes in: a job, with the fit of its parameters or without. Goes out: files of K and M, a table of what was written, the struct
- * of its JSON. Called by rotid export alone.
- *
- * 1. export_model_open assembles K(x) and M(x) at x = the identified or the stated parameters, computes the frequencies that the
- *    files state, and condenses onto the sensors where that is asked for: K_c = T'K T, M_c = T'M T, T by Guyan or IRS.
- * 2. The formats write a struct export_model to a stream: Matrix Market (matrix_market.c) as numbers that are read back to the
- * last bit, Nastran (dmig.c) as DMIG matrices with grids, supports and case control. Both begin with the same comments (remark.c)
- * and walk over a matrix by triplet_next (model.c).
- * 3. export_files_name says which files there will be, export_files_write writes all of them or none (files.c).
- *
- * Signs: a node has v and theta = -dv/dz; DMIG has R2 = dv/dz, so entries between a deflection and a rotation change their sign.
- */
 
 /* The model that is exported: its matrices at the values that were identified or that the deck states, the same condensed
  * onto the sensors, and the texts of the files beside the numbers. */

@@ -1,11 +1,22 @@
 #ifndef ROTID_FILE_FILE_H
 #define ROTID_FILE_FILE_H
 
+/* file: how files are opened, for reading and for writing.
+ *
+ * Comes in: a path. Goes out: a descriptor or a stream, or an error number for file_error_text. All of it is in open.c:
+ *
+ *   file_open, file_descriptor       an existing file, device or pipe for reading. A named pipe is opened without waiting; for a
+ *                                    program at its other end file_open waits FILE_WAIT seconds, then returns ENXIO
+ *   file_open_regular                the same, regular files only
+ *   file_open_device, file_open_own  for writing: a device or pipe; a descriptor that the program was started with (/dev/stdout)
+ *   file_hold_standard               takes the numbers 0, 1, 2 where they are closed, so that no file gets the place of a
+ *                                    standard stream
+ *
+ * Files are read by src/deck (decks, tables), src/uff (universal files), src/result (JSON) and src/study (results), written by
+ * src/report/output.c. The room knows nothing of what files hold and sends no messages: the caller does. */
+
 #include <stdio.h>
 #include <sys/stat.h>
-
-/* How files are opened, for reading and for writing: a named pipe whose other end nobody opens does not hold the caller for ever.
- */
 
 /* A program at the other end of a named pipe is waited for this long: it may have been started a moment later. */
 #define FILE_WAIT 5.0 /* s */

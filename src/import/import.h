@@ -1,6 +1,24 @@
 #ifndef ROTID_IMPORT_IMPORT_H
 #define ROTID_IMPORT_IMPORT_H
 
+/* import: measured data as a whole, from universal files; modes of a test to a universal file.
+ *
+ * Comes in: a path, options. Goes out: a listing, or a measurement in SI; src/uff reads the sets.
+ *
+ *   listing.c      listing_read: what a file holds and what in it is doubtful. Of the values of a function are kept: number,
+ *                  first, last, least, greatest, sum, root mean square, a hash (struct values), from which follow dead, clipped
+ *                  and repeated channels; listing_summarise: sentences
+ *   measurement.c  measurement_read: the transfer functions of a test (type 4) with their coherences (type 6), else pairs of
+ *                  time records (type 1), of which transfer_compute of src/signal makes H(f). Functions are listed first
+ *                  (struct contents), so that only the values that are wanted are read. A response goes with its force by load
+ *                  case, else with the last force before it. Factors to SI: set 164, texts of the axes. Coherence g2 of K
+ *                  averages gives the variance (1 - g2)/(g2 K) |H|^2
+ *   modes.c        modes_write: the modes of src/ema with their standard deviations as a file that *MEASURED, FILE reads
+ *   names.c        name_of_*, si_unit: numbers of the format in words; units
+ *
+ * src/cli calls it for rotid uff, ema and frf, src/report shows the listing. The room knows neither rotor nor deck: the sensors
+ * and modes of a deck's *MEASURED are read by src/deck/deck_uff.c. */
+
 #include <stdint.h>
 #include <stdio.h>
 
@@ -8,20 +26,6 @@
 #include "ema/ema.h"
 #include "signal/signal.h"
 #include "uff/uff.h"
-
-/* Measured data as a whole, from universal files.
- *
- * 1. listing_read: what a file holds and what in it is doubtful, for rotid uff. Values of functions pass by once; what is kept of
- *    them is their number, first, last, least and greatest, sum, root mean square and a hash (struct values), from which follow
- * dead, clipped and repeated channels.
- * 2. measurement_read: the transfer functions H(f) of a test in SI, or the time records that signal/transfer.h makes H of, for
- *    rotid ema and frf. contents_read lists the functions first, so that only those that are wanted are read; a response record
- * goes with its force by load case, else with the last force before it. A coherence g2 with K averages gives the variance (1 -
- * g2)/(g2 K) |H|^2.
- * 3. modes_write: the modes of a test with their standard deviations as a file that *MEASURED reads.
- * 4. names: numbers of the format in words, units.
- *
- * listing.c has the values, the doubtful places and the summary too, measurement.c the pairing of time records. */
 
 /* ---- What the numbers of a universal file mean, in words. */
 

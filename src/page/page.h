@@ -1,6 +1,24 @@
 #ifndef ROTID_PAGE_PAGE_H
 #define ROTID_PAGE_PAGE_H
 
+/* page: results as a page: one HTML file that holds the answer and the tables as text, the results as data, one style sheet and
+ * one script, page.js, which draws the figures from the data.
+ *
+ * Comes in: files of JSON that commands wrote, or a file of results of a study. Goes out: the file. Called by rotid report alone.
+ *
+ *   page_result_read   a file of JSON, every mistake with its place; page_state_count: the states of a deck      read.c
+ *   page_compose       answer, tiles, sections, tables, places of figures, results by rank                        compose.c
+ *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c, study.c; sections.c: agreement,
+ *                      modes, sensitivity, transfer functions, ema, suggestions; provenance.c: basis, program, deck
+ *   document_*         the page under construction: answers, headings, tables (struct table of src/report), figures  document.c
+ *   words              causes, candidates and files in words; hidden_in_words: what may hide in a parameter       words.c
+ *   data_write         the data block: results as JSON                                                               data.c
+ *   page_write         head with the content policy, answers, body, data, script to a file, whole or not there    document.c
+ *
+ * C draws nothing: where a figure may stand it writes an empty element with the name of a group of figures, and the script knows
+ * which figures belong there. Without the script, or without D3 when the program was built, answer and tables stand alone. The
+ * room computes nothing of a model; texts of files are escaped by src/report/html.c. */
+
 #include <cJSON.h>
 #include <stdio.h>
 
@@ -8,16 +26,6 @@
 #include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"
-
-/* Results as a page: one HTML file that holds the answer and the tables as text, the results as data, one style sheet and one
- * script, page.js, which draws the figures from the data.
- *
- *   result_read      a file of JSON, every mistake with its place             read.c
- *   page_compose     answer, tiles, sections, tables, places of figures       compose.c; a file for each kind of result
- *   page_write       head with the policy, answers, body, data, script        document.c, data.c
- *
- * C draws nothing: where a figure may stand it writes an empty element with the name of a group of figures, and the script knows
- * which figures belong there. Without the script, or without D3 when the program was built, answer and tables stand alone. */
 
 /* ---- reading */
 

@@ -1,6 +1,24 @@
 #ifndef ROTID_REPORT_REPORT_H
 #define ROTID_REPORT_REPORT_H
 
+/* report: results as tables for a person and as CSV; files that are whole or not there; the terminal.
+ *
+ * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
+ *
+ *   table_COMMAND.c   the table of a command: check, modes, sensitivity, identify, diagnose (and table_gain.c), suggest, ema,
+ *                     frf, uff; table.c: heading, notes, state. Strips along the axis (strip_*): table_diagnose.c
+ *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
+ *   struct_table.c    struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
+ *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
+ *   layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped
+ *   csv.c, csv_modes.c, csv_uff.c   --csv: cells, quoting, formulas made harmless; tables of modes, of universal files
+ *   frf_file.c        frf_write_file: synthesised functions as sets 58
+ *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
+ *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
+ *
+ * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
+ * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
+
 #include <stddef.h>
 #include <stdio.h>
 
@@ -250,7 +268,7 @@ int table_frf(FILE *out, const struct frf_view *view);
 /* On view->pool; NULL where memory is out. */
 const struct transfer_result *frf_result_of(const struct frf_view *view);
 
-/* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write.h, ROTID_ERROR_MEMORY. */
+/* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write_function, ROTID_ERROR_MEMORY. */
 int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
 
 /* ------------------------------------------------------------------------------------------------------------ report uff */

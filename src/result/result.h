@@ -1,6 +1,25 @@
 #ifndef ROTID_RESULT_RESULT_H
 #define ROTID_RESULT_RESULT_H
 
+/* result: results as JSON, written, and read with the place of every mistake; what is judged of a result.
+ *
+ * Comes in: struct result, with head and the struct of one command; or a file. Goes out: JSON text; or the same struct.
+ *
+ *   result.c          result_json: the struct of the command as JSON by its table (result_record), a row of the table a key
+ *   result_read.c     result_read: a file to struct result, then contradictions between its parts
+ *   record_write.c, record_read.c  any struct that has a table of src/record, to JSON and from JSON
+ *   record_NAME.c     tables of the structs of this header: ema, export, sensitivity, study, transfer, uff. The others (check,
+ *                     modes, identify, diagnose, suggest) are structs of rotid.h and have their tables in src/record
+ *   json_tree.c       an object under construction; a failed allocation is remembered
+ *   json_file.c       a text of JSON, or one value a line, within limits of memory
+ *   place.c           a value with its path: "result.json: modes[2].measured_hz: is a text, expected a number"
+ *   judgement.c       fit_p_value = P(chi^2 of dof > misfit); worst mode; what hides in a parameter; rivals of a verdict
+ *   cause_place.c     where a cause acts along z
+ *   head.c            program, seed, command, deck of a result; references of the heading
+ *
+ * The structs below are the keys of the JSON; docs/schema takes the comments beside their members. Callers: src/cli (writes),
+ * src/page (reads), src/report, src/export, src/study, src/mpi. The room computes nothing of a model and knows no layout. */
+
 #include <cJSON.h>
 
 #include "base/base.h"
@@ -426,7 +445,7 @@ struct result {
 /* Who reads the file of results of a study, which has a value a line. */
 typedef void result_lines_reader(const struct json_place *lines, struct result *result);
 
-/* The result as JSON: a text to be freed with json_free of result/json_tree.h; NULL where memory is out, or was when the part of
+/* The result as JSON: a text to be freed with json_free; NULL where memory is out, or was when the part of
  * the command was made and that is NULL. */
 char *result_json(const struct result *result);
 

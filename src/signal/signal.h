@@ -1,6 +1,24 @@
 #ifndef ROTID_SIGNAL_SIGNAL_H
 #define ROTID_SIGNAL_SIGNAL_H
 
+/* signal: from hammer and response records to transfer functions H(f) with their variance; windows; spectra.
+ *
+ * Comes in: time records of force f and response x, sampled together (struct time_record), options in SI. Goes out: struct
+ * frf_set (H, variance, coherence on common lines), the impacts found, the spectra of each impact. Entrance: transfer_compute.
+ *
+ *   impacts      impact_find: |f| above a share of its largest value; impact_merge: double hits           transfer.c
+ *   blocks       block_plan: one length 2^a 3^b 5^c for all; cut, overloaded, double impacts left out      transfer.c
+ *   windows      force: kept, then faded by a cosine; exponential exp(-d t) on f and x, which shifts each  window.c
+ *                pole to lambda - d and leaves its residue
+ *   spectra      fft_real, kissfft; S_ff = |F|^2, S_xx = |X|^2, S_xf = X conj(F) for each impact           transfer.c
+ *   estimators   estimator_transfer: H1 = S_xf/S_ff, H2 = S_xx/S_fx, Hv by total least squares;            transfer.c
+ *                estimator_coherence: |S_xf|^2/(S_ff S_xx)
+ *   variance     estimator_jackknife: 1/K sum (1 - w_i)/w_i |H - H_(i)|^2, w_i = S_ff,i/sum S_ff; then     transfer.c
+ *                estimator_smooth: mean over 31 lines
+ *
+ * src/import calls transfer_compute for the records of a file; src/ema takes the set and, for the scatter of the force, the
+ * spectra of single impacts; src/run compares the set with synthesised functions. The room knows nothing of files and modes. */
+
 #include "base/base.h"
 
 /* ------------------------------------------------------------------------------------------------------------------- frf */
@@ -57,7 +75,7 @@ struct transfer_options {
                             an anti-alias filter rings down]; < 0: none. Double hits that are kept have none */
     double exponential;  /* end value of the exponential window of the response and of the force, relative: 0.01 damps to 1 % at
                             the end of the block; [0: none]. It belongs on both, so that H keeps its form with every pole shifted
-                            by the decay (signal/window.h) */
+                            by the decay (window_decay) */
     double low_hz, high_hz; /* lines kept, never 0 Hz; [first line above 0 ... 0.45 of the sampling rate] */
     int double_hits;        /* nonzero: keep impacts that hit twice; else they are left out, with a count */
 };
@@ -99,7 +117,7 @@ struct transfer {
  * reference are averaged together, in the order in which the records name them first. Impacts that are cut, overloaded or double
  * are left out. Variance of a line, where there are two impacts or more: from their spread (delete-one jackknife of the chosen
  * estimator, weighted by S_ff; for two that is their difference), then averaged over 31 lines (estimator_jackknife,
- * estimator_smooth of signal/estimator.h): under noise of the response |h - E h|^2 over it is 1 in the mean, within 3 %; under
+ * estimator_smooth): under noise of the response |h - E h|^2 over it is 1 in the mean, within 3 %; under
  * noise of the force, which follows |h|^2, within 20 %. It knows nothing of the bias of an estimator that trusts a noisy channel.
  * Coherence |S_xf|^2/(S_ff S_xx) where there are two or more; without noise it is 1, with noise alone 1/averages. A line without
  * force has h = 0, variance INFINITY, coherence 0. For one impact variance and coherence are NULL. What estimator_sum and

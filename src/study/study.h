@@ -1,6 +1,25 @@
 #ifndef ROTID_STUDY_STUDY_H
 #define ROTID_STUDY_STUDY_H
 
+/* study: many identifications or diagnoses from one plan (docs/study.md); each run gives one line of a file of results.
+ *
+ * Comes in: a plan file, or decks. Goes out: a file of results (JSON, one line a run, after a header line), its summary. Steps:
+ *   plan.c, plan_cards.c, plan_hide.c  plan_read: cards to axes: decks, variants, modes, sensors, noise, hidden effects
+ *   study.c           study_open: every deck read in every variant, runs counted; study_locate: run i to its place on the axes
+ *   jobs.c            jobs_fitted, jobs_truth: the deck that is fitted, the deck that makes the data; kept between runs
+ *   run.c             experiment_make: data of the truth at drawn parameters (SOURCE=MODEL), or as measured; noise, sensors and
+ *                     starts drawn by name (draw_stream: seed, purpose, replicate, mode, sensor), so order and machine do not
+ *                     matter; study_run: identify_states_bare or diagnose_states on that, one thread
+ *   line.c            a run as JSON; score_make: the verdict beside the hidden effect
+ *   record.c          record_open, record_append: the file while it grows, locked; record_finish: lines in order of the runs
+ *   worker.c, workers.c  workers_run: processes of this machine, a run each; a process that dies costs its run
+ *   header.c, stamp.c, digest.c  the header; a line knows its study and its own digest
+ *   results.c         results_next, results_index: reading with every line checked
+ *   merge.c, summary.c, summary_table.c  shards into one file; of each cell bias, scatter, coverage of the intervals
+ *
+ * Callers: src/cli/command_study.c, src/mpi (hands out runs over MPI), src/page (summary of a file). study_run knows nothing of
+ * files, processes and machines. Nothing in a run depends on the clock but its times. */
+
 #include <cJSON.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -120,7 +139,7 @@ int plan_of_decks(struct pool *pool, int count, char *const *path, struct plan *
 /* Whether the cards of a file have *STUDY among them; 0 also where it cannot be read. */
 int plan_is(const char *path);
 
-/* ----------------------------------------------------------------------------------------------------------------- study */
+/* ---------------------------------------------------------------------------------------------------- study, check, draw */
 
 /* A study: a plan with the decks it names, checked and counted. Run i of it is known by i alone: its result depends on the plan,
  * its files, the seed and i, not on who computes it or when. */
@@ -166,16 +185,12 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
 /* 0 <= run < study->runs. Inside a cell the starts follow each other, then the replicates. */
 struct study_point study_locate(const struct study *study, long run);
 
-/* ----------------------------------------------------------------------------------------------------------------- check */
-
 /* What the decks of a plan are before the first run: which can be read, how many parameters they have, what they mean. */
 
 struct check {
     int *nparameter; /* [nvariant * ndeck] */
     struct digest decks, data;
 };
-
-/* ------------------------------------------------------------------------------------------------------------------ draw */
 
 /* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
  * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
@@ -243,8 +258,6 @@ struct experiment {
  * model_open and the prediction; ROTID_ERROR_ARGUMENT where the model has fewer modes than were measured. */
 int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                     struct experiment *experiment);
-
-/* The steps of it. */
 
 /* ---------------------------------------------------------------------------------------------------------------- header */
 
@@ -463,7 +476,7 @@ char *study_run_failed(const struct study *study, long run, const char *error, d
 
 /* The verdict of a diagnosis beside the effect that was hidden. */
 
-enum score {                    /* their words: score_words of result/study.h */
+enum score {                    /* their words: score_words of src/result */
              SCORE_QUIET,       /* nothing was hidden and nothing was found */
              SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
              SCORE_RIGHT,       /* named, and nothing else */

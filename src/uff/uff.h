@@ -1,29 +1,28 @@
 #ifndef ROTID_UFF_UFF_H
 #define ROTID_UFF_UFF_H
 
-#include <stddef.h>
-#include <stdio.h>
-
-#include "base/base.h"
-
-/* ------------------------------------------------------------------------------------------------------------------- uff */
-
-/* Universal files: mode shapes, nodes, functions and units of a modal test, read and written.
+/* uff: universal files, that is mode shapes, nodes, functions and units of a modal test, read and written.
  *
  * A file is a row of sets, each between two lines '-1': a line with the number of the set, then records in columns as Fortran
  * writes them. Files of other writers have the numbers in free format, wrong lengths, missing or further records; what is meant
  * beyond doubt is read, all else is refused with file, line and column.
  *
  * Comes in: a path. Goes out, in three ways:
- * 1. uff_open, uff_next and the routines uff_read_* give one set after the other; values of functions (58, 58b) come in pieces,
- * so a file may be larger than memory. Sets that nobody reads are read over, binary ones by their length. Used by src/import.
- * 2. uff_read gives the nodes and all shapes of a file, uff_choose_modes the modes among them by rising frequency, uff_real_shape
- * a complex one as the nearest real vector. Used by src/deck for *MEASURED, FILE, and by src/report for tables.
- * 3. uff_write_* write the sets of `rotid ema` (151, 164, 2411, 55) and `rotid frf` (58).
+ *   uff_open, uff_next, uff_read_*   one set after the other; values of functions (58, 58b) come in pieces, so a file may be
+ *                                    larger than memory; sets that nobody reads are read over. Used by src/import
+ *   uff_read, uff_choose_modes,      nodes and shapes of a file, the modes among them by rising frequency, a complex shape as the
+ *   uff_real_shape                   nearest real vector. Used by src/deck for MEASURED, FILE and by src/report for tables
+ *   uff_write_*                      the sets of `rotid ema` (151, 164, 2411, 55: src/import) and `rotid frf` (58: src/report)
  *
- * Inside, from below: lines.c has lines, bytes and numbers; record.c the layouts of records, from which follow reading and
- * writing; reader.c the sets in turn, header, units, nodes; function.c sets 58 and 58b; shape.c set 55; file.c whole files and
- * their modes; write.c. Numbers are those of the file: uff_si_factor tells what brings one to SI. */
+ * Inside, from below: lines.c lines, bytes, numbers; record.c the layouts of records, from which follow reading and writing;
+ * reader.c the sets in turn, header, units, nodes; function.c sets 58 and 58b, uff_si_factor; shape.c set 55; file.c whole files
+ * and their modes, standard deviations in text lines (uff_extra_*); write.c. Numbers are those of the file: uff_si_factor gives
+ * the factor to SI. The room knows neither rotor nor deck, and judges no data. */
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/base.h"
 
 /* ---- what sets hold */
 
@@ -221,7 +220,7 @@ int uff_extra_frequency_std(const struct uff_shape *set, double *hz);
 /* ---- writing */
 
 /* Universal files, written set by set to a stream that the caller has opened and will close and check (ferror): the formats of
- * the sets that uff_read.h reads, with the same structs. Reading what was written gives the same values to the digits of the
+ * the sets that uff_read_* read, with the same structs. Reading what was written gives the same values to the digits of the
  * format, and bit by bit for binary sets. Every routine returns ROTID_OK, ROTID_ERROR_IO, or ROTID_ERROR_ARGUMENT for what the
  * format cannot hold: a value that is not finite (binary sets hold it), a line of text that looks like the end of a set, a label
  * beyond the width of its field. The stream may hold a part of the set then. */
@@ -245,11 +244,11 @@ int uff_write_values(struct uff_function_writer *writer, long long count, const 
                      const double *imag);
 int uff_end_function(struct uff_function_writer *writer);
 
-/* ---------------------------------------------------------------------------------------------------------------- reader */
+/* ---------------------------------------------------------------------------------------------------------------- inside */
 
 /* The room src/uff from inside: lines and their numbers, layouts of records, lines under construction, the reader. */
 
-/* One number as Fortran or C writes it. Internal to uff_*.c. */
+/* One number as Fortran or C writes it: what is wrong with it. */
 
 enum uff_fault { UFF_FAULT_NONE, UFF_FAULT_COUNT, UFF_FAULT_MALFORMED, UFF_FAULT_RANGE, UFF_FAULT_NOT_FINITE };
 
@@ -259,7 +258,7 @@ enum uff_fault uff_parse_integer(const char *text, size_t length, long long *val
 /* Fortran writes the exponent as E, D or Q in either case, or, where it has three digits, without the letter: 1.0-100. */
 enum uff_fault uff_parse_real(const char *text, size_t length, double *value);
 
-/* Lines of a universal file, the bytes of its binary sets, and the numbers in its lines. Internal to uff_*.c. */
+/* Lines of a universal file, the bytes of its binary sets, and the numbers in its lines. */
 
 /* The formats stop at 80 columns; ID lines and free-format writers go beyond. */
 #define UFF_LINE_LIMIT 4096
@@ -378,7 +377,7 @@ struct uff_field {
     size_t start, length;
 };
 
-/* Lines of a universal file under construction, column by column. Internal to uff_write*.c. */
+/* Lines of a universal file under construction, column by column. */
 
 #define UFF_PUT_LIMIT 160 /* the widest line has 13 + 2 * 20 or 80 columns */
 
@@ -411,7 +410,7 @@ void uff_put_reals(struct uff_put *put, int width, int decimals, int per_line, i
 void uff_put_text_line(struct uff_put *put, const char *text);
 
 /* Lines of universal files with what stands in them, for both directions: which columns, and which member of the struct. From one
- * layout follow uff_read_record and uff_put_record. Internal to uff_*.c. */
+ * layout follow uff_read_record and uff_put_record. */
 
 struct uff_member {
     struct uff_column column;
@@ -444,7 +443,7 @@ int uff_cut_members(const struct uff_lines *lines, const struct uff_record *reco
 /* The members as a line. */
 void uff_put_record(struct uff_put *put, const struct uff_record *record, const void *from);
 
-/* The reader of a universal file from inside. Internal to uff_*.c. */
+/* The reader of a universal file from inside. */
 
 enum uff_place {
     UFF_BETWEEN, /* sets */
@@ -524,7 +523,5 @@ struct uff_label_list {
 };
 int uff_add_label(struct pool *pool, struct uff_label_list *labels, int id); /* ROTID_OK or ROTID_ERROR_MEMORY */
 void uff_sort_labels(struct uff_label_list *labels);                         /* by id and then by order */
-
-/* The nodes of a file as one list. Internal to uff_*.c. */
 
 #endif
