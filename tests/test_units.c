@@ -358,6 +358,7 @@ static void numbers_too_far_apart_are_refused_with_their_place(void **state)
             assert_status(status, ROTID_ERROR_SYNTAX);
             assert_non_null(strstr(failure, cases[i].says));
             assert_non_null(strstr(failure, place));
+            rotid_deck_free(deck);
             continue;
         }
         assert_status(status, ROTID_OK);
