@@ -26,6 +26,7 @@ struct lm {
     rotid_residual residual;
     void *user;
     char *failure;
+    int returned; /* by the callback when it was asked last */
     rotid_lm_options options;
     double *x, *r, *jacobian; /* the caller's: the best point */
     double unit;              /* a power of two: the largest component of unit r is between a half and one, and its square has a
@@ -101,20 +102,20 @@ static double largest_cosine(const struct lm *lm, const double *r, const double 
 }
 
 /* Why there is nothing to start from, unless the callback has said more. */
-static int callback_failed(struct lm *lm, const char *asked, int returned)
+static int callback_failed(struct lm *lm, const char *asked)
 {
     return lm->failure && *lm->failure ? ROTID_ERROR_CALLBACK
                                        : failure_say(lm->failure, ROTID_ERROR_CALLBACK,
-                                                     "residual returned %d when asked for %s, expected 0", returned, asked);
+                                                     "residual returned %d when asked for %s, expected 0", lm->returned, asked);
 }
 
 /* The Jacobian at the point whose residual was computed last. Nonzero where no usable Jacobian exists. */
 static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
 {
     lm->result->jacobians++;
-    int returned = lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian);
-    if (returned)
-        return callback_failed(lm, "the jacobian", returned);
+    lm->returned = lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian);
+    if (lm->returned)
+        return ROTID_ERROR_CALLBACK;
     for (int j = 0; j < lm->n; j++)
         if (!isfinite(least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
             return ROTID_ERROR_FINITE;
@@ -328,13 +329,15 @@ static int minimise(struct lm *lm)
 {
     double objective[CREEP];
     lm->result->evaluations = 1;
-    int returned = lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL);
-    if (returned)
-        return callback_failed(lm, "r at the start", returned);
+    lm->returned = lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL);
+    if (lm->returned)
+        return callback_failed(lm, "r at the start");
     if (!all_finite(lm->m, lm->r))
         return ROTID_ERROR_FINITE;
     measure(lm);
     int status = ask_jacobian(lm, lm->x, lm->jacobian);
+    if (status == ROTID_ERROR_CALLBACK)
+        return callback_failed(lm, "the jacobian");
     if (!status && !linearise(lm) && lm->objective > 0)
         status = ROTID_ERROR_RANK;
     /* where x says how far away things are, a part of that; but x may happen to be near zero: then as far as would take all of r
