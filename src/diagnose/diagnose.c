@@ -491,6 +491,32 @@ static int settle_states(struct engine *engine)
 
 #define REPLICATES 1000
 
+/* The first round, and what the posterior makes of it. */
+static int run_posterior(struct engine *engine, struct round_result *last)
+{
+    struct diagnosis *out = engine->out;
+    struct posterior posterior;
+    out->round = POOL_ARRAY(engine->pool, struct diagnosis_round, DIAGNOSE_MOST_CAUSES + 1);
+    if (!out->round)
+        return ROTID_ERROR_MEMORY;
+    int status = round_run(engine, &out->round[0], last);
+    if (status)
+        return status;
+    out->round[0].result.round = ++out->nround;
+    for (int i = 0; i < out->round->ncandidate; i++)
+        out->round->candidate[i].result.round = 1;
+    status = localise(engine, &last->scan);
+    if (!status)
+        status = posterior_run(engine, last, &posterior);
+    engine_step(engine, "posterior");
+    if (status)
+        return status;
+    out->posterior = posterior;
+    const struct diagnosis_round *first = &out->round[0];
+    out->result.verdict.p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
+    return posterior_verdict(engine, last, &posterior);
+}
+
 static int run_rounds(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
@@ -546,9 +572,11 @@ static int run(struct engine *engine, const struct states *states, struct round_
     if (!status)
         status = base_residuals(engine);
     engine_step(engine, "base");
-    if (!status)
+    if (!status && engine->posterior)
+        status = run_posterior(engine, last);
+    if (!status && !engine->posterior)
         status = run_rounds(engine, last);
-    if (!status)
+    if (!status && !engine->posterior)
         status = reach_verdict(engine, last);
     return status ? status : finalise(engine, last);
 }
@@ -589,6 +617,7 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .notes = notes,
                             .before = options->before,
                             .after = options->after,
+                            .posterior = options->posterior,
                             .out = out,
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,

@@ -39,6 +39,7 @@ struct diagnose_options {
     unsigned long seed;
     int replicates;             /* of the bootstrap; 0: 1000 */
     const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
+    int posterior;
 };
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
@@ -72,7 +73,38 @@ struct diagnosis_round {
     struct candidate *candidate; /* best first; only those worth a line: refitted, or a visible share of the misfit */
 };
 
+#define MOST_MEMBERS 3
+
+struct evidence {
+    double log_z;      /* over the noise's factors too */
+    double log_stated; /* at the noise as stated */
+    double log_else;   /* with something else beside the causes; -INFINITY where nobody asked */
+    double noise[2];   /* factors of frequencies and shapes at their mode */
+    double *mean, *std; /* [nown] of the deck's unknowns */
+};
+
+struct scan;
+struct refit;
+struct evidence_data;
+
+struct explanation { /* a set of causes, perhaps with something else beside it */
+    int nmember, something_else, expanded;
+    struct candidate member[MOST_MEMBERS];
+    const struct refit *refit; /* its fit; NULL: none, but the line of the scan */
+    struct evidence evidence;
+    double log_prior, log_posterior, probability;
+};
+
+struct posterior {
+    int count, room, nkind;
+    struct explanation *item; /* most probable first, behind posterior_run */
+    struct evidence_data *data;
+    const struct scan *base;
+    double nothing; /* probability of the empty set before: P(nothing) */
+};
+
 struct diagnosis {
+    struct posterior posterior;
     rotid_diagnosis result;      /* as the steps find it; candidates, causes and the fits are put there at the end, from below */
     struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
@@ -297,6 +329,7 @@ struct engine {
     const rotid_environment *environment;
     struct message_list *notes;
     const char *before, *after; /* the question is what changed between these states, or NULL */
+    int posterior;
     struct diagnosis *out;
     struct states states;                /* judged, with the causes named so far; their starts are the fitted values */
     struct job *job;                     /* of the state whose data are looked at, else of the first */
@@ -624,6 +657,11 @@ int discrepancy_add(struct pool *pool, const struct candidate *c, int sign, stru
 
 /* What each fit says about its candidate, and how well it predicts what was left out. */
 
+/* The effect and its parameters, those of the fit that belong to it: effect number e of a state in which it acts. */
+void candidate_values(const struct refit *refit, const struct state *state, int e, struct candidate *c);
+/* Candidate `index` of the scan as it was listed. */
+struct candidate candidate_listed(const struct scan *scan, int index);
+
 /* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
  * does not count. */
 int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
@@ -909,7 +947,7 @@ double *field_weight(const struct sensor_field *field, int g, int k);
 
 #define FAULT_KINDS 6
 
-struct explanation {
+struct fault_likelihood {
     double drop;  /* twice the gain in log likelihood over a sound sensor; -INFINITY where the kind does not apply */
     double score; /* drop less what the search and the parameter cost */
     int other;
@@ -940,6 +978,33 @@ int spread_of_alternatives(struct engine *engine);
  * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
  * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
 const char *spread_sentence(struct engine *engine);
+
+/* --------------------------------------------------------------------------------------------------------------- laplace */
+
+/* The evidence of an explanation (laplace.c). */
+
+struct evidence_data; /* rows and noise of the data, fields over the sensors */
+
+double log_sum(double a, double b); /* ln(e^a + e^b) */
+
+/* Of the data in the states with this pairing. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_LIBRARY. */
+int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                  struct evidence_data **data);
+/* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise. out->mean
+ * and out->std [nown] are filled. ROTID_OK, ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where the fit is of other data. */
+int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
+                    int nmember, const struct candidate *member, int something_else, struct evidence *out);
+/* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
+double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
+
+/* ------------------------------------------------------------------------------------------------------------- posterior */
+
+/* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits and lists
+ * hang on the engine's pool; the fits that the search made are in posterior_free. */
+int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
+void posterior_free(struct posterior *posterior);
+/* The verdict of it into the engine: what is named becomes part of the model. */
+int posterior_verdict(struct engine *engine, const struct round_result *result, struct posterior *posterior);
 
 /* --------------------------------------------------------------------------------------------------------------- verdict */
 

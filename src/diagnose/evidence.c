@@ -12,7 +12,7 @@
 #define SHOWN      0.05 /* of the best promise: candidates not fitted but worth a line */
 
 /* The effect and its parameters, those of the fit that belong to it: effect number e of a state in which it acts. */
-static void take_parameters(const struct refit *refit, const struct state *state, int e, struct candidate *c)
+void candidate_values(const struct refit *refit, const struct state *state, int e, struct candidate *c)
 {
     const rotid_fit_result *fit = refit->fit;
     const struct job *job = &state->job;
@@ -71,7 +71,7 @@ int fit_explains(const struct scan *scan, const rotid_fit_result *fit)
 }
 
 /* Candidate `index` of the scan as it was listed. */
-static struct candidate listed(const struct scan *scan, int index)
+struct candidate candidate_listed(const struct scan *scan, int index)
 {
     const struct scan_candidate *s = &scan->candidate[index];
     struct candidate c = candidate_blank(s->cause, s->target);
@@ -91,7 +91,7 @@ static struct candidate scanned(const struct round_result *result, int index)
 {
     const struct scan *scan = &result->scan;
     const struct scan_candidate *s = &scan->candidate[index];
-    struct candidate c = listed(scan, index);
+    struct candidate c = candidate_listed(scan, index);
     c.result.predicted_drop = scan_best_drop(scan, index);
     c.result.p_value = bootstrap_p(&result->bootstrap, c.result.predicted_drop);
     if (s->best >= 0) {
@@ -159,11 +159,11 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     const struct refit *refit = &result->refit[number];
     const struct scan_set *set = &result->set[number];
     int pair = set->count > 1;
-    *c = pair ? listed(scan, set->candidate[0]) : scanned(result, set->candidate[0]);
+    *c = pair ? candidate_listed(scan, set->candidate[0]) : scanned(result, set->candidate[0]);
     if (pair && !(c->with = POOL_NEW(engine->pool, struct candidate)))
         return ROTID_ERROR_MEMORY;
     if (pair) {
-        *c->with = listed(scan, set->candidate[1]);
+        *c->with = candidate_listed(scan, set->candidate[1]);
         c->result.predicted_drop = set->drop;
     }
     c->result.refitted = 1;
@@ -182,11 +182,11 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->residual = refit->fit->r;
     c->nresidual = refit->fit->nresidual;
     const struct state *home = &refit->states.state[c->home];
-    take_parameters(refit, home, refit_effect(scan, set, 0, c->home, &home->job.rotor), c);
+    candidate_values(refit, home, refit_effect(scan, set, 0, c->home, &home->job.rotor), c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {
         home = &refit->states.state[c->with->home];
-        take_parameters(refit, home, refit_effect(scan, set, 1, c->with->home, &home->job.rotor), c->with);
+        candidate_values(refit, home, refit_effect(scan, set, 1, c->with->home, &home->job.rotor), c->with);
         mend_intervals(scan, NULL, c->with);
         c->result.at_bound |= c->with->result.at_bound;
     }

@@ -154,8 +154,8 @@ static double maximum(struct sensor_likelihood *suspect, double (*f)(struct sens
     return top;
 }
 
-static void offer(const struct sensor_likelihood *suspect, double value, double cost, struct explanation candidate,
-                  struct explanation *explanation)
+static void offer(const struct sensor_likelihood *suspect, double value, double cost, struct fault_likelihood candidate,
+                  struct fault_likelihood *explanation)
 {
     candidate.drop = 2 * (value - suspect->sound);
     candidate.score = candidate.drop - cost;
@@ -163,9 +163,9 @@ static void offer(const struct sensor_likelihood *suspect, double value, double 
         *explanation = candidate;
 }
 
-static void explain_gain(struct sensor_likelihood *suspect, struct explanation *explanation)
+static void explain_gain(struct sensor_likelihood *suspect, struct fault_likelihood *explanation)
 {
-    struct explanation none = {.other = -1, .value = NAN, .std = NAN};
+    struct fault_likelihood none = {.other = -1, .value = NAN, .std = NAN};
     double best = -INFINITY, best_gain = 1, gain, std;
     offer(suspect, of_gain(suspect, -1), 0, none, &explanation[FAULT_SIGN]);
     offer(suspect, of_gain(suspect, 0), 0, none, &explanation[FAULT_DEAD]);
@@ -183,10 +183,10 @@ static void explain_gain(struct sensor_likelihood *suspect, struct explanation *
     if (fabs(best_gain) < 1.5 * GAIN_FROM)
         a = -b;
     best = maximum(suspect, of_gain, fmin(a, b), fmax(a, b), &gain, &std);
-    offer(suspect, best, PARAMETER_COST, (struct explanation){.other = -1, .value = gain, .std = std}, &explanation[FAULT_GAIN]);
+    offer(suspect, best, PARAMETER_COST, (struct fault_likelihood){.other = -1, .value = gain, .std = std}, &explanation[FAULT_GAIN]);
 }
 
-static void explain_position(struct sensor_likelihood *suspect, struct explanation *explanation)
+static void explain_position(struct sensor_likelihood *suspect, struct fault_likelihood *explanation)
 {
     const struct sensor_field *field = suspect->field;
     double own = field->data->z[suspect->s], reach = REACH * 2 * field->half, step = 2 * reach / REACH_GRID;
@@ -201,7 +201,7 @@ static void explain_position(struct sensor_likelihood *suspect, struct explanati
         }
     }
     best = maximum(suspect, of_place, fmax(from, place - step), fmin(to, place + step), &place, &std);
-    offer(suspect, best, PARAMETER_COST, (struct explanation){.other = -1, .value = place - own, .std = std},
+    offer(suspect, best, PARAMETER_COST, (struct fault_likelihood){.other = -1, .value = place - own, .std = std},
           &explanation[FAULT_POSITION]);
 }
 
@@ -233,19 +233,19 @@ static double swapped(const struct sensor_likelihood *suspect, int t)
     return total;
 }
 
-static void explain_swap(struct sensor_likelihood *suspect, struct explanation *explanation)
+static void explain_swap(struct sensor_likelihood *suspect, struct fault_likelihood *explanation)
 {
     for (int t = 0; t < suspect->field->n; t++)
         if (t != suspect->s && !suspect->field->masked[t])
             offer(suspect, swapped(suspect, t), 2 * log(suspect->field->n),
-                  (struct explanation){.other = t, .value = NAN, .std = NAN}, &explanation[FAULT_SWAP]);
+                  (struct fault_likelihood){.other = t, .value = NAN, .std = NAN}, &explanation[FAULT_SWAP]);
 }
 
 /* explanation [FAULT_KINDS] of the suspect; only swaps where `quick`; copies are no matter of likelihood. */
-static void likelihood_explain(struct sensor_likelihood *suspect, int quick, struct explanation *explanation)
+static void likelihood_explain(struct sensor_likelihood *suspect, int quick, struct fault_likelihood *explanation)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
-        explanation[kind] = (struct explanation){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};
+        explanation[kind] = (struct fault_likelihood){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};
     explain_swap(suspect, explanation);
     if (quick)
         return;
@@ -386,7 +386,7 @@ static int sensors_left(const struct sensor_field *field)
  * that place does nearly as well. */
 static double judge(struct search *search, int s, double least, struct sensor_fault *fault)
 {
-    struct explanation explanation[FAULT_KINDS];
+    struct fault_likelihood explanation[FAULT_KINDS];
     int best = 0;
     double limit = likelihood_open(&search->suspect, s), physics;
     if (limit < search->threshold / 2) /* of a swap, each of the two sensors must show half */

@@ -606,6 +606,10 @@ int matrices_check(int count, const rotid_matrix *const *a, char *failure);
  * overwritten by A^-1, both triangles; *log_determinant of A. n >= 0. Returns 0, or 1 where A is not positive definite. */
 int positive_invert(int n, double *a, double *log_determinant);
 
+/* A = V diag(value) V' (dsyev): V in the place of A [n * n], of which the lower triangle is read; value [n] ascending. n >= 0. Returns 0,
+ * or 1 where the iteration fails. work [3 n]. */
+int positive_spectrum(int n, double *a, double *value, double *work);
+
 /* --------------------------------------------------------------------------------------------------------------- product */
 
 /* Dense products, column-major. */

@@ -20,3 +20,8 @@ int positive_invert(int n, double *a, double *log_determinant)
             a[j + (ptrdiff_t)i * n] = a[i + (ptrdiff_t)j * n];
     return 0;
 }
+
+int positive_spectrum(int n, double *a, double *value, double *work)
+{
+    return n && LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', n, a, n, value, work, 3 * n) != 0;
+}

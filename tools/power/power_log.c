@@ -65,7 +65,7 @@ static cJSON *round_line(const struct diagnosis_round *r)
     return o;
 }
 
-static void add_diagnosis(cJSON *line, const struct diagnosis *d)
+static void add_diagnosis(cJSON *line, const struct diagnosis *d, const cJSON *truth)
 {
     cJSON *list = cJSON_AddArrayToObject(line, "finding");
     for (int i = 0; i < d->result.ndata_findings; i++)
@@ -78,6 +78,30 @@ static void add_diagnosis(cJSON *line, const struct diagnosis *d)
     list = cJSON_AddArrayToObject(line, "round");
     for (int r = 0; r < d->nround; r++)
         cJSON_AddItemToArray(list, round_line(&d->round[r]));
+    list = cJSON_AddArrayToObject(line, "explanation");
+    for (int i = 0; i < d->posterior.count && i < 60; i++) {
+        const struct explanation *e = &d->posterior.item[i];
+        cJSON *o = cJSON_CreateObject(), *set = cJSON_AddArrayToObject(o, "causes");
+        int right = 0, found = 0;
+        for (int m = 0; m < e->nmember; m++) {
+            int which = hidden_which(&d->job, &e->member[m], truth);
+            right += which >= 0 && !(found & 1 << which);
+            found |= which >= 0 ? 1 << which : 0;
+        }
+        cJSON_AddNumberToObject(o, "right", right);
+        for (int m = 0; m < e->nmember; m++)
+            cJSON_AddItemToArray(set, candidate_line(&e->member[m]));
+        cJSON_AddBoolToObject(o, "else", e->something_else);
+        add_number(o, "probability", e->probability);
+        add_number(o, "log_z", e->evidence.log_z);
+        add_number(o, "log_stated", e->evidence.log_stated);
+        add_number(o, "log_else", e->evidence.log_else);
+        add_number(o, "log_prior", e->log_prior);
+        add_number(o, "noise_f", e->evidence.noise[0]);
+        add_number(o, "noise_s", e->evidence.noise[1]);
+        add_number(o, "chi2", e->refit ? e->refit->chi2 : NAN);
+        cJSON_AddItemToArray(list, o);
+    }
     list = cJSON_AddObjectToObject(line, "step");
     for (int i = 0; i < d->result.nsteps; i++)
         cJSON_AddNumberToObject(list, d->result.steps[i].name, round(1e3 * d->result.steps[i].seconds) / 1e3);
@@ -145,7 +169,7 @@ char *power_line(const struct power_case *c, const struct diagnosis *d, const cJ
         cJSON_AddItemToObject(line, of_truth[i], cJSON_Duplicate(cJSON_GetObjectItem(truth, of_truth[i]), 1));
     add_score(line, score);
     if (d)
-        add_diagnosis(line, d);
+        add_diagnosis(line, d, truth);
     char *text = cJSON_PrintUnformatted(line);
     cJSON_Delete(line);
     return text;

@@ -32,7 +32,7 @@ const struct cause_kind cause_accelerometer_mass = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_SENSOR,
     .effect = &kind,
-    .parameter = {{.typical = 0.05, .one_sided = 1}},
+    .parameter = {{.typical = 0.05, .one_sided = 1, PRIOR_NORMAL(0.05)}},
     .place = -1,
     .width = -1,
     .variant = {"MOVING", "FIXED"},

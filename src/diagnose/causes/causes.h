@@ -41,11 +41,28 @@ enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
                     TARGET_MODES
 };
 
+/* What is expected of a parameter before the data are seen. */
+enum prior_kind {
+    PRIOR_FLAT,      /* uniform between its bounds */
+    PRIOR_GAUSSIAN,  /* normal about neutral; half of it where it is one-sided */
+    PRIOR_SHARE,     /* the same with a deviation of `scale` times the distance of the farther bound from neutral (negative: of the lower one) */
+    PRIOR_LOG_NORMAL, /* ln(x/neutral) normal */
+    PRIOR_LOG_FLAT   /* uniform in ln x over `scale` decades below the upper bound */
+};
+
 struct cause_parameter {
     double neutral; /* the effect vanishes here */
     double typical; /* a size worth looking for: start of a fit where the scan gives none, point of a secant */
     int one_sided;  /* 1: physical only above neutral, -1: only below, 0: both */
+    enum prior_kind prior;
+    double scale;
 };
+#define PRIOR_NORMAL(deviation)    .prior = PRIOR_GAUSSIAN, .scale = (deviation)
+#define PRIOR_OF_BOUND(share)      .prior = PRIOR_SHARE, .scale = (share)
+#define PRIOR_OF_LOWER(share)      .prior = PRIOR_SHARE, .scale = -(share)
+#define PRIOR_LOGNORMAL(deviation) .prior = PRIOR_LOG_NORMAL, .scale = (deviation)
+#define PRIOR_DECADES(decades)     .prior = PRIOR_LOG_FLAT, .scale = (decades)
+#define PRIOR_UNIFORM              .prior = PRIOR_FLAT
 
 struct cause_kind {
     const char *id;

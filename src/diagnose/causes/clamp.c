@@ -39,7 +39,7 @@ const struct cause_kind cause_clamp = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_SPRING,
     .effect = &kind,
-    .parameter = {{.typical = 1e-8, .one_sided = 1}, {.typical = 1e-10, .one_sided = 1}},
+    .parameter = {{.typical = 1e-8, .one_sided = 1, PRIOR_DECADES(3)}, {.typical = 1e-10, .one_sided = 1, PRIOR_DECADES(3)}},
     .size = ROTATIONAL,
     .place = -1,
     .width = -1,

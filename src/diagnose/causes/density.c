@@ -19,7 +19,7 @@ const struct cause_kind cause_density = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_GROUP,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 1.05}},
+    .parameter = {{.neutral = 1, .typical = 1.05, PRIOR_NORMAL(0.1)}},
     .place = -1,
     .width = -1,
     .bounds = bounds_of_factor,

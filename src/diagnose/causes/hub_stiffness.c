@@ -73,7 +73,7 @@ const struct cause_kind cause_hub_stiffness = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_NONE,
     .effect = &kind,
-    .parameter = {{.typical = 0.5, .one_sided = 1}},
+    .parameter = {{.typical = 0.5, .one_sided = 1, PRIOR_NORMAL(0.5)}},
     .place = -1,
     .width = -1,
     .applies = applies,

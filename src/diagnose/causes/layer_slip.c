@@ -53,7 +53,7 @@ const struct cause_kind cause_layer_slip = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_GROUP,
     .effect = &kind,
-    .parameter = {{.typical = 0.02, .one_sided = 1}},
+    .parameter = {{.typical = 0.02, .one_sided = 1, PRIOR_OF_BOUND(0.3)}},
     .place = -1,
     .width = -1,
     .applies = applies,

@@ -19,7 +19,7 @@ const struct cause_kind cause_shear_coefficient = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_GROUP,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 0.9}},
+    .parameter = {{.neutral = 1, .typical = 0.9, PRIOR_NORMAL(0.2)}},
     .place = -1,
     .width = -1,
     .applies = applies_to_known_group,

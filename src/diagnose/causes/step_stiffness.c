@@ -233,7 +233,7 @@ const struct cause_kind cause_step_stiffness = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_NONE,
     .effect = &kind,
-    .parameter = {{.neutral = 90, .typical = 30, .one_sided = -1}},
+    .parameter = {{.neutral = 90, .typical = 30, .one_sided = -1, PRIOR_UNIFORM}},
     .place = -1,
     .width = -1,
     .secant = 1,

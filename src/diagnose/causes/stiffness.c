@@ -17,7 +17,7 @@ const struct cause_kind cause_stiffness = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_GROUP,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 1.05}},
+    .parameter = {{.neutral = 1, .typical = 1.05, PRIOR_NORMAL(0.2)}},
     .place = -1,
     .width = -1,
     .limit_of = "stiffness_local",

@@ -27,7 +27,7 @@ const struct cause_kind cause_stiffness_gradient = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_GROUP,
     .effect = &kind,
-    .parameter = {{.typical = 0.1}},
+    .parameter = {{.typical = 0.1, PRIOR_NORMAL(0.2)}},
     .place = -1,
     .width = -1,
     .bounds = bounds,

@@ -105,7 +105,7 @@ const struct cause_kind cause_stiffness_local = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_NONE,
     .effect = &kind,
-    .parameter = {{.typical = 0.3, .one_sided = 1}, {0}, {.typical = 0.05}, {.typical = 0.3, .one_sided = 1}},
+    .parameter = {{.typical = 0.3, .one_sided = 1, PRIOR_NORMAL(0.5)}, {0}, {.typical = 0.05}, {.typical = 0.3, .one_sided = 1, PRIOR_NORMAL(0.5)}},
     .size = DEPTH,
     .place = PLACE,
     .width = WIDTH,

@@ -24,7 +24,7 @@ const struct cause_kind cause_support = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_SPRING,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 2}},
+    .parameter = {{.neutral = 1, .typical = 2, PRIOR_LOGNORMAL(1)}},
     .place = -1,
     .width = -1,
     .limit_of = "support_extra",

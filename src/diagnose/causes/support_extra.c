@@ -27,7 +27,7 @@ const struct cause_kind cause_support_extra = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_NONE,
     .effect = &kind,
-    .parameter = {{.typical = 1e6, .one_sided = 1}, {0}},
+    .parameter = {{.typical = 1e6, .one_sided = 1, PRIOR_DECADES(3)}, {0}},
     .place = 1,
     .width = -1,
     .bounds = bounds,

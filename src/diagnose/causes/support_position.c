@@ -29,7 +29,7 @@ const struct cause_kind cause_support_position = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_SPRING,
     .effect = &kind,
-    .parameter = {{.typical = 0.01}},
+    .parameter = {{.typical = 0.01, PRIOR_OF_BOUND(0.3)}},
     .place = -1,
     .width = -1,
     .applies = applies_to_felt_spring,

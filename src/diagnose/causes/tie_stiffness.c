@@ -25,7 +25,7 @@ const struct cause_kind cause_tie_stiffness = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_TIEROD,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 0.8}},
+    .parameter = {{.neutral = 1, .typical = 0.8, PRIOR_NORMAL(0.3)}},
     .place = -1,
     .width = -1,
     .bounds = bounds,

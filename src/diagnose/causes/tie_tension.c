@@ -31,7 +31,7 @@ const struct cause_kind cause_tie_tension = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_TIEROD,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 0.5}},
+    .parameter = {{.neutral = 1, .typical = 0.5, PRIOR_NORMAL(0.5)}},
     .place = -1,
     .width = -1,
     .applies = applies,

@@ -1,0 +1,517 @@
+/* The evidence of one explanation: Z = integral of the likelihood over all unknowns, weighed by their priors.
+ *
+ *   unknowns   u: ln x of the deck's parameters, uniform between their bounds; sizes, places and widths of causes in the unit of
+ *              their prior (struct cause_parameter). About the fitted point, r the whitened residual, J = dr/du,
+ *                  E(d) = |r + J d|^2/2 + sum P (d - m)^2/2,   N = J'J + P,   least E at d = -N^-1 (J'r - P m)
+ *   Laplace    ln Z = -E - ln det N/2 + d ln 2 pi/2 + ln of the prior's factors + ln of the share of each marginal normal that lies
+ *              between the bounds (the prior's edge, so that a size pressed against one needs no rule)
+ *   noise      factors e^a on the frequencies and e^b on the shapes, a, b normal about 0: N and E at 5 x 5 points about their modes
+ *              (Gauss-Hermite); every row costs -a or -b
+ *   else       a smooth random field in the shape of each mode and a free error of each frequency: covariance I + A^2 C, C of squared
+ *              exponentials over the sensors, diagonalised once a mode; A log-uniform from 2 to 1000 times the noise, apart for
+ *              frequencies and shapes; unknowns and scales of the shapes estimated in that metric
+ *   columns    of the scan: one size, linear: the same integral in closed form, averaged over places and widths */
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "linalg/linalg.h"
+
+#define NOISE_STATED  0.15 /* deviation of ln of the noise: stated by the user, */
+#define NOISE_ASSUMED 1.5 /* or assumed */
+#define ELSE_LEAST    2.0 /* times the noise */
+#define ELSE_MOST     1000.0
+#define ELSE_SHAPES   25 /* amplitudes tried */
+#define ELSE_LINES    13
+#define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
+#define LN_2PI        1.8378770664093453
+#define PI            3.14159265358979324
+#define ROOT_HALF     0.70710678118654752
+
+double log_sum(double a, double b)
+{
+    double most = fmax(a, b), least = fmin(a, b);
+    return isinf(most) ? most : most + log1p(exp(least - most));
+}
+
+/* ln of the share of a standard normal between two of its values, also far out in a tail. */
+static double log_share(double lower, double upper)
+{
+    if (lower > 0) {
+        double keep = lower;
+        lower = -upper;
+        upper = -keep;
+    }
+    if (!(lower < upper))
+        return -INFINITY;
+    if (upper > -5) {
+        double share = 0.5 * (erfc(-upper * ROOT_HALF) - erfc(-lower * ROOT_HALF));
+        return share > 0 ? log(share) : -INFINITY;
+    }
+    /* Mills' ratio: Phi(-t) = phi(t)/t (1 - 1/t^2 + 3/t^4) */
+    double t = -upper, square = 1 / (t * t), width = -expm1(-(lower * lower - upper * upper) / 2);
+    return -t * t / 2 - LN_2PI / 2 - log(t) + log1p(-square + 3 * square * square) + log(fmax(width, 1e-300));
+}
+
+/* ---- what is known of an unknown before */
+
+struct unknown {
+    int flat;            /* uniform over `range`, else normal of deviation 1 about `mean` */
+    double step;         /* dx/du at the fitted point */
+    double mean;         /* of the prior, from there */
+    double lower, upper; /* bounds, from there */
+    double precision;    /* of the prior: that of a uniform one makes sqrt(2 pi/precision) its range, so that what the data leave open costs nothing */
+    double density;      /* ln of its factor */
+};
+
+static struct unknown flat_unknown(double step, double lower, double upper)
+{
+    double range = upper - lower;
+    return (struct unknown){.flat = 1, .step = step, .lower = lower, .upper = upper, .precision = 2 * PI / (range * range), .density = -log(range)};
+}
+
+/* Of a positive number by its logarithm. */
+static struct unknown flat_log(double x, double lower, double upper)
+{
+    return flat_unknown(x, log(lower / x), log(upper / x));
+}
+
+static struct unknown normal_unknown(double x, double neutral, double deviation, double lower, double upper)
+{
+    struct unknown u = {.step = deviation, .mean = (neutral - x) / deviation, .lower = (lower - x) / deviation, .upper = (upper - x) / deviation, .precision = 1};
+    u.density = -LN_2PI / 2 - log_share((lower - neutral) / deviation, (upper - neutral) / deviation);
+    return u;
+}
+
+/* Deviation of a normal prior. */
+static double deviation_of(const struct cause_parameter *p, double lower, double upper)
+{
+    if (p->prior == PRIOR_GAUSSIAN)
+        return p->scale;
+    double below = p->neutral - lower, above = upper - p->neutral, far = p->scale < 0 ? below : fmax(below, above);
+    return fabs(p->scale) * (far > 0 ? far : upper - lower);
+}
+
+/* Parameter p of a cause at x. */
+static struct unknown unknown_of_cause(const struct cause_kind *cause, int p, double x, double lower, double upper)
+{
+    const struct cause_parameter *parameter = &cause->parameter[p];
+    if (p == cause->width && lower > 0)
+        return flat_log(fmin(fmax(x, lower), upper), lower, upper);
+    if (p == cause->place || p == cause->width || parameter->prior == PRIOR_FLAT)
+        return flat_unknown(1, lower - x, upper - x);
+    if (parameter->prior == PRIOR_LOG_FLAT) {
+        double least = upper * pow(10, -parameter->scale);
+        return flat_log(fmax(x, least), least, upper);
+    }
+    if (parameter->prior == PRIOR_LOG_NORMAL) {
+        double step = x * parameter->scale;
+        struct unknown u = {.step = step, .precision = 1, .mean = -log(x / parameter->neutral) / parameter->scale, .lower = log(lower / x) / parameter->scale, .upper = log(upper / x) / parameter->scale};
+        u.density = -LN_2PI / 2 - log_share(log(lower / parameter->neutral) / parameter->scale, log(upper / parameter->neutral) / parameter->scale);
+        return u;
+    }
+    return normal_unknown(x, parameter->neutral, deviation_of(parameter, lower, upper), lower, upper);
+}
+
+/* Unknown p of all at x. */
+static struct unknown unknown_of(const struct states *states, int p, double x)
+{
+    double lower = states->bounds[p].lower, upper = states->bounds[p].upper;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        for (int q = 0; q < job->unknowns.nparameter; q++)
+            if (state_unknown(&states->state[s], q) == p && job->unknowns.parameter[q].kind == PARAMETER_EFFECT) {
+                const struct effect *effect = &job->rotor.effect[job->unknowns.parameter[q].index];
+                return unknown_of_cause(catalogue_of(effect), job->unknowns.parameter[q].component, x, lower, upper);
+            }
+    }
+    return lower > 0 && x > 0 ? flat_log(x, lower, upper) : flat_unknown(upper - lower, (lower - x) / (upper - lower), (upper - x) / (upper - lower));
+}
+
+/* ---- the data */
+
+/* Rows of the shape of a mode and the field over its sensors: C = U diag(value) U'. */
+struct block {
+    int row, count;
+    double *vector, *value;
+};
+
+struct evidence_data {
+    struct pool *pool;
+    int nrow, nline, nscale, nblock;
+    char *is_line;    /* [nrow] */
+    double *noise;    /* [nrow] as stated, relative */
+    double *measured; /* [nrow] components over their noise */
+    struct block *block;
+    double deviation; /* of ln of the noise */
+};
+
+/* Half a wavelength of elastic mode `number`. */
+static double correlation_length(const struct job *job, int number)
+{
+    return 0.3 * rotor_length(&job->rotor) / (number + 1);
+}
+
+static int add_block(struct evidence_data *d, const struct job *job, int k, int number)
+{
+    const struct job_measurement *m = &job->measurement;
+    int nsensor = job->rotor.nsensor, count = 0;
+    struct block *block = &d->block[d->nblock];
+    int *sensor = POOL_ARRAY(d->pool, int, nsensor);
+    double largest = 0, length = correlation_length(job, number);
+    if (!sensor)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nsensor; s++)
+        if (isfinite(m->shape[s + (ptrdiff_t)k * nsensor])) {
+            largest = fmax(largest, fabs(m->shape[s + (ptrdiff_t)k * nsensor]));
+            sensor[count++] = s;
+        }
+    if (!count)
+        return ROTID_OK;
+    *block = (struct block){.row = d->nrow, .count = count, .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count), .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
+    if (!block->vector || !block->value)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < count; i++, d->nrow++) {
+        ptrdiff_t at = sensor[i] + (ptrdiff_t)k * nsensor;
+        d->noise[d->nrow] = m->shape_std[at];
+        d->measured[d->nrow] = m->shape[at] / largest / m->shape_std[at];
+        for (int j = 0; j < count; j++) {
+            double apart = (job->rotor.sensor[sensor[i]].position - job->rotor.sensor[sensor[j]].position) / length;
+            block->vector[i + (ptrdiff_t)j * count] = exp(-apart * apart / 2);
+        }
+    }
+    d->nblock++;
+    d->nscale++;
+    return positive_spectrum(count, block->vector, block->value, block->value + count) ? ROTID_ERROR_LIBRARY : ROTID_OK;
+}
+
+int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout, struct evidence_data **out)
+{
+    int modes = states_modes(states, states->nstate), rows = modes, status = ROTID_OK;
+    for (int s = 0; s < states->nstate; s++)
+        rows += states->state[s].job.measurement.nmode * states->state[s].job.rotor.nsensor;
+    struct evidence_data *d = *out = POOL_NEW(pool, struct evidence_data);
+    if (!d)
+        return ROTID_ERROR_MEMORY;
+    *d = (struct evidence_data){.pool = pool, .is_line = POOL_ARRAY(pool, char, rows), .noise = POOL_ARRAY(pool, double, rows), .measured = POOL_ARRAY(pool, double, rows), .block = POOL_ARRAY(pool, struct block, modes), .deviation = NOISE_STATED};
+    if (!d->is_line || !d->noise || !d->measured || !d->block)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
+        const struct job *job = &states->state[s].job;
+        if (!job_knows_frequency_noise(job))
+            d->deviation = NOISE_ASSUMED;
+        for (int k = 0; k < job->measurement.nmode; k++)
+            if (!holdout[mode + k]) {
+                d->is_line[d->nrow] = 1;
+                d->noise[d->nrow++] = job->measurement.frequency_std[k];
+                d->nline++;
+            }
+        for (int k = 0; k < job->measurement.nmode && !status; k++)
+            if (!holdout[mode + k] && job_fits_shapes(job))
+                status = add_block(d, job, k, number[mode + k]);
+    }
+    return status;
+}
+
+/* ---- one explanation */
+
+struct normal {            /* at one noise: N, b = J'r and r'r of frequencies and shapes apart */
+    int n;
+    struct unknown *u;
+    double *line, *shape;  /* [n * n] */
+    double *line_b, *shape_b, line_square, shape_square;
+    double *work, *step;   /* [n * n], [n] */
+};
+
+/* -E, determinant and priors with weights on both parts; N^-1 is left in work, the step to the least E in step. -INFINITY where N is
+ * not positive definite. */
+static double integrate(struct normal *w, double line, double shape)
+{
+    int n = w->n;
+    double energy = (line * w->line_square + shape * w->shape_square) / 2, determinant, sum;
+    for (int i = 0; i < n * n; i++)
+        w->work[i] = line * w->line[i] + shape * w->shape[i];
+    for (int i = 0; i < n; i++) {
+        w->work[i + (ptrdiff_t)i * n] += w->u[i].precision;
+        energy += w->u[i].precision * w->u[i].mean * w->u[i].mean / 2;
+    }
+    if (positive_invert(n, w->work, &determinant))
+        return -INFINITY;
+    for (int i = 0; i < n; i++) {
+        w->step[i] = 0;
+        for (int j = 0; j < n; j++)
+            w->step[i] -= w->work[i + (ptrdiff_t)j * n] * (line * w->line_b[j] + shape * w->shape_b[j] - w->u[j].precision * w->u[j].mean);
+    }
+    for (int i = 0; i < n; i++)
+        energy += w->step[i] * (line * w->line_b[i] + shape * w->shape_b[i] - w->u[i].precision * w->u[i].mean) / 2;
+    sum = -energy - determinant / 2 + n * LN_2PI / 2;
+    for (int i = 0; i < n; i++) {
+        const struct unknown *u = &w->u[i];
+        double variance = w->work[i + (ptrdiff_t)i * n], mean = w->step[i], root = sqrt(variance),
+               share = log_share((u->lower - mean) / root, (u->upper - mean) / root);
+        /* of a uniform one that the data leave open the normal that stands for it lies beyond the bounds in part */
+        sum += u->density + (u->flat ? fmin(0, share + LEFT_OPEN * variance * u->precision) : share);
+    }
+    return isfinite(sum) ? sum : -INFINITY;
+}
+
+/* The rows of an explanation [nrow * (n + 1)], the last column the residual; left [nrow]: what an approximation adds to the variance of a
+ * row, over the stated one, NULL where it adds nothing. */
+struct rows {
+    const struct evidence_data *data;
+    const double *value, *left;
+    double *weight;
+};
+
+static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b, double *square);
+static void mirror(int n, double *a);
+
+/* ln of the integral over the unknowns at noise e^a and e^b times as stated, with the prior of a and b. */
+static double integrate_at(const struct rows *rows, struct normal *w, double a, double b)
+{
+    const struct evidence_data *d = rows->data;
+    double variance = d->deviation * d->deviation, prior = -(a * a + b * b) / (2 * variance), lost = 0;
+    int n = w->n;
+    if (!rows->left)
+        return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b + prior;
+    memset(w->line, 0, (size_t)n * (size_t)n * sizeof *w->line);
+    memset(w->line_b, 0, (size_t)n * sizeof *w->line_b);
+    memset(w->shape, 0, (size_t)n * (size_t)n * sizeof *w->shape);
+    memset(w->shape_b, 0, (size_t)n * sizeof *w->shape_b);
+    w->line_square = w->shape_square = 0;
+    double scale = 0;
+    for (int i = 0; i < d->nrow; i++) {
+        double square = exp(2 * (d->is_line[i] ? a : b)) + rows->left[i];
+        rows->weight[i] = 1 / square;
+        lost += log(square) / 2;
+        scale += d->is_line[i] ? 0 : log(square) / 2;
+    }
+    int shapes = d->nrow - d->nline;
+    lost -= shapes ? scale * d->nscale / shapes : 0; /* what the scales take up */
+    gather(d->nrow, n, rows->value, d->nrow, rows->weight, w->shape, w->shape_b, &w->shape_square);
+    mirror(n, w->shape);
+    return integrate(w, 0, 1) - lost + prior;
+}
+
+/* Mode of a function of one factor, the other held, and the deviation about it, by points and a parabola. */
+static double find_mode(const struct rows *rows, struct normal *w, int shape, double other, double *spread)
+{
+    double deviation = rows->data->deviation, step = deviation / 2, at = 0, most = integrate_at(rows, w, shape ? other : 0, shape ? 0 : other), value[2];
+    for (int pass = 0; pass < 60; pass++) {
+        for (int side = 0; side < 2; side++) {
+            double x = at + (side ? step : -step);
+            value[side] = integrate_at(rows, w, shape ? other : x, shape ? x : other);
+        }
+        if (value[0] > most || value[1] > most) {
+            int up = value[1] > value[0];
+            at += up ? step : -step;
+            most = value[up];
+        } else if (step < deviation / 20 || 2 * most - value[0] - value[1] < 0.5) {
+            break;
+        } else {
+            step /= 3;
+        }
+    }
+    double bend = (2 * most - value[0] - value[1]) / (step * step);
+    *spread = bend > 0 ? fmin(deviation, 1 / sqrt(bend)) : deviation;
+    return bend > 0 ? at + fmin(fmax((value[1] - value[0]) / (2 * step) / bend, -step), step) : at;
+}
+
+/* Over both factors of the noise; leaves N^-1 and the step at the mode. *one: at the stated noise. */
+static double integrate_noise(const struct rows *rows, struct normal *w, double *one, double factor[2])
+{
+    static const double node[] = {-2.856970013872806, -1.355626179974266, 0, 1.355626179974266, 2.856970013872806};
+    static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264, 0.011257411327720689};
+    double spread[2], sum = -INFINITY, variance = rows->data->deviation * rows->data->deviation, b0 = 0;
+    int shapes = rows->data->nrow > rows->data->nline;
+    *one = integrate_at(rows, w, 0, 0);
+    if (shapes)
+        b0 = find_mode(rows, w, 1, 0, &spread[1]);
+    double a0 = find_mode(rows, w, 0, b0, &spread[0]);
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < (shapes ? 5 : 1); j++) {
+            double a = a0 + node[i] * spread[0], b = shapes ? b0 + node[j] * spread[1] : 0, z = integrate_at(rows, w, a, b);
+            z += node[i] * node[i] / 2 + log(weight[i] * spread[0]) - log(variance) / 2;
+            z += shapes ? node[j] * node[j] / 2 + log(weight[j] * spread[1]) - log(variance) / 2 : 0;
+            sum = log_sum(sum, z);
+        }
+    factor[0] = exp(a0);
+    factor[1] = exp(b0);
+    (void)integrate_at(rows, w, a0, b0);
+    return sum;
+}
+
+/* N, b and r'r of some rows [m * (n + 1)], the last column the residual, with weights [m]. */
+static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b, double *square)
+{
+    for (int i = 0; i < m; i++) {
+        double w = weight ? weight[i] : 1, r = rows[i + n * stride];
+        *square += w * r * r;
+        for (int p = 0; p < n; p++) {
+            double one = w * rows[i + p * stride];
+            b[p] += one * r;
+            for (int q = 0; q <= p; q++)
+                normal[p + (ptrdiff_t)q * n] += one * rows[i + q * stride];
+        }
+    }
+}
+
+static void mirror(int n, double *a)
+{
+    for (int p = 0; p < n; p++)
+        for (int q = 0; q < p; q++)
+            a[q + (ptrdiff_t)p * n] = a[p + (ptrdiff_t)q * n];
+}
+
+static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal *w)
+{
+    size_t square = (size_t)n * (size_t)n + 1;
+    *w = (struct normal){.n = n, .u = u, .line = POOL_ARRAY(pool, double, square), .shape = POOL_ARRAY(pool, double, square), .line_b = POOL_ARRAY(pool, double, n + 1), .shape_b = POOL_ARRAY(pool, double, n + 1), .work = POOL_ARRAY(pool, double, square), .step = POOL_ARRAY(pool, double, n + 1)};
+    return w->line && w->shape && w->line_b && w->shape_b && w->work && w->step ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* ln Z with something else beside the causes. rows [nrow * (n + 1)], rotated here into the fields' eigenvectors; the scale of each
+ * shape is one more unknown, whose column is the predicted shape, of which `reach` is the length. */
+static int with_something_else(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows, double *log_z)
+{
+    int total = n + d->nblock, nrow = d->nrow;
+    struct normal w;
+    struct unknown *all = POOL_ARRAY(pool, struct unknown, total);
+    double *turned = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(total + 1)), *weight = POOL_ARRAY(pool, double, nrow), z = -INFINITY;
+    int status = !all || !turned || !weight ? ROTID_ERROR_MEMORY : normal_new(pool, total, all, &w);
+    if (status)
+        return status;
+    memcpy(all, u, (size_t)n * sizeof *u);
+    memset(turned, 0, (size_t)nrow * (size_t)(total + 1) * sizeof *turned);
+    for (int i = 0; i < nrow; i++)
+        for (int p = 0; p <= n && d->is_line[i]; p++)
+            turned[i + (ptrdiff_t)(p < n ? p : total) * nrow] = rows[i + (ptrdiff_t)p * nrow];
+    for (int k = 0; k < d->nblock; k++) {
+        const struct block *block = &d->block[k];
+        double length = 0, *scale = turned + (ptrdiff_t)(n + k) * nrow + block->row;
+        for (int i = 0; i < block->count; i++) {
+            double predicted = rows[block->row + i + (ptrdiff_t)n * nrow] + d->measured[block->row + i];
+            length += predicted * predicted;
+        }
+        /* the scale is known without a field to 1/|u|; so much that det N has no part of it then */
+        all[n + k] = (struct unknown){.flat = 1, .step = 1, .lower = -1e9, .upper = 1e9, .precision = 1e-9, .density = -LN_2PI / 2};
+        for (int j = 0; j < block->count; j++) {
+            const double *vector = block->vector + (ptrdiff_t)j * block->count;
+            for (int i = 0; i < block->count; i++) {
+                const double *row = rows + block->row + i;
+                for (int p = 0; p <= n; p++)
+                    turned[block->row + j + (ptrdiff_t)(p < n ? p : total) * nrow] += vector[i] * row[(ptrdiff_t)p * nrow];
+                scale[j] += vector[i] * (row[(ptrdiff_t)n * nrow] + d->measured[block->row + i]) / sqrt(length > 0 ? length : 1);
+            }
+        }
+    }
+    double step_shape = d->nblock ? log(ELSE_MOST / ELSE_LEAST) / (ELSE_SHAPES - 1) : 0, step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
+    for (int a = 0; a < (d->nblock ? ELSE_SHAPES : 1); a++) {
+        double amplitude = ELSE_LEAST * exp(a * step_shape), determinant = 0;
+        memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
+        memset(w.shape_b, 0, (size_t)total * sizeof *w.shape_b);
+        w.shape_square = 0;
+        for (int k = 0; k < d->nblock; k++)
+            for (int i = 0; i < d->block[k].count; i++) {
+                double more = amplitude * amplitude * fmax(0, d->block[k].value[i]);
+                weight[d->block[k].row + i] = 1 / (1 + more);
+                determinant += log1p(more) / 2;
+            }
+        for (int k = 0; k < d->nblock; k++)
+            gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b, &w.shape_square);
+        mirror(total, w.shape);
+        for (int b = 0; b < ELSE_LINES; b++) {
+            double line = ELSE_LEAST * exp(b * step_line), more = line * line;
+            memset(w.line, 0, (size_t)total * (size_t)total * sizeof *w.line);
+            memset(w.line_b, 0, (size_t)total * sizeof *w.line_b);
+            w.line_square = 0;
+            for (int i = 0; i < nrow; i++)
+                if (d->is_line[i])
+                    gather(1, total, turned + i, nrow, NULL, w.line, w.line_b, &w.line_square);
+            mirror(total, w.line);
+            double one = integrate(&w, 1 / (1 + more), 1) - determinant - d->nline * log1p(more) / 2;
+            z = log_sum(z, one);
+        }
+    }
+    *log_z = z - log((double)ELSE_LINES * (d->nblock ? ELSE_SHAPES : 1));
+    return ROTID_OK;
+}
+
+int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit, int nmember,
+                    const struct candidate *member, int something_else, struct evidence *out)
+{
+    struct pool pool;
+    struct normal w;
+    int n = fit->n, nrow = d->nrow;
+    if (fit->nresidual != nrow)
+        return ROTID_ERROR_ARGUMENT;
+    pool_open(&pool, d->pool->allocator);
+    struct unknown *u = POOL_ARRAY(&pool, struct unknown, n + 1);
+    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1));
+    int status = !u || !rows ? ROTID_ERROR_MEMORY : normal_new(&pool, n, u, &w);
+    for (int p = 0; p < n && !status; p++) {
+        u[p] = unknown_of(states, p, fit->x[p]);
+        for (int i = 0; i < nrow; i++)
+            rows[i + (ptrdiff_t)p * nrow] = u[p].step * fit->jacobian[i + (ptrdiff_t)p * nrow];
+    }
+    double *left = POOL_ARRAY(&pool, double, nrow), *weight = POOL_ARRAY(&pool, double, nrow);
+    int approximate = 0;
+    if (!status && (!left || !weight))
+        status = ROTID_ERROR_MEMORY;
+    for (int i = 0; i < nrow && !status; i++) {
+        for (int m = 0; m < nmember; m++) {
+            double one = (d->is_line[i] ? member[m].cause->discrepancy_frequency : member[m].cause->discrepancy_shape) / d->noise[i];
+            left[i] += one * one;
+        }
+        approximate |= left[i] > 0;
+        rows[i + (ptrdiff_t)n * nrow] = fit->r[i];
+    }
+    if (!status) {
+        const struct rows all = {d, rows, approximate ? left : NULL, weight};
+        for (int i = 0; i < nrow; i++)
+            gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b, d->is_line[i] ? &w.line_square : &w.shape_square);
+        mirror(n, w.line);
+        mirror(n, w.shape);
+        out->log_z = integrate_noise(&all, &w, &out->log_stated, out->noise);
+        for (int p = 0; p < nown; p++) {
+            double x = fit->x[p] + u[p].step * w.step[p];
+            out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);
+            out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]) * fabs(u[p].step);
+        }
+        out->log_else = -INFINITY;
+        if (something_else) {
+            status = with_something_else(d, &pool, n, u, rows, &out->log_else);
+        }
+    }
+    pool_close(&pool);
+    return status;
+}
+
+/* ---- a column of the scan */
+
+double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i)
+{
+    const struct scan_item *item = &scan->item[i];
+    const struct scan_candidate *c = &scan->candidate[item->candidate];
+    const struct cause_kind *cause = c->cause;
+    const struct cause_parameter *size = &cause->parameter[cause->size];
+    double lower = 0, upper = 1, along = -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r), square = item->norm * item->norm;
+    if (!item->usable)
+        return 0;
+    if (!cause->effect->nparameter || c->fixed[cause->size])
+        return along - square / 2;
+    cause_bounds(cause, rotor, &item->effect, cause->size, &lower, &upper);
+    if (size->prior == PRIOR_LOG_FLAT || size->prior == PRIOR_FLAT) { /* by points over it */
+        double sum = -INFINITY, least = size->prior == PRIOR_FLAT ? lower : upper * pow(10, -size->scale);
+        const int points = 24;
+        for (int j = 0; j < points; j++) {
+            double share = (j + 0.5) / points, x = size->prior == PRIOR_FLAT ? least + share * (upper - least) : least * pow(upper / least, share), a = (x - size->neutral) / item->unit;
+            sum = log_sum(sum, along * a - square * a * a / 2);
+        }
+        return sum - log(points);
+    }
+    double deviation = (size->prior == PRIOR_LOG_NORMAL ? size->scale * size->neutral : deviation_of(size, lower, upper)) / fabs(item->unit),
+           precision = square + 1 / (deviation * deviation), mean = along / precision, root = sqrt(precision);
+    return along * mean / 2 - log(precision * deviation * deviation) / 2 + log_share((item->lower - mean) * root, (item->upper - mean) * root) - log_share(item->lower / deviation, item->upper / deviation);
+}

@@ -1,0 +1,579 @@
+/* One posterior over explanations: sets of causes of the catalogue, each perhaps with something else beside it.
+ *
+ *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a kind, then over
+ *            all states (1/2) and each alone; something else a factor 0.05
+ *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition scored by the
+ *            evidence of its columns; the most promising are fitted and scored by laplace.c; until none is left within WITHIN of the best. What was
+ *            not fitted enters by its columns.
+ *   verdict  NAMED: marginals of 0.95 and more, placed in one interval; UNEXPLAINED: something else above one half; ADEQUATE: nothing leads,
+ *            no cause above 0.2, the odds of the rest less than three times those before; else AMBIGUOUS */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
+
+#define DATA_KINDS   8    /* of faults of the measurement */
+#define BEAM         4    /* sets expanded in a pass */
+#define FITTED       16   /* fits of a pass */
+#define MOST_PASSES  4
+#define WITHIN       7.0  /* of the best, in ln P */
+#define ELSE_WITHIN  60.0 /* likewise: with something else beside them */
+#define ELSE_MOST    8
+#define ELSE_PRIOR   0.05
+#define LINEAR       10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
+#define ROOM         4096
+#define NAMED        0.95
+#define SUSPECTED    10.0 /* times: a cause that the user suspects */
+#define NEAR_PLACE   0.125 /* of the length: half of the interval of a place that is named */
+
+static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
+
+/* ---- sets */
+
+static int same_cause(const struct candidate *a, const struct candidate *b)
+{
+    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target) && a->result.suspect == b->result.suspect;
+}
+
+static int has(const struct explanation *e, const struct candidate *c)
+{
+    int count = 0;
+    for (int m = 0; m < e->nmember; m++)
+        count += same_cause(&e->member[m], c);
+    return count;
+}
+
+static int same_set(const struct explanation *a, const struct explanation *b)
+{
+    int same = a->nmember == b->nmember && a->something_else == b->something_else;
+    for (int m = 0; m < a->nmember && same; m++)
+        same = has(a, &a->member[m]) == has(b, &a->member[m]);
+    return same;
+}
+
+static struct explanation *find(const struct posterior *p, const struct explanation *e)
+{
+    for (int i = 0; i < p->count; i++)
+        if (same_set(&p->item[i], e))
+            return &p->item[i];
+    return NULL;
+}
+
+/* ---- priors */
+
+/* ln of the probability of a cause among all single ones. */
+static double cause_prior(const struct posterior *p, const struct candidate *c)
+{
+    const struct scan *scan = p->base;
+    int targets = 0, alone = 0;
+    for (int i = 0; i < scan->ncandidate; i++) {
+        const struct scan_candidate *s = &scan->candidate[i];
+        if (s->cause != c->cause || s->suspect)
+            continue;
+        targets += s->state < 0;
+        alone += s->state >= 0 && !strcmp(s->target, c->target);
+    }
+    double share = 1.0 / p->nkind / (targets > 0 ? targets : 1);
+    if (alone)
+        share *= c->state < 0 ? 0.5 : 0.5 / alone;
+    return log(share * (c->result.suspect ? SUSPECTED : 1));
+}
+
+static double prior_of(const struct posterior *p, const struct explanation *e)
+{
+    double sum = log(set_prior[e->nmember]);
+    for (int m = 0; m < e->nmember; m++)
+        sum += cause_prior(p, &e->member[m]) + log(m + 1);
+    return sum + (e->something_else ? log(ELSE_PRIOR) : log1p(-ELSE_PRIOR));
+}
+
+/* ---- the list */
+
+static struct explanation *append(struct posterior *p, const struct explanation *e)
+{
+    if (p->count == p->room)
+        return NULL;
+    p->item[p->count] = *e;
+    return &p->item[p->count++];
+}
+
+static int room_for_moduli(struct pool *pool, int nown, struct evidence *evidence)
+{
+    evidence->mean = POOL_ARRAY(pool, double, nown + 1);
+    evidence->std = POOL_ARRAY(pool, double, nown + 1);
+    return evidence->mean && evidence->std ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static const struct rotid_fit_result *fit_of(const struct engine *engine, const struct explanation *e)
+{
+    return e->refit ? e->refit->fit : engine->fit;
+}
+
+static const struct states *states_of_explanation(const struct engine *engine, const struct explanation *e)
+{
+    return e->refit ? &e->refit->states : &engine->states;
+}
+
+static int score(struct engine *engine, struct posterior *p, int something_else, struct explanation *e)
+{
+    int status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
+    if (!status)
+        status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember, e->member,
+                                 something_else, &e->evidence);
+    if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
+        e->evidence.log_z = e->evidence.log_stated = e->evidence.log_else = -INFINITY;
+        status = ROTID_OK;
+    }
+    for (int m = 0; m < e->nmember && e->refit && isfinite(e->refit->other_chi2); m++) /* another place */
+        if (e->member[m].cause->place >= 0 && m == e->nmember - 1) {
+            double more = log1p(exp(-fmax(0, e->refit->other_chi2 - e->refit->chi2) / 2));
+            e->evidence.log_z += more;
+            e->evidence.log_stated += more;
+        }
+    e->log_prior = prior_of(p, e);
+    e->log_posterior = e->evidence.log_z + e->log_prior;
+    return status;
+}
+
+/* The values of a fit in the members, found by the names of their effects. */
+static void take_values(const struct refit *refit, struct candidate *c)
+{
+    const struct state *home = &refit->states.state[c->home];
+    for (int e = 0; e < home->job.rotor.neffect && c->effect.name; e++)
+        if (home->job.rotor.effect[e].name && !strcmp(home->job.rotor.effect[e].name, c->effect.name)) {
+            candidate_values(refit, home, e, c);
+            return;
+        }
+}
+
+/* ---- proposals */
+
+struct proposal {
+    int parent, candidate; /* number in the list; of the parent's scan */
+    struct scan *scan;
+    double gain; /* of ln Z over the parent, linear */
+    struct explanation set;
+};
+
+/* ln of the mean over places and widths, and the item that counts most. */
+static double gain_of(const struct states *states, const struct scan *scan, int index, int *best)
+{
+    const struct scan_candidate *c = &scan->candidate[index];
+    double sum = -INFINITY, most = -INFINITY;
+    *best = c->best;
+    if (!c->count)
+        return c->promise / 2;
+    for (int i = c->first; i < c->first + c->count; i++) {
+        double one = evidence_of_item(scan, &states->state[c->home].job.rotor, i);
+        sum = log_sum(sum, one);
+        if (one > most) {
+            most = one;
+            *best = i;
+        }
+    }
+    return sum - log(c->count);
+}
+
+/* ln Z of a single cause by its columns alone where the fit goes no further than they do: then the sum over all places and widths
+ * counts, not the normal about the best one. */
+static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent, struct explanation *e)
+{
+    const struct scan_candidate *c = &scan->candidate[index];
+    int best;
+    if (c->best < 0 || !e->refit || discrepancy_of(c->cause))
+        return;
+    double drop = scan->item[c->best].drop, fitted = scan->chi2 - e->refit->chi2;
+    if (fabs(drop - fitted) > 1 || fitted > 30)
+        return;
+    double columns = parent->evidence.log_stated + gain_of(states, scan, index, &best), more = columns - e->evidence.log_stated;
+    e->evidence.log_stated += more;
+    e->evidence.log_z += more;
+    e->log_posterior += more;
+}
+
+static int by_gain(const void *a, const void *b)
+{
+    const struct proposal *one = a, *two = b;
+    double first = one->set.log_posterior, second = two->set.log_posterior;
+    return (first < second) - (first > second);
+}
+
+/* The additions to a set, behind the *count there are. */
+static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    const struct states *states = states_of_explanation(engine, from);
+    for (int i = 0; i < scan->ncandidate && *count < most; i++) {
+        struct proposal one = {.parent = parent, .candidate = i, .scan = scan, .set = *from};
+        int best;
+        one.set.member[one.set.nmember++] = candidate_listed(scan, i);
+        one.set.refit = NULL;
+        one.set.expanded = 0;
+        one.gain = gain_of(states, scan, i, &best);
+        one.set.log_prior = prior_of(p, &one.set);
+        one.set.evidence.log_stated = from->evidence.log_stated + one.gain;
+        one.set.evidence.log_z = from->evidence.log_z + one.gain;
+        one.set.evidence.log_else = -INFINITY;
+        one.set.log_posterior = one.set.evidence.log_stated + one.set.log_prior;
+        int status = room_for_moduli(engine->pool, engine->nown, &one.set.evidence);
+        if (status)
+            return status;
+        for (int q = 0; q < engine->nown; q++) {
+            const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
+            double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree]) ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree] : 0;
+            one.set.evidence.mean[q] = fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
+            one.set.evidence.std[q] = from->evidence.std[q];
+        }
+        struct candidate *member = &one.set.member[one.set.nmember - 1];
+        if (best >= 0) {
+            member->effect = scan->item[best].effect;
+            if (!member->fixed[member->cause->size])
+                member->effect.value[member->cause->size] += scan->item[best].amplitude * scan->item[best].unit;
+        }
+        if (find(p, &one.set))
+            continue;
+        proposal[(*count)++] = one;
+    }
+    return ROTID_OK;
+}
+
+struct task {
+    const struct engine *engine;
+    struct posterior *p;
+    struct proposal *proposal;
+    struct refit *refit;
+    struct pool *pool;
+};
+
+static int fit_task(void *context, int index, int worker)
+{
+    struct task *t = context;
+    const struct engine *e = t->engine;
+    const struct proposal *proposal = &t->proposal[index];
+    const struct explanation *parent = &t->p->item[proposal->parent];
+    const struct states *states = states_of_explanation(e, parent);
+    const struct scan_set set = {.count = 1, .candidate = {proposal->candidate}};
+    double *deck = POOL_ARRAY(&t->pool[index], double, states->nparameter);
+    (void)worker;
+    if (!deck)
+        return ROTID_ERROR_MEMORY;
+    const double *x = fit_of(e, parent)->x;
+    for (int p = 0; p < states->nparameter; p++)
+        deck[p] = p < e->nown ? e->deck_start[p] : x[p];
+    return refit_set(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, &set, e->environment, &t->refit[index]);
+}
+
+/* Fits the first `count` proposals and enters them; the others enter by their columns. */
+static int fit_proposals(struct engine *engine, struct posterior *p, struct proposal *proposal, int count)
+{
+    struct refit *refit = POOL_ARRAY(engine->pool, struct refit, count);
+    struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct pool, count)};
+    if (!refit || !task.pool)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < count; i++)
+        pool_open(&task.pool[i], engine->pool->allocator);
+    int status = parallel_for(engine->threads, count, fit_task, &task);
+    for (int i = 0; i < count; i++)
+        pool_absorb(engine->pool, &task.pool[i]);
+    for (int i = 0; i < count && !status; i++) {
+        struct explanation e = proposal[i].set;
+        if (!refit[i].fit)
+            continue;
+        e.refit = &refit[i];
+        e.evidence = (struct evidence){0};
+        for (int m = 0; m < e.nmember; m++)
+            take_values(&refit[i], &e.member[m]);
+        status = score(engine, p, 0, &e);
+        if (!status)
+            prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate, &p->item[proposal[i].parent], &e);
+        if (!status && !append(p, &e))
+            status = ROTID_ERROR_MEMORY;
+    }
+    for (int i = 0; i < count && status; i++)
+        rotid_fit_free(refit[i].fit);
+    return status;
+}
+
+/* ---- the search */
+
+static double best_stated(const struct posterior *p)
+{
+    double best = -INFINITY;
+    for (int i = 0; i < p->count; i++)
+        if (p->item[i].refit || !p->item[i].nmember)
+            best = fmax(best, p->item[i].evidence.log_stated + p->item[i].log_prior);
+    return best;
+}
+
+static int explains(const struct engine *engine, const struct posterior *p, const struct explanation *e)
+{
+    return fit_explains(p->base, fit_of(engine, e));
+}
+
+/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too. */
+static int next_parent(const struct engine *engine, const struct posterior *p, int taken)
+{
+    int best = -1, lead = -1;
+    for (int i = 0; i < p->count; i++) {
+        const struct explanation *e = &p->item[i];
+        if ((!e->refit && e->nmember) || e->something_else)
+            continue;
+        if (lead < 0 || e->log_posterior > p->item[lead].log_posterior)
+            lead = i;
+        if (!e->expanded && e->nmember < MOST_MEMBERS && !(e->nmember && e->member[e->nmember - 1].cause->solid) && (best < 0 || e->log_posterior > p->item[best].log_posterior))
+            best = i;
+    }
+    if (best < 0 || lead < 0)
+        return -1;
+    double behind = p->item[lead].log_posterior - p->item[best].log_posterior;
+    return behind <= WITHIN || (taken < BEAM && !explains(engine, p, &p->item[lead])) ? best : -1;
+}
+
+static int enter_round(struct engine *engine, const struct round_result *result, struct posterior *p)
+{
+    const struct scan *scan = &result->scan;
+    struct explanation e = {0};
+    int status = score(engine, p, 0, &e);
+    if (!status)
+        append(p, &e);
+    for (int i = 0; i < result->nrefit && !status; i++) {
+        const struct scan_set *set = &result->set[i];
+        const struct refit *refit = &result->refit[i];
+        if (!refit->fit)
+            continue;
+        e = (struct explanation){.nmember = set->count, .refit = refit};
+        for (int m = 0; m < set->count; m++) {
+            e.member[m] = candidate_listed(scan, set->candidate[m]);
+            const struct rotor *rotor = &refit->states.state[e.member[m].home].job.rotor;
+            if (!e.member[m].cause->solid)
+                e.member[m].effect.name = rotor->effect[refit_effect(scan, set, m, e.member[m].home, rotor)].name;
+            take_values(refit, &e.member[m]);
+        }
+        if (is_unweighed_accelerometer(&engine->states.state[e.member[0].home].job, &e.member[0].effect) && set->count == 1)
+            continue;
+        status = score(engine, p, 0, &e);
+        if (!status && set->count == 1)
+            prefer_columns(&engine->states, scan, set->candidate[0], &p->item[0], &e);
+        if (!status && !find(p, &e))
+            append(p, &e);
+    }
+    return status;
+}
+
+static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
+{
+    struct pool *pool = engine->pool;
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8), status = ROTID_OK;
+    struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
+    if (!proposal)
+        return ROTID_ERROR_MEMORY;
+    *more = 0;
+    while (taken < (pass ? BEAM : 1) && !status && (parent = pass ? next_parent(engine, p, taken) : 0) >= 0) {
+        struct explanation *from = &p->item[parent];
+        struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;
+        from->expanded = 1;
+        taken++;
+        if (!scan)
+            return ROTID_ERROR_MEMORY;
+        if (parent)
+            status = scan_run(pool, &from->refit->states, engine->number, engine->holdout, from->refit->fit->x, scan);
+        if (!status)
+            status = propose(engine, p, parent, scan, proposal, most, &count);
+    }
+    if (status || !count)
+        return status;
+    qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
+    double best = best_stated(p);
+    while (fits < count && fits < FITTED && proposal[fits].set.log_posterior > best - WITHIN) {
+        fits++;
+    }
+    status = fit_proposals(engine, p, proposal, fits);
+    for (int i = fits; i < count && !status; i++) {
+        struct explanation *e = &proposal[i].set;
+        if (proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
+            continue;
+        e->log_posterior = e->evidence.log_z + e->log_prior;
+        if (!find(p, e))
+            append(p, e);
+    }
+    *more = fits > 0 || !pass;
+    return status;
+}
+
+static int by_posterior(const void *a, const void *b)
+{
+    double one = ((const struct explanation *)a)->log_posterior, two = ((const struct explanation *)b)->log_posterior;
+    return (one < two) - (one > two);
+}
+
+/* Something else beside the likeliest sets. */
+static int add_something_else(struct engine *engine, struct posterior *p)
+{
+    int listed = p->count, status = ROTID_OK, tried = 0;
+    for (int i = 0; i < listed && !status; i++) {
+        struct explanation e = p->item[i];
+        if ((!e.refit && e.nmember) || (e.nmember && (tried >= ELSE_MOST || e.log_posterior < p->item[0].log_posterior - ELSE_WITHIN)))
+            continue;
+        tried++;
+        e.evidence = (struct evidence){0};
+        status = score(engine, p, 1, &e);
+        e.something_else = 1;
+        e.log_prior = prior_of(p, &e);
+        e.log_posterior = e.evidence.log_else + e.log_prior;
+        if (!status && isfinite(e.log_posterior))
+            append(p, &e);
+    }
+    return status;
+}
+
+int posterior_run(struct engine *engine, struct round_result *result, struct posterior *p)
+{
+    int status, more = 1;
+    *p = (struct posterior){.room = ROOM, .base = &result->scan, .item = POOL_ARRAY(engine->pool, struct explanation, ROOM), .nkind = DATA_KINDS, .nothing = set_prior[0]};
+    if (!p->item)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < catalogue_count(); i++) {
+        int listed = 0;
+        for (int j = 0; j < result->scan.ncandidate; j++)
+            listed |= result->scan.candidate[j].cause == catalogue_item(i);
+        p->nkind += listed;
+    }
+    status = evidence_open(engine->pool, &engine->states, engine->number, engine->holdout, &p->data);
+    if (!status)
+        status = enter_round(engine, result, p);
+    for (int pass = 0; pass < MOST_PASSES && more && !status; pass++) {
+        status = engine_stage(engine, "search of explanations, pass", pass + 1);
+        if (!status)
+            status = expand(engine, result, p, pass, &more);
+    }
+    if (status)
+        return status;
+    qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
+    status = add_something_else(engine, p);
+    if (status)
+        return status;
+    qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
+    double sum = -INFINITY;
+    for (int i = 0; i < p->count; i++)
+        sum = log_sum(sum, p->item[i].log_posterior);
+    for (int i = 0; i < p->count; i++)
+        p->item[i].probability = exp(p->item[i].log_posterior - sum);
+    return ROTID_OK;
+}
+
+void posterior_free(struct posterior *p)
+{
+    (void)p;
+}
+
+/* ---- the verdict */
+
+/* Probability of all sets that hold the cause. */
+static double marginal(const struct posterior *p, const struct candidate *c)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++)
+        sum += has(&p->item[i], c) ? p->item[i].probability : 0;
+    return sum;
+}
+
+/* Whether nearly all of the place lies in one interval. */
+static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c)
+{
+    int place = c->cause->place;
+    if (place < 0 || c->fixed[place])
+        return 1;
+    double length = rotor_length(&engine->states.state[c->home].job.rotor);
+    if (e->refit && e->refit->other_chi2 - e->refit->chi2 < 6)
+        return 0;
+    return !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length;
+}
+
+int posterior_verdict(struct engine *engine, const struct round_result *result, struct posterior *p)
+{
+    struct diagnosis *out = engine->out;
+    rotid_verdict *verdict = &out->result.verdict;
+    const struct explanation *lead = &p->item[0], *model = NULL;
+    struct candidate named[MOST_MEMBERS];
+    int nnamed = 0, stated = 1;
+    double other = 0, nothing = 0, highest = 0;
+    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
+    out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
+    if (!out->cause || !out->alternative)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < engine->states.nstate; s++)
+        stated &= job_knows_frequency_noise(&out->given.state[s].job);
+    for (int i = 0; i < p->count; i++) {
+        other += p->item[i].something_else ? p->item[i].probability : 0;
+        nothing += !p->item[i].nmember && !p->item[i].something_else ? p->item[i].probability : 0;
+        for (int m = 0; m < p->item[i].nmember; m++) {
+            const struct candidate *c = &p->item[i].member[m];
+            double share = i < 50 ? marginal(p, c) : 0;
+            highest = fmax(highest, share);
+            int known = 0;
+            for (int j = 0; j < nnamed; j++)
+                known |= same_cause(&named[j], c);
+            if (share >= NAMED && !known && nnamed < MOST_MEMBERS && stated && is_placed(engine, &p->item[i], c))
+                named[nnamed++] = *c;
+        }
+    }
+    verdict->kind = other > 0.5 ? ROTID_UNEXPLAINED : nnamed ? ROTID_NAMED : !lead->nmember && !lead->something_else && highest <= 0.2 && 1 - nothing < 3 * nothing ? ROTID_ADEQUATE : ROTID_AMBIGUOUS;
+    verdict->adequate_after = verdict->kind == ROTID_ADEQUATE;
+    if (verdict->kind == ROTID_NAMED) {
+        for (int i = 0; i < p->count && !model; i++) { /* the likeliest that has them and no more, else the likeliest that has them */
+            int all = p->item[i].refit != NULL && p->item[i].nmember == nnamed;
+            for (int j = 0; j < nnamed && all; j++)
+                all = has(&p->item[i], &named[j]);
+            model = all ? &p->item[i] : NULL;
+        }
+        for (int i = 0; i < p->count && !model; i++) {
+            int all = p->item[i].refit != NULL;
+            for (int j = 0; j < nnamed && all; j++)
+                all = has(&p->item[i], &named[j]);
+            model = all ? &p->item[i] : NULL;
+        }
+        if (!model)
+            verdict->kind = ROTID_AMBIGUOUS;
+    }
+    double shown = 0;
+    for (int i = 0, set = 0; i < p->count && shown < 0.99 && verdict->kind != ROTID_NAMED; shown += p->item[i++].probability)
+        if (p->item[i].nmember && set < 30) {
+            set++;
+            for (int m = 0; m < p->item[i].nmember; m++) {
+                out->alternative[out->nalternative] = p->item[i].member[m];
+                out->alternative[out->nalternative].with = NULL;
+                out->alternative[out->nalternative++].set = set;
+            }
+        }
+    if (verdict->kind == ROTID_UNEXPLAINED || verdict->kind == ROTID_ADEQUATE)
+        out->nalternative = 0;
+    if (!model)
+        return ROTID_OK;
+    for (int m = 0; m < model->nmember && out->ncause < DIAGNOSE_MOST_CAUSES; m++) {
+        out->cause[out->ncause] = model->member[m];
+        out->cause[out->ncause].with = NULL;
+        out->cause[out->ncause++].result.refitted = 1;
+    }
+    verdict->adequate_after = explains(engine, p, model);
+    struct states states = model->refit->states;
+    rotid_fit_result *fit = NULL;
+    int status = ROTID_OK;
+    for (int m = 0; m < model->nmember && !status; m++)
+        if (discrepancy_of(model->member[m].cause))
+            status = discrepancy_add(engine->pool, &model->member[m], 1, &states);
+    if (!status)
+        status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);
+    if (status)
+        return status;
+    if (engine->fit != out->base.fit)
+        rotid_fit_free(engine->fit);
+    engine->fit = fit;
+    status = states_started_at(engine->pool, &states, fit->x, &engine->states);
+    if (!status)
+        engine_look_at(engine, 0);
+    (void)result;
+    return status;
+}
