@@ -698,6 +698,30 @@ typedef struct rotid_spread {
     double ci95[2];         /* that hold the 95 % intervals of all of them; NaN where one of them has none */
 } rotid_spread;
 
+/* A set of causes, perhaps with something else that is not in the catalogue, and how probable it is (docs/method.md, section 11). */
+typedef struct rotid_explanation {
+    int ncauses; /* 0, and not something_else: nothing is wrong */
+    rotid_cause *causes;
+    int something_else;
+    double probability; /* after the data, among all explanations */
+    int nidentified;
+    rotid_cause_value *identified; /* the parameters of *IDENTIFY if this is what is there */
+} rotid_explanation;
+
+/* The probability that a cause is there, alone or with others. */
+typedef struct rotid_marginal {
+    const char *id, *target;
+    const char *state; /* the one state in which it acts; NULL: in all that have its target */
+    double probability;
+} rotid_marginal;
+
+/* A parameter of *IDENTIFY, averaged over all explanations by their probabilities. */
+typedef struct rotid_averaged_parameter {
+    const char *name, *unit;
+    double value, std; /* mean and standard deviation */
+    double ci95[2];    /* between the quantiles 0.025 and 0.975 */
+} rotid_averaged_parameter;
+
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
 typedef struct rotid_verdict {
     int kind;           /* ROTID_ADEQUATE ... ROTID_UNEXPLAINED; -1: interrupted before a verdict */
@@ -717,6 +741,12 @@ typedef struct rotid_verdict {
     int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
     int nspread;
     rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
+    int nexplanations;
+    rotid_explanation *explanations; /* most probable first, together 0.99 */
+    int nmarginals;
+    rotid_marginal *marginals;     /* of each cause above 0.001, most probable first */
+    double nothing, nothing_prior; /* probability that nothing is wrong, after the data and before; NaN before a verdict */
+    double something_else;         /* probability that something outside of the catalogue is */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */
@@ -887,6 +917,8 @@ typedef struct rotid_diagnosis {
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
     int nhidden;
     rotid_hidden *hidden; /* for each parameter of *IDENTIFY those that move it most, the largest first, three at most */
+    int nparameters;
+    rotid_averaged_parameter *parameters; /* of *IDENTIFY, over all explanations: the values to design with */
 } rotid_diagnosis;
 
 /* ---- suggestion: what to measure next */

@@ -4,6 +4,8 @@
 
 #include "diagnose/diagnose.h"
 
+#define SHARED 0.99 /* probability of the explanations that are listed */
+
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
@@ -45,6 +47,40 @@ static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_ver
     out->nalternative_sets = POOL_LIST(pool, out->alternative_sets, d->nalternative);
     for (int i = 0; i < out->nalternative_sets; i++)
         out->alternative_sets[i] = d->alternative[i].set;
+}
+
+/* The likeliest, together SHARED, and the marginals of all causes that are worth a line. */
+static void fill_explanations(struct pool *pool, const struct diagnosis *d, rotid_verdict *out)
+{
+    const struct posterior *p = &d->posterior;
+    int count = 0, room;
+    for (double sum = 0; count < p->count && sum < SHARED; count++)
+        sum += p->item[count].probability;
+    room = POOL_LIST(pool, out->explanations, count);
+    for (int i = 0; i < room; i++) {
+        const struct explanation *e = &p->item[i];
+        rotid_explanation *o = &out->explanations[out->nexplanations++];
+        *o = (rotid_explanation){.something_else = e->something_else, .probability = e->probability};
+        o->ncauses = fill_causes(pool, e->nmember, e->member, &o->causes);
+        int nown = POOL_LIST(pool, o->identified, p->nown);
+        for (int q = 0; q < nown; q++) {
+            double x = e->evidence.mean[q], half = 1.96 * e->evidence.std[q];
+            const rotid_parameter *b = &d->judged.bounds[q];
+            o->identified[o->nidentified++] = (rotid_cause_value){.name = b->name,
+                                                                  .unit = b->unit,
+                                                                  .value = x,
+                                                                  .std = e->evidence.std[q],
+                                                                  .ci95 = {fmax(b->lower, x - half), fmin(b->upper, x + half)}};
+        }
+    }
+    room = POOL_LIST(pool, out->marginals, p->nmarginal);
+    for (int i = 0; i < room; i++) {
+        const struct candidate *c = &p->marginal[i].cause;
+        out->marginals[out->nmarginals++] = (rotid_marginal){c->cause->id, c->target, c->state_name, p->marginal[i].probability};
+    }
+    out->nothing = p->count ? p->nothing : (double)NAN;
+    out->nothing_prior = p->count ? p->nothing_prior : (double)NAN;
+    out->something_else = p->count ? p->something_else : (double)NAN;
 }
 
 static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diagnosis *out)
@@ -110,6 +146,9 @@ rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, 
 {
     rotid_diagnosis *out = &d->result;
     fill_verdict(pool, d, &out->verdict);
+    fill_explanations(pool, d, &out->verdict);
+    out->nparameters = d->posterior.naveraged;
+    out->parameters = d->posterior.averaged;
     fill_rounds(pool, d, out);
     fill_changes(pool, d, &out->gain);
     out->geometry =

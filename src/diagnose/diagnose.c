@@ -514,7 +514,7 @@ static int run_posterior(struct engine *engine, struct round_result *last)
     out->posterior = posterior;
     const struct diagnosis_round *first = &out->round[0];
     out->result.verdict.p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
-    return posterior_verdict(engine, last, &posterior);
+    return posterior_verdict(engine, &posterior);
 }
 
 static int run_rounds(struct engine *engine, struct round_result *last)
@@ -617,7 +617,7 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .notes = notes,
                             .before = options->before,
                             .after = options->after,
-                            .posterior = options->posterior,
+                            .posterior = !options->rules,
                             .out = out,
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,

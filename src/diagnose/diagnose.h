@@ -39,7 +39,7 @@ struct diagnose_options {
     unsigned long seed;
     int replicates;             /* of the bootstrap; 0: 1000 */
     const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
-    int posterior;
+    int rules; /* decide by the rules that were */
 };
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
@@ -100,7 +100,16 @@ struct posterior {
     struct explanation *item; /* most probable first, behind posterior_run */
     struct evidence_data *data;
     const struct scan *base;
-    double nothing; /* probability of the empty set before: P(nothing) */
+    int nown;
+    double nothing, nothing_prior; /* probability that nothing is wrong, after and before */
+    double something_else;         /* of all explanations with something else */
+    int nmarginal;
+    struct marginal {
+        struct candidate cause; /* as in the likeliest explanation that has it */
+        double probability;
+    } *marginal; /* above LEAST_MARGINAL, largest first */
+    int naveraged;
+    rotid_averaged_parameter *averaged; /* [naveraged] the deck's unknowns over all explanations */
 };
 
 struct diagnosis {
@@ -1004,7 +1013,7 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
 void posterior_free(struct posterior *posterior);
 /* The verdict of it into the engine: what is named becomes part of the model. */
-int posterior_verdict(struct engine *engine, const struct round_result *result, struct posterior *posterior);
+int posterior_verdict(struct engine *engine, struct posterior *posterior);
 
 /* --------------------------------------------------------------------------------------------------------------- verdict */
 

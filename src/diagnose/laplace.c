@@ -22,8 +22,8 @@
 #define NOISE_ASSUMED 1.5 /* or assumed */
 #define ELSE_LEAST    2.0 /* times the noise */
 #define ELSE_MOST     1000.0
-#define ELSE_SHAPES   25 /* amplitudes tried */
-#define ELSE_LINES    13
+#define ELSE_SHAPES   16 /* amplitudes tried */
+#define ELSE_LINES    8
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
 #define LN_2PI        1.8378770664093453
 #define PI            3.14159265358979324

@@ -17,14 +17,19 @@
 
 #define DATA_KINDS   8    /* of faults of the measurement */
 #define BEAM         4    /* sets expanded in a pass */
-#define FITTED       16   /* fits of a pass */
+#define FITTED       8    /* fits of a pass, the first twice as many */
 #define MOST_PASSES  4
 #define WITHIN       7.0  /* of the best, in ln P */
 #define ELSE_WITHIN  60.0 /* likewise: with something else beside them */
-#define ELSE_MOST    8
+#define ELSE_MOST    5
 #define ELSE_PRIOR   0.05
 #define LINEAR       10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
 #define ROOM         4096
+#define LEAST_SHARE    1e-7  /* of an explanation whose causes count for the marginals */
+#define LEAST_MARGINAL 0.001
+#define LISTED_SHARE 0.99
+#define HARMLESS     0.2 /* a cause below it is none */
+#define ODDS         3.0 /* of anything over nothing, times those before */
 #define NAMED        0.95
 #define SUSPECTED    10.0 /* times: a cause that the user suspects */
 #define NEAR_PLACE   0.125 /* of the length: half of the interval of a place that is named */
@@ -387,7 +392,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         return status;
     qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
     double best = best_stated(p);
-    while (fits < count && fits < FITTED && proposal[fits].set.log_posterior > best - WITHIN) {
+    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN) {
         fits++;
     }
     status = fit_proposals(engine, p, proposal, fits);
@@ -429,10 +434,95 @@ static int add_something_else(struct engine *engine, struct posterior *p)
     return status;
 }
 
+/* ---- what follows of the list */
+
+static int by_probability(const void *a, const void *b)
+{
+    double one = ((const struct marginal *)a)->probability, two = ((const struct marginal *)b)->probability;
+    return (one < two) - (one > two);
+}
+
+static int find_marginals(struct engine *engine, struct posterior *p)
+{
+    int room = 0;
+    for (int i = 0; i < p->count; i++)
+        room += p->item[i].probability > LEAST_SHARE ? p->item[i].nmember : 0;
+    p->marginal = POOL_ARRAY(engine->pool, struct marginal, room + 1);
+    if (!p->marginal)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < p->count; i++) {
+        const struct explanation *e = &p->item[i];
+        p->something_else += e->something_else ? e->probability : 0;
+        p->nothing += !e->nmember && !e->something_else ? e->probability : 0;
+        for (int m = 0; m < e->nmember && e->probability > LEAST_SHARE; m++) {
+            int known = m && same_cause(&e->member[m], &e->member[m - 1]); /* twice in one set */
+            for (int j = 0; j < p->nmarginal && !known; j++)
+                if (same_cause(&p->marginal[j].cause, &e->member[m])) {
+                    p->marginal[j].probability += e->probability;
+                    known = 1;
+                }
+            if (!known)
+                p->marginal[p->nmarginal++] = (struct marginal){e->member[m], e->probability};
+        }
+    }
+    qsort(p->marginal, (size_t)p->nmarginal, sizeof *p->marginal, by_probability);
+    while (p->nmarginal && p->marginal[p->nmarginal - 1].probability < LEAST_MARGINAL)
+        p->nmarginal--;
+    return ROTID_OK;
+}
+
+/* Probability of unknown q below x, cut at its bounds. */
+static double share_below(const struct posterior *p, const rotid_parameter *bounds, int q, double x)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++) {
+        double mean = p->item[i].evidence.mean[q], std = p->item[i].evidence.std[q], root = std * sqrt(2);
+        if (!(std > 0)) {
+            sum += x >= mean ? p->item[i].probability : 0;
+            continue;
+        }
+        double least = erfc(-(bounds->lower - mean) / root), most = erfc(-(bounds->upper - mean) / root);
+        if (most > least)
+            sum += p->item[i].probability * (erfc(-(x - mean) / root) - least) / (most - least);
+    }
+    return sum;
+}
+
+static double quantile(const struct posterior *p, const rotid_parameter *bounds, int q, double share)
+{
+    double lower = bounds->lower, upper = bounds->upper;
+    for (int i = 0; i < 100 && upper - lower > 1e-9 * fabs(upper); i++) {
+        double middle = lower > 0 && upper > 10 * lower ? sqrt(lower * upper) : (lower + upper) / 2;
+        *(share_below(p, bounds, q, middle) < share ? &lower : &upper) = middle;
+    }
+    return (lower + upper) / 2;
+}
+
+static int summarise(struct engine *engine, struct posterior *p)
+{
+    int status = find_marginals(engine, p);
+    p->averaged = POOL_ARRAY(engine->pool, rotid_averaged_parameter, p->nown + 1);
+    if (status || !p->averaged)
+        return ROTID_ERROR_MEMORY;
+    for (int q = 0; q < p->nown; q++) {
+        const rotid_parameter *bounds = &engine->out->judged.bounds[q];
+        double mean = 0, square = 0;
+        for (int i = 0; i < p->count; i++)
+            mean += p->item[i].probability * p->item[i].evidence.mean[q];
+        for (int i = 0; i < p->count; i++) {
+            double apart = p->item[i].evidence.mean[q] - mean;
+            square += p->item[i].probability * (apart * apart + p->item[i].evidence.std[q] * p->item[i].evidence.std[q]);
+        }
+        p->averaged[p->naveraged++] = (rotid_averaged_parameter){
+            bounds->name, bounds->unit, mean, sqrt(square), {quantile(p, bounds, q, 0.025), quantile(p, bounds, q, 0.975)}};
+    }
+    return ROTID_OK;
+}
+
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int status, more = 1;
-    *p = (struct posterior){.room = ROOM, .base = &result->scan, .item = POOL_ARRAY(engine->pool, struct explanation, ROOM), .nkind = DATA_KINDS, .nothing = set_prior[0]};
+    *p = (struct posterior){.room = ROOM, .base = &result->scan, .item = POOL_ARRAY(engine->pool, struct explanation, ROOM), .nkind = DATA_KINDS, .nown = engine->nown, .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
     if (!p->item)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < catalogue_count(); i++) {
@@ -461,7 +551,7 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
         sum = log_sum(sum, p->item[i].log_posterior);
     for (int i = 0; i < p->count; i++)
         p->item[i].probability = exp(p->item[i].log_posterior - sum);
-    return ROTID_OK;
+    return summarise(engine, p);
 }
 
 void posterior_free(struct posterior *p)
@@ -470,15 +560,6 @@ void posterior_free(struct posterior *p)
 }
 
 /* ---- the verdict */
-
-/* Probability of all sets that hold the cause. */
-static double marginal(const struct posterior *p, const struct candidate *c)
-{
-    double sum = 0;
-    for (int i = 0; i < p->count; i++)
-        sum += has(&p->item[i], c) ? p->item[i].probability : 0;
-    return sum;
-}
 
 /* Whether nearly all of the place lies in one interval. */
 static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c)
@@ -492,78 +573,61 @@ static int is_placed(const struct engine *engine, const struct explanation *e, c
     return !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length;
 }
 
-int posterior_verdict(struct engine *engine, const struct round_result *result, struct posterior *p)
+/* The likeliest explanation with a fit that has all of these, and no more where `only`. */
+static const struct explanation *model_with(const struct posterior *p, int count, const struct candidate *named, int only)
+{
+    for (int i = 0; i < p->count; i++) {
+        int all = p->item[i].refit != NULL && !p->item[i].something_else && (!only || p->item[i].nmember == count);
+        for (int j = 0; j < count && all; j++)
+            all = has(&p->item[i], &named[j]);
+        if (all)
+            return &p->item[i];
+    }
+    return NULL;
+}
+
+/* Probability of the sets that hold both. */
+static double together(const struct posterior *p, const struct candidate *a, const struct candidate *b)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++)
+        sum += has(&p->item[i], a) && has(&p->item[i], b) ? p->item[i].probability : 0;
+    return sum;
+}
+
+/* The causes to be named. */
+static int choose_names(const struct engine *engine, const struct posterior *p, struct candidate *named)
+{
+    int count = 0;
+    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= NAMED && count < MOST_MEMBERS; i++) {
+        const struct candidate *c = &p->marginal[i].cause;
+        int joint = 1;
+        for (int j = 0; j < count; j++)
+            joint &= together(p, &named[j], c) >= NAMED;
+        const struct explanation *with = model_with(p, 1, c, 0);
+        for (int m = 0; with && m < with->nmember; m++)
+            if (same_cause(&with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {
+                named[count++] = with->member[m];
+                break;
+            }
+    }
+    return count;
+}
+
+/* What was named becomes part of the model. */
+static int accept(struct engine *engine, const struct explanation *model)
 {
     struct diagnosis *out = engine->out;
-    rotid_verdict *verdict = &out->result.verdict;
-    const struct explanation *lead = &p->item[0], *model = NULL;
-    struct candidate named[MOST_MEMBERS];
-    int nnamed = 0, stated = 1;
-    double other = 0, nothing = 0, highest = 0;
-    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
-    out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
-    if (!out->cause || !out->alternative)
-        return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < engine->states.nstate; s++)
-        stated &= job_knows_frequency_noise(&out->given.state[s].job);
-    for (int i = 0; i < p->count; i++) {
-        other += p->item[i].something_else ? p->item[i].probability : 0;
-        nothing += !p->item[i].nmember && !p->item[i].something_else ? p->item[i].probability : 0;
-        for (int m = 0; m < p->item[i].nmember; m++) {
-            const struct candidate *c = &p->item[i].member[m];
-            double share = i < 50 ? marginal(p, c) : 0;
-            highest = fmax(highest, share);
-            int known = 0;
-            for (int j = 0; j < nnamed; j++)
-                known |= same_cause(&named[j], c);
-            if (share >= NAMED && !known && nnamed < MOST_MEMBERS && stated && is_placed(engine, &p->item[i], c))
-                named[nnamed++] = *c;
-        }
-    }
-    verdict->kind = other > 0.5 ? ROTID_UNEXPLAINED : nnamed ? ROTID_NAMED : !lead->nmember && !lead->something_else && highest <= 0.2 && 1 - nothing < 3 * nothing ? ROTID_ADEQUATE : ROTID_AMBIGUOUS;
-    verdict->adequate_after = verdict->kind == ROTID_ADEQUATE;
-    if (verdict->kind == ROTID_NAMED) {
-        for (int i = 0; i < p->count && !model; i++) { /* the likeliest that has them and no more, else the likeliest that has them */
-            int all = p->item[i].refit != NULL && p->item[i].nmember == nnamed;
-            for (int j = 0; j < nnamed && all; j++)
-                all = has(&p->item[i], &named[j]);
-            model = all ? &p->item[i] : NULL;
-        }
-        for (int i = 0; i < p->count && !model; i++) {
-            int all = p->item[i].refit != NULL;
-            for (int j = 0; j < nnamed && all; j++)
-                all = has(&p->item[i], &named[j]);
-            model = all ? &p->item[i] : NULL;
-        }
-        if (!model)
-            verdict->kind = ROTID_AMBIGUOUS;
-    }
-    double shown = 0;
-    for (int i = 0, set = 0; i < p->count && shown < 0.99 && verdict->kind != ROTID_NAMED; shown += p->item[i++].probability)
-        if (p->item[i].nmember && set < 30) {
-            set++;
-            for (int m = 0; m < p->item[i].nmember; m++) {
-                out->alternative[out->nalternative] = p->item[i].member[m];
-                out->alternative[out->nalternative].with = NULL;
-                out->alternative[out->nalternative++].set = set;
-            }
-        }
-    if (verdict->kind == ROTID_UNEXPLAINED || verdict->kind == ROTID_ADEQUATE)
-        out->nalternative = 0;
-    if (!model)
-        return ROTID_OK;
-    for (int m = 0; m < model->nmember && out->ncause < DIAGNOSE_MOST_CAUSES; m++) {
-        out->cause[out->ncause] = model->member[m];
-        out->cause[out->ncause].with = NULL;
-        out->cause[out->ncause++].result.refitted = 1;
-    }
-    verdict->adequate_after = explains(engine, p, model);
     struct states states = model->refit->states;
     rotid_fit_result *fit = NULL;
     int status = ROTID_OK;
-    for (int m = 0; m < model->nmember && !status; m++)
-        if (discrepancy_of(model->member[m].cause))
-            status = discrepancy_add(engine->pool, &model->member[m], 1, &states);
+    for (int m = 0; m < model->nmember && !status; m++) {
+        struct candidate *cause = &out->cause[out->ncause++];
+        *cause = model->member[m];
+        cause->with = NULL;
+        cause->result.refitted = 1;
+        status = discrepancy_add(engine->pool, cause, 1, &states);
+    }
     if (!status)
         status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);
     if (status)
@@ -574,6 +638,50 @@ int posterior_verdict(struct engine *engine, const struct round_result *result, 
     status = states_started_at(engine->pool, &states, fit->x, &engine->states);
     if (!status)
         engine_look_at(engine, 0);
-    (void)result;
     return status;
+}
+
+/* The rest of what shares 0.99, as alternatives. */
+static void list_alternatives(struct diagnosis *out, const struct posterior *p)
+{
+    double shown = 0;
+    for (int i = 0, set = 0; i < p->count && shown < LISTED_SHARE; shown += p->item[i++].probability) {
+        if (!p->item[i].nmember || p->item[i].something_else)
+            continue;
+        set++;
+        for (int m = 0; m < p->item[i].nmember; m++) {
+            struct candidate *listed = &out->alternative[out->nalternative++];
+            *listed = p->item[i].member[m];
+            listed->with = NULL;
+            listed->set = set;
+        }
+    }
+}
+
+int posterior_verdict(struct engine *engine, struct posterior *p)
+{
+    struct diagnosis *out = engine->out;
+    rotid_verdict *verdict = &out->result.verdict;
+    const struct explanation *lead = &p->item[0], *model = NULL;
+    struct candidate named[MOST_MEMBERS];
+    int stated = 1, count;
+    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
+    out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
+    if (!out->cause || !out->alternative)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < engine->states.nstate; s++)
+        stated &= job_knows_frequency_noise(&out->given.state[s].job);
+    count = stated ? choose_names(engine, p, named) : 0;
+    if (count && !(model = model_with(p, count, named, 1)))
+        model = model_with(p, count, named, 0);
+    verdict->kind = p->something_else > 0.5 ? ROTID_UNEXPLAINED
+                    : model                 ? ROTID_NAMED
+                    : !lead->nmember && !lead->something_else && (!p->nmarginal || p->marginal[0].probability <= HARMLESS) &&
+                            (1 - p->nothing) / p->nothing < ODDS * (1 - p->nothing_prior) / p->nothing_prior
+                        ? ROTID_ADEQUATE
+                        : ROTID_AMBIGUOUS;
+    verdict->adequate_after = verdict->kind == ROTID_ADEQUATE || (verdict->kind == ROTID_NAMED && explains(engine, p, model));
+    if (verdict->kind == ROTID_AMBIGUOUS)
+        list_alternatives(out, p);
+    return verdict->kind == ROTID_NAMED ? accept(engine, model) : ROTID_OK;
 }

@@ -32,6 +32,30 @@ static const struct record_field spread_fields[] = {
 };
 static const struct record spread_record = RECORD(rotid_spread, spread_fields);
 
+static const struct record_field explanation_fields[] = {
+    STRUCTS(rotid_explanation, causes, 0, cause_record),
+    FLAG(rotid_explanation, something_else, 0),
+    NUMBER(rotid_explanation, probability, PROBABILITY),
+    STRUCTS(rotid_explanation, identified, 0, value_record),
+    {0},
+};
+static const struct record explanation_record = RECORD(rotid_explanation, explanation_fields);
+
+static const struct record_field marginal_fields[] = {
+    TEXT(rotid_marginal, id, 0),
+    TEXT(rotid_marginal, target, 0),
+    TEXT(rotid_marginal, state, MAY_BE_NULL),
+    NUMBER(rotid_marginal, probability, PROBABILITY),
+    {0},
+};
+static const struct record marginal_record = RECORD(rotid_marginal, marginal_fields);
+
+static const struct record_field averaged_fields[] = {
+    TEXT(rotid_averaged_parameter, name, 0), TEXT(rotid_averaged_parameter, unit, 0), NUMBER(rotid_averaged_parameter, value, 0),
+    NUMBER(rotid_averaged_parameter, std, FROM_0), INTERVAL(rotid_averaged_parameter, ci95, 0), {0},
+};
+static const struct record averaged_record = RECORD(rotid_averaged_parameter, averaged_fields);
+
 static const struct record_field verdict_fields[] = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
     FLAG(rotid_verdict, adequate_after, 0),
@@ -45,6 +69,11 @@ static const struct record_field verdict_fields[] = {
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
     FLAG(rotid_verdict, confident, SINCE_LATER),
     STRUCTS(rotid_verdict, spread, SINCE_LATER, spread_record),
+    STRUCTS(rotid_verdict, explanations, SINCE_LATER, explanation_record),
+    STRUCTS(rotid_verdict, marginals, SINCE_LATER, marginal_record),
+    NUMBER(rotid_verdict, nothing, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_verdict, nothing_prior, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_verdict, something_else, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     {0},
 };
 static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
@@ -202,6 +231,7 @@ static const struct record_field diagnosis_fields[] = {
     STRUCTS(rotid_diagnosis, localisation, 0, localisation_record),
     STRUCTS(rotid_diagnosis, detectable, 0, detectable_record),
     STRUCTS(rotid_diagnosis, hidden, SINCE_LATER, hidden_cause_record),
+    STRUCTS(rotid_diagnosis, parameters, SINCE_LATER, averaged_record),
     STRUCT(rotid_diagnosis, noise, SINCE_LATER, noise_record),
     STRUCT(rotid_diagnosis, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCT(rotid_diagnosis, today, MAY_BE_NULL | BEHIND_POINTER, identification_record),
