@@ -78,6 +78,7 @@ struct diagnosis_round {
 struct evidence {
     double log_z;      /* over the noise's factors too */
     double log_stated; /* at the noise as stated */
+    double log_exact;  /* likewise, of an approximation that leaves nothing */
     double log_else;   /* with something else beside the causes; -INFINITY where nobody asked */
     double noise[2];   /* factors of frequencies and shapes at their mode */
     double *mean, *std; /* [nown] of the deck's unknowns */

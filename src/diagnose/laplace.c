@@ -26,6 +26,7 @@
 #define ELSE_LINES    8
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
 #define LN_2PI        1.8378770664093453
+#define LN_2          0.69314718055994531
 #define PI            3.14159265358979324
 #define ROOT_HALF     0.70710678118654752
 
@@ -256,52 +257,22 @@ static double integrate(struct normal *w, double line, double shape)
     return isfinite(sum) ? sum : -INFINITY;
 }
 
-/* The rows of an explanation [nrow * (n + 1)], the last column the residual; left [nrow]: what an approximation adds to the variance of a
- * row, over the stated one, NULL where it adds nothing. */
-struct rows {
-    const struct evidence_data *data;
-    const double *value, *left;
-    double *weight;
-};
-
-static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b, double *square);
-static void mirror(int n, double *a);
-
 /* ln of the integral over the unknowns at noise e^a and e^b times as stated, with the prior of a and b. */
-static double integrate_at(const struct rows *rows, struct normal *w, double a, double b)
+static double integrate_at(const struct evidence_data *d, struct normal *w, double a, double b)
 {
-    const struct evidence_data *d = rows->data;
-    double variance = d->deviation * d->deviation, prior = -(a * a + b * b) / (2 * variance), lost = 0;
-    int n = w->n;
-    if (!rows->left)
-        return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b + prior;
-    memset(w->line, 0, (size_t)n * (size_t)n * sizeof *w->line);
-    memset(w->line_b, 0, (size_t)n * sizeof *w->line_b);
-    memset(w->shape, 0, (size_t)n * (size_t)n * sizeof *w->shape);
-    memset(w->shape_b, 0, (size_t)n * sizeof *w->shape_b);
-    w->line_square = w->shape_square = 0;
-    double scale = 0;
-    for (int i = 0; i < d->nrow; i++) {
-        double square = exp(2 * (d->is_line[i] ? a : b)) + rows->left[i];
-        rows->weight[i] = 1 / square;
-        lost += log(square) / 2;
-        scale += d->is_line[i] ? 0 : log(square) / 2;
-    }
-    int shapes = d->nrow - d->nline;
-    lost -= shapes ? scale * d->nscale / shapes : 0; /* what the scales take up */
-    gather(d->nrow, n, rows->value, d->nrow, rows->weight, w->shape, w->shape_b, &w->shape_square);
-    mirror(n, w->shape);
-    return integrate(w, 0, 1) - lost + prior;
+    double variance = d->deviation * d->deviation;
+    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b -
+           (a * a + b * b) / (2 * variance);
 }
 
 /* Mode of a function of one factor, the other held, and the deviation about it, by points and a parabola. */
-static double find_mode(const struct rows *rows, struct normal *w, int shape, double other, double *spread)
+static double find_mode(const struct evidence_data *d, struct normal *w, int shape, double other, double *spread)
 {
-    double deviation = rows->data->deviation, step = deviation / 2, at = 0, most = integrate_at(rows, w, shape ? other : 0, shape ? 0 : other), value[2];
+    double deviation = d->deviation, step = deviation / 2, at = 0, most = integrate_at(d, w, shape ? other : 0, shape ? 0 : other), value[2];
     for (int pass = 0; pass < 60; pass++) {
         for (int side = 0; side < 2; side++) {
             double x = at + (side ? step : -step);
-            value[side] = integrate_at(rows, w, shape ? other : x, shape ? x : other);
+            value[side] = integrate_at(d, w, shape ? other : x, shape ? x : other);
         }
         if (value[0] > most || value[1] > most) {
             int up = value[1] > value[0];
@@ -319,26 +290,26 @@ static double find_mode(const struct rows *rows, struct normal *w, int shape, do
 }
 
 /* Over both factors of the noise; leaves N^-1 and the step at the mode. *one: at the stated noise. */
-static double integrate_noise(const struct rows *rows, struct normal *w, double *one, double factor[2])
+static double integrate_noise(const struct evidence_data *d, struct normal *w, double *one, double factor[2])
 {
     static const double node[] = {-2.856970013872806, -1.355626179974266, 0, 1.355626179974266, 2.856970013872806};
     static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264, 0.011257411327720689};
-    double spread[2], sum = -INFINITY, variance = rows->data->deviation * rows->data->deviation, b0 = 0;
-    int shapes = rows->data->nrow > rows->data->nline;
-    *one = integrate_at(rows, w, 0, 0);
+    double spread[2], sum = -INFINITY, variance = d->deviation * d->deviation, b0 = 0;
+    int shapes = d->nrow > d->nline;
+    *one = integrate_at(d, w, 0, 0);
     if (shapes)
-        b0 = find_mode(rows, w, 1, 0, &spread[1]);
-    double a0 = find_mode(rows, w, 0, b0, &spread[0]);
+        b0 = find_mode(d, w, 1, 0, &spread[1]);
+    double a0 = find_mode(d, w, 0, b0, &spread[0]);
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < (shapes ? 5 : 1); j++) {
-            double a = a0 + node[i] * spread[0], b = shapes ? b0 + node[j] * spread[1] : 0, z = integrate_at(rows, w, a, b);
+            double a = a0 + node[i] * spread[0], b = shapes ? b0 + node[j] * spread[1] : 0, z = integrate_at(d, w, a, b);
             z += node[i] * node[i] / 2 + log(weight[i] * spread[0]) - log(variance) / 2;
             z += shapes ? node[j] * node[j] / 2 + log(weight[j] * spread[1]) - log(variance) / 2 : 0;
             sum = log_sum(sum, z);
         }
     factor[0] = exp(a0);
     factor[1] = exp(b0);
-    (void)integrate_at(rows, w, a0, b0);
+    (void)integrate_at(d, w, a0, b0);
     return sum;
 }
 
@@ -372,9 +343,12 @@ static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal
 }
 
 /* ln Z with something else beside the causes. rows [nrow * (n + 1)], rotated here into the fields' eigenvectors; the scale of each
- * shape is one more unknown, whose column is the predicted shape, of which `reach` is the length. */
-static int with_something_else(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows, double *log_z)
+ * shape is one more unknown, whose column is the predicted shape. known: amplitudes of lines and shapes, relative to a frequency and to
+ * the largest component; NULL: the grid of something else. */
+static int with_field(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
+                      const double *known, double *log_z)
 {
+    int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES;
     int total = n + d->nblock, nrow = d->nrow;
     struct normal w;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, total);
@@ -407,34 +381,37 @@ static int with_something_else(const struct evidence_data *d, struct pool *pool,
         }
     }
     double step_shape = d->nblock ? log(ELSE_MOST / ELSE_LEAST) / (ELSE_SHAPES - 1) : 0, step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
-    for (int a = 0; a < (d->nblock ? ELSE_SHAPES : 1); a++) {
+    for (int a = 0; a < shapes; a++) {
         double amplitude = ELSE_LEAST * exp(a * step_shape), determinant = 0;
         memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
         memset(w.shape_b, 0, (size_t)total * sizeof *w.shape_b);
         w.shape_square = 0;
         for (int k = 0; k < d->nblock; k++)
             for (int i = 0; i < d->block[k].count; i++) {
-                double more = amplitude * amplitude * fmax(0, d->block[k].value[i]);
+                double one = known ? known[1] / d->noise[d->block[k].row] : amplitude, more = one * one * fmax(0, d->block[k].value[i]);
                 weight[d->block[k].row + i] = 1 / (1 + more);
                 determinant += log1p(more) / 2;
             }
         for (int k = 0; k < d->nblock; k++)
             gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b, &w.shape_square);
         mirror(total, w.shape);
-        for (int b = 0; b < ELSE_LINES; b++) {
-            double line = ELSE_LEAST * exp(b * step_line), more = line * line;
+        for (int b = 0; b < lines; b++) {
+            double line = ELSE_LEAST * exp(b * step_line), lost = determinant;
             memset(w.line, 0, (size_t)total * (size_t)total * sizeof *w.line);
             memset(w.line_b, 0, (size_t)total * sizeof *w.line_b);
             w.line_square = 0;
             for (int i = 0; i < nrow; i++)
-                if (d->is_line[i])
-                    gather(1, total, turned + i, nrow, NULL, w.line, w.line_b, &w.line_square);
+                if (d->is_line[i]) {
+                    double more = known ? known[0] / d->noise[i] : line, square = 1 / (1 + more * more);
+                    gather(1, total, turned + i, nrow, &square, w.line, w.line_b, &w.line_square);
+                    lost -= log(square) / 2;
+                }
             mirror(total, w.line);
-            double one = integrate(&w, 1 / (1 + more), 1) - determinant - d->nline * log1p(more) / 2;
+            double one = integrate(&w, 1, 1) - lost;
             z = log_sum(z, one);
         }
     }
-    *log_z = z - log((double)ELSE_LINES * (d->nblock ? ELSE_SHAPES : 1));
+    *log_z = z - log((double)lines * shapes);
     return ROTID_OK;
 }
 
@@ -455,35 +432,36 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         for (int i = 0; i < nrow; i++)
             rows[i + (ptrdiff_t)p * nrow] = u[p].step * fit->jacobian[i + (ptrdiff_t)p * nrow];
     }
-    double *left = POOL_ARRAY(&pool, double, nrow), *weight = POOL_ARRAY(&pool, double, nrow);
-    int approximate = 0;
-    if (!status && (!left || !weight))
-        status = ROTID_ERROR_MEMORY;
+    double known[2] = {0, 0}, field;
+    for (int m = 0; m < nmember; m++) {
+        known[0] = hypot(known[0], member[m].cause->discrepancy_frequency);
+        known[1] = hypot(known[1], member[m].cause->discrepancy_shape);
+    }
     for (int i = 0; i < nrow && !status; i++) {
-        for (int m = 0; m < nmember; m++) {
-            double one = (d->is_line[i] ? member[m].cause->discrepancy_frequency : member[m].cause->discrepancy_shape) / d->noise[i];
-            left[i] += one * one;
-        }
-        approximate |= left[i] > 0;
-        rows[i + (ptrdiff_t)n * nrow] = fit->r[i];
+        double *row = rows + i;
+        row[(ptrdiff_t)n * nrow] = fit->r[i];
+        gather(1, n, row, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
+               d->is_line[i] ? &w.line_square : &w.shape_square);
     }
     if (!status) {
-        const struct rows all = {d, rows, approximate ? left : NULL, weight};
-        for (int i = 0; i < nrow; i++)
-            gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b, d->is_line[i] ? &w.line_square : &w.shape_square);
         mirror(n, w.line);
         mirror(n, w.shape);
-        out->log_z = integrate_noise(&all, &w, &out->log_stated, out->noise);
+        out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
+        out->log_exact = out->log_stated;
         for (int p = 0; p < nown; p++) {
             double x = fit->x[p] + u[p].step * w.step[p];
             out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);
             out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]) * fabs(u[p].step);
         }
-        out->log_else = -INFINITY;
-        if (something_else) {
-            status = with_something_else(d, &pool, n, u, rows, &out->log_else);
-        }
     }
+    if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */
+        status = with_field(d, &pool, n, u, rows, known, &field);
+        out->log_z = log_sum(out->log_z, field) - LN_2;
+        out->log_stated = log_sum(out->log_stated, field) - LN_2;
+    }
+    out->log_else = -INFINITY;
+    if (!status && something_else)
+        status = with_field(d, &pool, n, u, rows, NULL, &out->log_else);
     pool_close(&pool);
     return status;
 }

@@ -129,7 +129,7 @@ static int score(struct engine *engine, struct posterior *p, int something_else,
         status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember, e->member,
                                  something_else, &e->evidence);
     if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
-        e->evidence.log_z = e->evidence.log_stated = e->evidence.log_else = -INFINITY;
+        e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
     }
     for (int m = 0; m < e->nmember && e->refit && isfinite(e->refit->other_chi2); m++) /* another place */
@@ -137,6 +137,7 @@ static int score(struct engine *engine, struct posterior *p, int something_else,
             double more = log1p(exp(-fmax(0, e->refit->other_chi2 - e->refit->chi2) / 2));
             e->evidence.log_z += more;
             e->evidence.log_stated += more;
+            e->evidence.log_exact += more;
         }
     e->log_prior = prior_of(p, e);
     e->log_posterior = e->evidence.log_z + e->log_prior;
@@ -188,12 +189,15 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
 {
     const struct scan_candidate *c = &scan->candidate[index];
     int best;
-    if (c->best < 0 || !e->refit || discrepancy_of(c->cause))
+    if (c->best < 0 || !e->refit)
         return;
     double drop = scan->item[c->best].drop, fitted = scan->chi2 - e->refit->chi2;
     if (fabs(drop - fitted) > 1 || fitted > 30)
         return;
-    double columns = parent->evidence.log_stated + gain_of(states, scan, index, &best), more = columns - e->evidence.log_stated;
+    double columns = parent->evidence.log_exact + gain_of(states, scan, index, &best), more = columns - e->evidence.log_exact;
+    if (e->evidence.log_stated > e->evidence.log_exact + 1)
+        return; /* it leaves something, which columns do not know */
+    e->evidence.log_exact += more;
     e->evidence.log_stated += more;
     e->evidence.log_z += more;
     e->log_posterior += more;
@@ -219,8 +223,8 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
         one.set.expanded = 0;
         one.gain = gain_of(states, scan, i, &best);
         one.set.log_prior = prior_of(p, &one.set);
-        one.set.evidence.log_stated = from->evidence.log_stated + one.gain;
-        one.set.evidence.log_z = from->evidence.log_z + one.gain;
+        one.set.evidence.log_stated = one.set.evidence.log_exact = from->evidence.log_exact + one.gain;
+        one.set.evidence.log_z = from->evidence.log_z - from->evidence.log_stated + one.set.evidence.log_stated;
         one.set.evidence.log_else = -INFINITY;
         one.set.log_posterior = one.set.evidence.log_stated + one.set.log_prior;
         int status = room_for_moduli(engine->pool, engine->nown, &one.set.evidence);
@@ -309,7 +313,7 @@ static double best_stated(const struct posterior *p)
     double best = -INFINITY;
     for (int i = 0; i < p->count; i++)
         if (p->item[i].refit || !p->item[i].nmember)
-            best = fmax(best, p->item[i].evidence.log_stated + p->item[i].log_prior);
+            best = fmax(best, p->item[i].evidence.log_exact + p->item[i].log_prior);
     return best;
 }
 

@@ -28,7 +28,7 @@ const struct cause_kind cause_added_inertia = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_DISK,
     .effect = &kind,
-    .parameter = {{.typical = 0.01, PRIOR_OF_LOWER(0.3)}},
+    .parameter = {{.typical = 0.01, PRIOR_OF_BOUND(0.3)}},
     .place = -1,
     .width = -1,
     .bounds = bounds,
