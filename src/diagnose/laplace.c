@@ -3,14 +3,13 @@
  *   unknowns   u: ln x of the deck's parameters, uniform between their bounds; sizes, places and widths of causes in the unit of
  *              their prior (struct cause_parameter). About the fitted point, r the whitened residual, J = dr/du,
  *                  E(d) = |r + J d|^2/2 + sum P (d - m)^2/2,   N = J'J + P,   least E at d = -N^-1 (J'r - P m)
- *   Laplace    ln Z = -E - ln det N/2 + d ln 2 pi/2 + ln of the prior's factors + ln of the share of each marginal normal that lies
- *              between the bounds (the prior's edge, so that a size pressed against one needs no rule)
- *   noise      factors e^a on the frequencies and e^b on the shapes, a, b normal about 0: N and E at 5 x 5 points about their modes
- *              (Gauss-Hermite); every row costs -a or -b
- *   else       a smooth random field in the shape of each mode and a free error of each frequency: covariance I + A^2 C, C of squared
- *              exponentials over the sensors, diagonalised once a mode; A log-uniform from 2 to 1000 times the noise, apart for
- *              frequencies and shapes; unknowns and scales of the shapes estimated in that metric
- *   columns    of the scan: one size, linear: the same integral in closed form, averaged over places and widths */
+ *   Laplace    ln Z = -E - ln det N/2 + d ln 2 pi/2 + ln of the prior's factors + ln of the share of each marginal normal that
+ * lies between the bounds (the prior's edge, so that a size pressed against one needs no rule) noise      factors e^a on the
+ * frequencies and e^b on the shapes, a, b normal about 0: N and E at 5 x 5 points about their modes (Gauss-Hermite); every row
+ * costs -a or -b else       a smooth random field in the shape of each mode and a free error of each frequency: covariance I +
+ * A^2 C, C of squared exponentials over the sensors, diagonalised once a mode; A log-uniform from 2 to 1000 times the noise,
+ * apart for frequencies and shapes; unknowns and scales of the shapes estimated in that metric columns    of the scan: one size,
+ * linear: the same integral in closed form, averaged over places and widths */
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +18,8 @@
 #include "linalg/linalg.h"
 
 #define NOISE_STATED  0.15 /* deviation of ln of the noise: stated by the user, */
-#define NOISE_ASSUMED 1.5 /* or assumed */
-#define ELSE_LEAST    2.0 /* times the noise */
+#define NOISE_ASSUMED 1.5  /* or assumed */
+#define ELSE_LEAST    2.0  /* times the noise */
 #define ELSE_MOST     1000.0
 #define ELSE_SHAPES   16 /* amplitudes tried */
 #define ELSE_LINES    8
@@ -62,14 +61,16 @@ struct unknown {
     double step;         /* dx/du at the fitted point */
     double mean;         /* of the prior, from there */
     double lower, upper; /* bounds, from there */
-    double precision;    /* of the prior: that of a uniform one makes sqrt(2 pi/precision) its range, so that what the data leave open costs nothing */
+    double precision;    /* of the prior: that of a uniform one makes sqrt(2 pi/precision) its range, so that what the data leave
+                            open costs nothing */
     double density;      /* ln of its factor */
 };
 
 static struct unknown flat_unknown(double step, double lower, double upper)
 {
     double range = upper - lower;
-    return (struct unknown){.flat = 1, .step = step, .lower = lower, .upper = upper, .precision = 2 * PI / (range * range), .density = -log(range)};
+    return (struct unknown){
+        .flat = 1, .step = step, .lower = lower, .upper = upper, .precision = 2 * PI / (range * range), .density = -log(range)};
 }
 
 /* Of a positive number by its logarithm. */
@@ -80,7 +81,11 @@ static struct unknown flat_log(double x, double lower, double upper)
 
 static struct unknown normal_unknown(double x, double neutral, double deviation, double lower, double upper)
 {
-    struct unknown u = {.step = deviation, .mean = (neutral - x) / deviation, .lower = (lower - x) / deviation, .upper = (upper - x) / deviation, .precision = 1};
+    struct unknown u = {.step = deviation,
+                        .mean = (neutral - x) / deviation,
+                        .lower = (lower - x) / deviation,
+                        .upper = (upper - x) / deviation,
+                        .precision = 1};
     u.density = -LN_2PI / 2 - log_share((lower - neutral) / deviation, (upper - neutral) / deviation);
     return u;
 }
@@ -108,8 +113,13 @@ static struct unknown unknown_of_cause(const struct cause_kind *cause, int p, do
     }
     if (parameter->prior == PRIOR_LOG_NORMAL) {
         double step = x * parameter->scale;
-        struct unknown u = {.step = step, .precision = 1, .mean = -log(x / parameter->neutral) / parameter->scale, .lower = log(lower / x) / parameter->scale, .upper = log(upper / x) / parameter->scale};
-        u.density = -LN_2PI / 2 - log_share(log(lower / parameter->neutral) / parameter->scale, log(upper / parameter->neutral) / parameter->scale);
+        struct unknown u = {.step = step,
+                            .precision = 1,
+                            .mean = -log(x / parameter->neutral) / parameter->scale,
+                            .lower = log(lower / x) / parameter->scale,
+                            .upper = log(upper / x) / parameter->scale};
+        u.density = -LN_2PI / 2 - log_share(log(lower / parameter->neutral) / parameter->scale,
+                                            log(upper / parameter->neutral) / parameter->scale);
         return u;
     }
     return normal_unknown(x, parameter->neutral, deviation_of(parameter, lower, upper), lower, upper);
@@ -127,7 +137,8 @@ static struct unknown unknown_of(const struct states *states, int p, double x)
                 return unknown_of_cause(catalogue_of(effect), job->unknowns.parameter[q].component, x, lower, upper);
             }
     }
-    return lower > 0 && x > 0 ? flat_log(x, lower, upper) : flat_unknown(upper - lower, (lower - x) / (upper - lower), (upper - x) / (upper - lower));
+    return lower > 0 && x > 0 ? flat_log(x, lower, upper)
+                              : flat_unknown(upper - lower, (lower - x) / (upper - lower), (upper - x) / (upper - lower));
 }
 
 /* ---- the data */
@@ -170,7 +181,10 @@ static int add_block(struct evidence_data *d, const struct job *job, int k, int 
         }
     if (!count)
         return ROTID_OK;
-    *block = (struct block){.row = d->nrow, .count = count, .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count), .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
+    *block = (struct block){.row = d->nrow,
+                            .count = count,
+                            .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count),
+                            .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
     if (!block->vector || !block->value)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < count; i++, d->nrow++) {
@@ -187,7 +201,8 @@ static int add_block(struct evidence_data *d, const struct job *job, int k, int 
     return positive_spectrum(count, block->vector, block->value, block->value + count) ? ROTID_ERROR_LIBRARY : ROTID_OK;
 }
 
-int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout, struct evidence_data **out)
+int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                  struct evidence_data **out)
 {
     int modes = states_modes(states, states->nstate), rows = modes, status = ROTID_OK;
     for (int s = 0; s < states->nstate; s++)
@@ -195,7 +210,12 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
     struct evidence_data *d = *out = POOL_NEW(pool, struct evidence_data);
     if (!d)
         return ROTID_ERROR_MEMORY;
-    *d = (struct evidence_data){.pool = pool, .is_line = POOL_ARRAY(pool, char, rows), .noise = POOL_ARRAY(pool, double, rows), .measured = POOL_ARRAY(pool, double, rows), .block = POOL_ARRAY(pool, struct block, modes), .deviation = NOISE_STATED};
+    *d = (struct evidence_data){.pool = pool,
+                                .is_line = POOL_ARRAY(pool, char, rows),
+                                .noise = POOL_ARRAY(pool, double, rows),
+                                .measured = POOL_ARRAY(pool, double, rows),
+                                .block = POOL_ARRAY(pool, struct block, modes),
+                                .deviation = NOISE_STATED};
     if (!d->is_line || !d->noise || !d->measured || !d->block)
         return ROTID_ERROR_MEMORY;
     for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
@@ -217,16 +237,16 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 
 /* ---- one explanation */
 
-struct normal {            /* at one noise: N, b = J'r and r'r of frequencies and shapes apart */
+struct normal { /* at one noise: N, b = J'r and r'r of frequencies and shapes apart */
     int n;
     struct unknown *u;
-    double *line, *shape;  /* [n * n] */
+    double *line, *shape; /* [n * n] */
     double *line_b, *shape_b, line_square, shape_square;
-    double *work, *step;   /* [n * n], [n] */
+    double *work, *step; /* [n * n], [n] */
 };
 
-/* -E, determinant and priors with weights on both parts; N^-1 is left in work, the step to the least E in step. -INFINITY where N is
- * not positive definite. */
+/* -E, determinant and priors with weights on both parts; N^-1 is left in work, the step to the least E in step. -INFINITY where N
+ * is not positive definite. */
 static double integrate(struct normal *w, double line, double shape)
 {
     int n = w->n;
@@ -242,7 +262,8 @@ static double integrate(struct normal *w, double line, double shape)
     for (int i = 0; i < n; i++) {
         w->step[i] = 0;
         for (int j = 0; j < n; j++)
-            w->step[i] -= w->work[i + (ptrdiff_t)j * n] * (line * w->line_b[j] + shape * w->shape_b[j] - w->u[j].precision * w->u[j].mean);
+            w->step[i] -=
+                w->work[i + (ptrdiff_t)j * n] * (line * w->line_b[j] + shape * w->shape_b[j] - w->u[j].precision * w->u[j].mean);
     }
     for (int i = 0; i < n; i++)
         energy += w->step[i] * (line * w->line_b[i] + shape * w->shape_b[i] - w->u[i].precision * w->u[i].mean) / 2;
@@ -268,7 +289,8 @@ static double integrate_at(const struct evidence_data *d, struct normal *w, doub
 /* Mode of a function of one factor, the other held, and the deviation about it, by points and a parabola. */
 static double find_mode(const struct evidence_data *d, struct normal *w, int shape, double other, double *spread)
 {
-    double deviation = d->deviation, step = deviation / 2, at = 0, most = integrate_at(d, w, shape ? other : 0, shape ? 0 : other), value[2];
+    double deviation = d->deviation, step = deviation / 2, at = 0,
+           most = integrate_at(d, w, shape ? other : 0, shape ? 0 : other), value[2];
     for (int pass = 0; pass < 60; pass++) {
         for (int side = 0; side < 2; side++) {
             double x = at + (side ? step : -step);
@@ -293,7 +315,8 @@ static double find_mode(const struct evidence_data *d, struct normal *w, int sha
 static double integrate_noise(const struct evidence_data *d, struct normal *w, double *one, double factor[2])
 {
     static const double node[] = {-2.856970013872806, -1.355626179974266, 0, 1.355626179974266, 2.856970013872806};
-    static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264, 0.011257411327720689};
+    static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264,
+                                    0.011257411327720689};
     double spread[2], sum = -INFINITY, variance = d->deviation * d->deviation, b0 = 0;
     int shapes = d->nrow > d->nline;
     *one = integrate_at(d, w, 0, 0);
@@ -314,7 +337,8 @@ static double integrate_noise(const struct evidence_data *d, struct normal *w, d
 }
 
 /* N, b and r'r of some rows [m * (n + 1)], the last column the residual, with weights [m]. */
-static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b, double *square)
+static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b,
+                   double *square)
 {
     for (int i = 0; i < m; i++) {
         double w = weight ? weight[i] : 1, r = rows[i + n * stride];
@@ -338,21 +362,31 @@ static void mirror(int n, double *a)
 static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal *w)
 {
     size_t square = (size_t)n * (size_t)n + 1;
-    *w = (struct normal){.n = n, .u = u, .line = POOL_ARRAY(pool, double, square), .shape = POOL_ARRAY(pool, double, square), .line_b = POOL_ARRAY(pool, double, n + 1), .shape_b = POOL_ARRAY(pool, double, n + 1), .work = POOL_ARRAY(pool, double, square), .step = POOL_ARRAY(pool, double, n + 1)};
+    *w = (struct normal){.n = n,
+                         .u = u,
+                         .line = POOL_ARRAY(pool, double, square),
+                         .shape = POOL_ARRAY(pool, double, square),
+                         .line_b = POOL_ARRAY(pool, double, n + 1),
+                         .shape_b = POOL_ARRAY(pool, double, n + 1),
+                         .work = POOL_ARRAY(pool, double, square),
+                         .step = POOL_ARRAY(pool, double, n + 1)};
     return w->line && w->shape && w->line_b && w->shape_b && w->work && w->step ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* ln Z with something else beside the causes. rows [nrow * (n + 1)], rotated here into the fields' eigenvectors; the scale of each
- * shape is one more unknown, whose column is the predicted shape. known: amplitudes of lines and shapes, relative to a frequency and to
- * the largest component; NULL: the grid of something else. */
+/* ln Z with something else beside the causes. rows [nrow * (n + 1)], rotated here into the fields' eigenvectors; the scale of
+ * each shape is one more unknown, whose column is the predicted shape. known: amplitudes of lines and shapes, relative to a
+ * frequency and to the largest component; NULL: the grid of something else, whose likeliest amplitudes give the step and the
+ * deviation of the first nown unknowns in out->mean and out->std. */
 static int with_field(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
-                      const double *known, double *log_z)
+                      const double *known, int nown, struct evidence *out, double *log_z)
 {
+    double most = -INFINITY;
     int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES;
     int total = n + d->nblock, nrow = d->nrow;
     struct normal w;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, total);
-    double *turned = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(total + 1)), *weight = POOL_ARRAY(pool, double, nrow), z = -INFINITY;
+    double *turned = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(total + 1)), *weight = POOL_ARRAY(pool, double, nrow),
+           z = -INFINITY;
     int status = !all || !turned || !weight ? ROTID_ERROR_MEMORY : normal_new(pool, total, all, &w);
     if (status)
         return status;
@@ -369,7 +403,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             length += predicted * predicted;
         }
         /* the scale is known without a field to 1/|u|; so much that det N has no part of it then */
-        all[n + k] = (struct unknown){.flat = 1, .step = 1, .lower = -1e9, .upper = 1e9, .precision = 1e-9, .density = -LN_2PI / 2};
+        all[n + k] =
+            (struct unknown){.flat = 1, .step = 1, .lower = -1e9, .upper = 1e9, .precision = 1e-9, .density = -LN_2PI / 2};
         for (int j = 0; j < block->count; j++) {
             const double *vector = block->vector + (ptrdiff_t)j * block->count;
             for (int i = 0; i < block->count; i++) {
@@ -380,7 +415,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             }
         }
     }
-    double step_shape = d->nblock ? log(ELSE_MOST / ELSE_LEAST) / (ELSE_SHAPES - 1) : 0, step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
+    double step_shape = d->nblock ? log(ELSE_MOST / ELSE_LEAST) / (ELSE_SHAPES - 1) : 0,
+           step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
     for (int a = 0; a < shapes; a++) {
         double amplitude = ELSE_LEAST * exp(a * step_shape), determinant = 0;
         memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
@@ -388,12 +424,14 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
         w.shape_square = 0;
         for (int k = 0; k < d->nblock; k++)
             for (int i = 0; i < d->block[k].count; i++) {
-                double one = known ? known[1] / d->noise[d->block[k].row] : amplitude, more = one * one * fmax(0, d->block[k].value[i]);
+                double one = known ? known[1] / d->noise[d->block[k].row] : amplitude,
+                       more = one * one * fmax(0, d->block[k].value[i]);
                 weight[d->block[k].row + i] = 1 / (1 + more);
                 determinant += log1p(more) / 2;
             }
         for (int k = 0; k < d->nblock; k++)
-            gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b, &w.shape_square);
+            gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b,
+                   &w.shape_square);
         mirror(total, w.shape);
         for (int b = 0; b < lines; b++) {
             double line = ELSE_LEAST * exp(b * step_line), lost = determinant;
@@ -409,14 +447,19 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             mirror(total, w.line);
             double one = integrate(&w, 1, 1) - lost;
             z = log_sum(z, one);
+            for (int p = 0; p < nown && one > most; p++) {
+                out->mean[p] = w.step[p];
+                out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * total]);
+            }
+            most = fmax(most, one);
         }
     }
     *log_z = z - log((double)lines * shapes);
     return ROTID_OK;
 }
 
-int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit, int nmember,
-                    const struct candidate *member, int something_else, struct evidence *out)
+int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit,
+                    int nmember, const struct candidate *member, int something_else, struct evidence *out)
 {
     struct pool pool;
     struct normal w;
@@ -449,19 +492,23 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
         out->log_exact = out->log_stated;
         for (int p = 0; p < nown; p++) {
-            double x = fit->x[p] + u[p].step * w.step[p];
-            out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);
-            out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]) * fabs(u[p].step);
+            out->mean[p] = w.step[p];
+            out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]);
         }
     }
     if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */
-        status = with_field(d, &pool, n, u, rows, known, &field);
+        status = with_field(d, &pool, n, u, rows, known, 0, out, &field);
         out->log_z = log_sum(out->log_z, field) - LN_2;
         out->log_stated = log_sum(out->log_stated, field) - LN_2;
     }
     out->log_else = -INFINITY;
     if (!status && something_else)
-        status = with_field(d, &pool, n, u, rows, NULL, &out->log_else);
+        status = with_field(d, &pool, n, u, rows, NULL, nown, out, &out->log_else);
+    for (int p = 0; p < nown && !status; p++) {
+        double x = fit->x[p] + u[p].step * out->mean[p];
+        out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);
+        out->std[p] *= fabs(u[p].step);
+    }
     pool_close(&pool);
     return status;
 }
@@ -474,7 +521,8 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
     const struct scan_candidate *c = &scan->candidate[item->candidate];
     const struct cause_kind *cause = c->cause;
     const struct cause_parameter *size = &cause->parameter[cause->size];
-    double lower = 0, upper = 1, along = -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r), square = item->norm * item->norm;
+    double lower = 0, upper = 1, along = -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r),
+           square = item->norm * item->norm;
     if (!item->usable)
         return 0;
     if (!cause->effect->nparameter || c->fixed[cause->size])
@@ -484,12 +532,17 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
         double sum = -INFINITY, least = size->prior == PRIOR_FLAT ? lower : upper * pow(10, -size->scale);
         const int points = 24;
         for (int j = 0; j < points; j++) {
-            double share = (j + 0.5) / points, x = size->prior == PRIOR_FLAT ? least + share * (upper - least) : least * pow(upper / least, share), a = (x - size->neutral) / item->unit;
+            double share = (j + 0.5) / points,
+                   x = size->prior == PRIOR_FLAT ? least + share * (upper - least) : least * pow(upper / least, share),
+                   a = (x - size->neutral) / item->unit;
             sum = log_sum(sum, along * a - square * a * a / 2);
         }
         return sum - log(points);
     }
-    double deviation = (size->prior == PRIOR_LOG_NORMAL ? size->scale * size->neutral : deviation_of(size, lower, upper)) / fabs(item->unit),
+    double deviation = (size->prior == PRIOR_LOG_NORMAL ? size->scale * size->neutral : deviation_of(size, lower, upper)) /
+                       fabs(item->unit),
            precision = square + 1 / (deviation * deviation), mean = along / precision, root = sqrt(precision);
-    return along * mean / 2 - log(precision * deviation * deviation) / 2 + log_share((item->lower - mean) * root, (item->upper - mean) * root) - log_share(item->lower / deviation, item->upper / deviation);
+    return along * mean / 2 - log(precision * deviation * deviation) / 2 +
+           log_share((item->lower - mean) * root, (item->upper - mean) * root) -
+           log_share(item->lower / deviation, item->upper / deviation);
 }

@@ -1,12 +1,11 @@
 /* One posterior over explanations: sets of causes of the catalogue, each perhaps with something else beside it.
  *
- *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a kind, then over
- *            all states (1/2) and each alone; something else a factor 0.05
- *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition scored by the
- *            evidence of its columns; the most promising are fitted and scored by laplace.c; until none is left within WITHIN of the best. What was
- *            not fitted enters by its columns.
- *   verdict  NAMED: marginals of 0.95 and more, placed in one interval; UNEXPLAINED: something else above one half; ADEQUATE: nothing leads,
- *            no cause above 0.2, the odds of the rest less than three times those before; else AMBIGUOUS */
+ *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a
+ * kind, then over all states (1/2) and each alone; something else a factor 0.05 search   a beam: the most probable sets that were
+ * not expanded yet are scanned for one more cause, each addition scored by the evidence of its columns; the most promising are
+ * fitted and scored by laplace.c; until none is left within WITHIN of the best. What was not fitted enters by its columns.
+ *   verdict  NAMED: marginals of 0.95 and more, placed in one interval; UNEXPLAINED: something else above one half; ADEQUATE:
+ * nothing leads, no cause above 0.2, the odds of the rest less than three times those before; else AMBIGUOUS */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,24 +14,24 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
-#define DATA_KINDS   8    /* of faults of the measurement */
-#define BEAM         4    /* sets expanded in a pass */
-#define FITTED       8    /* fits of a pass, the first twice as many */
-#define MOST_PASSES  4
-#define WITHIN       7.0  /* of the best, in ln P */
-#define ELSE_WITHIN  60.0 /* likewise: with something else beside them */
-#define ELSE_MOST    5
-#define ELSE_PRIOR   0.05
-#define LINEAR       10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
-#define ROOM         4096
-#define LEAST_SHARE    1e-7  /* of an explanation whose causes count for the marginals */
+#define DATA_KINDS     8 /* of faults of the measurement */
+#define BEAM           4 /* sets expanded in a pass */
+#define FITTED         8 /* fits of a pass, the first twice as many */
+#define MOST_PASSES    4
+#define WITHIN         7.0  /* of the best, in ln P */
+#define ELSE_WITHIN    60.0 /* likewise: with something else beside them */
+#define ELSE_MOST      5
+#define ELSE_PRIOR     0.05
+#define LINEAR         10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
+#define ROOM           4096
+#define LEAST_SHARE    1e-7 /* of an explanation whose causes count for the marginals */
 #define LEAST_MARGINAL 0.001
-#define LISTED_SHARE 0.99
-#define HARMLESS     0.2 /* a cause below it is none */
-#define ODDS         3.0 /* of anything over nothing, times those before */
-#define NAMED        0.95
-#define SUSPECTED    10.0 /* times: a cause that the user suspects */
-#define NEAR_PLACE   0.125 /* of the length: half of the interval of a place that is named */
+#define LISTED_SHARE   0.99
+#define HARMLESS       0.2 /* a cause below it is none */
+#define ODDS           3.0 /* of anything over nothing, times those before */
+#define NAMED          0.95
+#define SUSPECTED      10.0  /* times: a cause that the user suspects */
+#define NEAR_PLACE     0.125 /* of the length: half of the interval of a place that is named */
 
 static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
 
@@ -40,7 +39,8 @@ static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
 
 static int same_cause(const struct candidate *a, const struct candidate *b)
 {
-    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target) && a->result.suspect == b->result.suspect;
+    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target) &&
+           a->result.suspect == b->result.suspect;
 }
 
 static int has(const struct explanation *e, const struct candidate *c)
@@ -126,8 +126,8 @@ static int score(struct engine *engine, struct posterior *p, int something_else,
 {
     int status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
     if (!status)
-        status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember, e->member,
-                                 something_else, &e->evidence);
+        status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember,
+                                 e->member, something_else, &e->evidence);
     if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
@@ -185,7 +185,8 @@ static double gain_of(const struct states *states, const struct scan *scan, int 
 
 /* ln Z of a single cause by its columns alone where the fit goes no further than they do: then the sum over all places and widths
  * counts, not the normal about the best one. */
-static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent, struct explanation *e)
+static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent,
+                           struct explanation *e)
 {
     const struct scan_candidate *c = &scan->candidate[index];
     int best;
@@ -211,7 +212,8 @@ static int by_gain(const void *a, const void *b)
 }
 
 /* The additions to a set, behind the *count there are. */
-static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most, int *count)
+static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most,
+                   int *count)
 {
     const struct explanation *from = &p->item[parent];
     const struct states *states = states_of_explanation(engine, from);
@@ -232,8 +234,11 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
             return status;
         for (int q = 0; q < engine->nown; q++) {
             const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
-            double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree]) ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree] : 0;
-            one.set.evidence.mean[q] = fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
+            double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree])
+                               ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree]
+                               : 0;
+            one.set.evidence.mean[q] =
+                fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
             one.set.evidence.std[q] = from->evidence.std[q];
         }
         struct candidate *member = &one.set.member[one.set.nmember - 1];
@@ -272,7 +277,8 @@ static int fit_task(void *context, int index, int worker)
     const double *x = fit_of(e, parent)->x;
     for (int p = 0; p < states->nparameter; p++)
         deck[p] = p < e->nown ? e->deck_start[p] : x[p];
-    return refit_set(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, &set, e->environment, &t->refit[index]);
+    return refit_set(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, &set, e->environment,
+                     &t->refit[index]);
 }
 
 /* Fits the first `count` proposals and enters them; the others enter by their columns. */
@@ -297,7 +303,8 @@ static int fit_proposals(struct engine *engine, struct posterior *p, struct prop
             take_values(&refit[i], &e.member[m]);
         status = score(engine, p, 0, &e);
         if (!status)
-            prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate, &p->item[proposal[i].parent], &e);
+            prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
+                           &p->item[proposal[i].parent], &e);
         if (!status && !append(p, &e))
             status = ROTID_ERROR_MEMORY;
     }
@@ -322,7 +329,8 @@ static int explains(const struct engine *engine, const struct posterior *p, cons
     return fit_explains(p->base, fit_of(engine, e));
 }
 
-/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too. */
+/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too.
+ */
 static int next_parent(const struct engine *engine, const struct posterior *p, int taken)
 {
     int best = -1, lead = -1;
@@ -332,7 +340,8 @@ static int next_parent(const struct engine *engine, const struct posterior *p, i
             continue;
         if (lead < 0 || e->log_posterior > p->item[lead].log_posterior)
             lead = i;
-        if (!e->expanded && e->nmember < MOST_MEMBERS && !(e->nmember && e->member[e->nmember - 1].cause->solid) && (best < 0 || e->log_posterior > p->item[best].log_posterior))
+        if (!e->expanded && e->nmember < MOST_MEMBERS && !(e->nmember && e->member[e->nmember - 1].cause->solid) &&
+            (best < 0 || e->log_posterior > p->item[best].log_posterior))
             best = i;
     }
     if (best < 0 || lead < 0)
@@ -424,7 +433,8 @@ static int add_something_else(struct engine *engine, struct posterior *p)
     int listed = p->count, status = ROTID_OK, tried = 0;
     for (int i = 0; i < listed && !status; i++) {
         struct explanation e = p->item[i];
-        if ((!e.refit && e.nmember) || (e.nmember && (tried >= ELSE_MOST || e.log_posterior < p->item[0].log_posterior - ELSE_WITHIN)))
+        if ((!e.refit && e.nmember) ||
+            (e.nmember && (tried >= ELSE_MOST || e.log_posterior < p->item[0].log_posterior - ELSE_WITHIN)))
             continue;
         tried++;
         e.evidence = (struct evidence){0};
@@ -526,7 +536,12 @@ static int summarise(struct engine *engine, struct posterior *p)
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int status, more = 1;
-    *p = (struct posterior){.room = ROOM, .base = &result->scan, .item = POOL_ARRAY(engine->pool, struct explanation, ROOM), .nkind = DATA_KINDS, .nown = engine->nown, .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
+    *p = (struct posterior){.room = ROOM,
+                            .base = &result->scan,
+                            .item = POOL_ARRAY(engine->pool, struct explanation, ROOM),
+                            .nkind = DATA_KINDS,
+                            .nown = engine->nown,
+                            .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
     if (!p->item)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < catalogue_count(); i++) {
