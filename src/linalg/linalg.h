@@ -724,6 +724,10 @@ int polynomial_roots(int n, const double *c, double complex *root, double *work)
  * the highest eigenvalue. Returns 0 where none of these is known (not finite, or zero). */
 double shift_of(int known, const double *value, double largest);
 
+/* The shift just above the eigenvalue `last` where a Sturm count tells whether a pair was missed: farther above than rounding may
+ * move that eigenvalue. below < 0: the shift of the iteration. */
+double shift_above(double last, double below, double largest);
+
 /* ------------------------------------------------------------------------------------------------------------- symmetric */
 
 /* Dense symmetric indefinite systems (LAPACK dsytrf, dsytrs). */
