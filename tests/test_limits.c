@@ -269,6 +269,24 @@ static void reading_ends_and_limits_of_files_are_errors(void **state)
     assert_string_equal(shell(&test_pool, "ls %s", folder), "");
 }
 
+/* A pipe into which nobody writes, and one in which nothing more comes: reading ends by the signal and not by an error. */
+static void a_signal_is_no_error_of_what_is_read(void **state)
+{
+    (void)state;
+    static const char *const writer[] = {":", "exec 3<> slow; printf '    -1\\n    55\\n' >&3"};
+    for (int w = 0; w < 2; w++) {
+        const char *output;
+        assert_int_equal(shell_code(&test_pool, &output,
+                                    "cd %s && rm -f slow && mkfifo slow && { %s; timeout -s TERM -k 8 0.5 " ROTID_PROGRAM
+                                    " uff slow; } 2>&1",
+                                    folder, writer[w]),
+                         124);
+        assert_null(strstr(output, "Interrupted system call"));
+        assert_true(w || strstr(output, "rotid: interrupted")); /* else the clock of signals has ended it */
+    }
+    (void)shell(&test_pool, "cd %s && rm slow", folder);
+}
+
 /* Every command on an input that keeps it busy for seconds, or on a program or a pipe that does: ended by the signal of
  * timeout(1), code 124, and not by the SIGKILL that follows, 137, within a second and what the machine is late. */
 static void every_command_obeys_within_a_second(void **state)
@@ -366,6 +384,7 @@ int main(void)
         cmocka_unit_test(who_does_not_end_is_ended),
         cmocka_unit_test_setup_teardown(reading_ends_and_limits_of_files_are_errors, open_test_pool, close_test_pool),
         cmocka_unit_test(two_signals_at_once_are_one),
+        cmocka_unit_test_setup_teardown(a_signal_is_no_error_of_what_is_read, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(every_command_obeys_within_a_second, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("limits", tests, setup, teardown);

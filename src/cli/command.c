@@ -38,6 +38,10 @@ void command_print_messages(struct command *command)
 
 int command_fail(struct command *command, int status)
 {
+    if (command_cancelled(NULL)) { /* what failed did so for the signal: a read that it ended has no error of its own */
+        terminal_say("rotid: interrupted\n");
+        return EXIT_DOUBTFUL;
+    }
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));

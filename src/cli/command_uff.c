@@ -32,10 +32,6 @@ int command_uff(struct command *command)
     if (refused)
         return refused;
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
-    if (status == ROTID_STOP_CANCELLED) {
-        terminal_say("rotid: interrupted\n");
-        return EXIT_DOUBTFUL;
-    }
     if (!status)
         status = listing_summarise(&command->pool, &listing, &summary_count, &summary);
     if (status)
