@@ -548,11 +548,13 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
                       cards[] = "** proposed\n*STATE, NAME=again\n*NOISE, FREQUENCY=0.001\n";
     char *text;
     (void)state;
-    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "disc", cards, &text), 0);
+    const struct deck_file file = {"old", old};
+    const struct deck_origin origin = {.path = "old", .memory = 1, .nfile = 1, .file = &file};
+    assert_int_equal(deck_add_state(&test_pool, &origin, "disc", cards, &text), 0);
     assert_int_equal(strncmp(text, old, sizeof old - 1), 0);
     assert_string_equal(text + sizeof old - 1, "** proposed\n*STATE, NAME=again\n*DISK, NAME=d\n0.5, 3\n*SET\nbar.length, "
                                                "0.9\n*NOISE, FREQUENCY=0.001\n");
-    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "bare", cards, &text), 0);
+    assert_int_equal(deck_add_state(&test_pool, &origin, "bare", cards, &text), 0);
     assert_string_equal(text + sizeof old - 1, cards);
 }
 
@@ -587,7 +589,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
                                   .averages = 1};
         char *cards, *text, failure[ROTID_FAILURE_LENGTH];
         assert_int_equal(deck_write_test(&test_pool, &job, &test, &cards), 0);
-        assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, NULL, cards, &text), 0);
+        assert_int_equal(deck_add_state(&test_pool, job.origin, NULL, cards, &text), 0);
         assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
@@ -656,7 +658,8 @@ static int propose(const char *from, const char *to, const char *home, enum test
     assert_int_equal(deck_write_test(&test_pool, &states.state[states.nstate - 1].job, &test, &own), 0);
     suggested.cards = cards ? cards : own;
     message_open(notes, &test_pool);
-    return deck_propose(&test_pool, from, to, home, &suggested, notes, text);
+    int status = deck_propose(&test_pool, &states, home, &suggested, notes, text);
+    return status ? status : deck_place(&test_pool, from, *text, to, notes, text);
 }
 
 /* What is proposed for a deck stands in its units, finds its files from the other folder, gets a name of its own and goes with
@@ -724,10 +727,10 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
                 "** proposed\n*STATE, NAME=mass\n*DISK, NAME=known_mass\n0.25, 0.5\n*SENSORS\n1, 100\n2, 400\n3, 700\n"
                 "** *MODES\n** 1, 0.2\n",
                 &notes, &text),
-        ROTID_ERROR_SYNTAX);
+        ROTID_ERROR_ARGUMENT);
     assert_null(text);
     assert_non_null(strstr(notes.item[0].text, "the cards of the test mass would be read as another one"));
-    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_SYNTAX);
+    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_ARGUMENT);
     assert_null(text);
     assert_int_equal(propose(file_of("units.inp"), file_of("nowhere/x.inp"), NULL, TEST_MASS, NULL, &notes, &text),
                      ROTID_ERROR_IO);

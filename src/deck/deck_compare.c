@@ -96,6 +96,15 @@ static int are_near(ptrdiff_t count, const double *a, const double *b)
     return same;
 }
 
+/* Where something was measured. */
+static int are_near_where(ptrdiff_t count, const double *there, const double *a, const double *b)
+{
+    int same = !there || !a == !b;
+    for (ptrdiff_t i = 0; i < count && there && a && same; i++)
+        same = !isfinite(there[i]) || deck_is_near(a[i], b[i]);
+    return same;
+}
+
 /* The data as they were read: the faults in them are compared with the causes. */
 static struct job_raw as_read(const struct job *job)
 {
@@ -150,8 +159,8 @@ static void compare_data(struct comparing *c, const struct job *meant, const str
         differ(c, DECK_OTHER_DATA, "SHAPE");
     if (!are_near(count, p.point_frequency_hz, q.point_frequency_hz))
         differ(c, DECK_OTHER_DATA, "FREQUENCIES");
-    if (!are_near(a->nmode, p.frequency_std, q.frequency_std) || (p.shape && !are_near(count, p.shape_std, q.shape_std)) ||
-        (p.point_frequency_hz && !are_near(count, p.point_frequency_std, q.point_frequency_std)))
+    if (!are_near(a->nmode, p.frequency_std, q.frequency_std) || !are_near_where(count, p.shape, p.shape_std, q.shape_std) ||
+        !are_near_where(count, p.point_frequency_hz, p.point_frequency_std, q.point_frequency_std))
         differ(c, DECK_OTHER_NOISE, "NOISE");
 }
 

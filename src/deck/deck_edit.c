@@ -228,8 +228,9 @@ void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *
     } else if (value) {
         deck_put(&w, "%.*s, %s=%s%.*s", (int)(last - p->text), p->text, name, value, (int)(stop - last), last);
     } else if (found.end == last) { /* of the last one the comma in front, behind which the card would go on */
-        deck_put(&w, "%.*s%.*s%.*s", (int)(found.comma - p->text), p->text, (int)(found.name - found.comma - 1), found.comma + 1,
-                 (int)(stop - found.end), found.end);
+        int between = memchr(found.comma, '\n', (size_t)(found.name - found.comma)) ? (int)(found.name - found.comma - 1) : 0;
+        deck_put(&w, "%.*s%.*s%.*s", (int)(found.comma - p->text), p->text, between, found.comma + 1, (int)(stop - found.end),
+                 found.end);
     } else {
         const char *comma = memchr(found.end, ',', (size_t)(stop - found.end));
         deck_put(&w, "%.*s%.*s%.*s", (int)(found.name - p->text), p->text, (int)(comma - found.end), found.end,
@@ -468,28 +469,32 @@ static int is_whole(const struct deck_edit *e, int at, const unsigned *which, un
     return whole;
 }
 
-void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask)
+/* Parts [from, to). */
+static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int to, const unsigned *which, unsigned mask)
 {
-    for (int i = 0; i < e->npart && !e->status; i++) {
+    for (int i = from; i < to && !e->status; i += 1 + (e->part[i].include ? e->part[i].inside : 0)) {
         const struct deck_part *part = &e->part[i];
+        int behind = i + 1 + part->inside, any = !which;
         size_t length = 0;
         const char *file = part->include ? deck_edit_option(part, "FILE", &length) : NULL;
-        if (!part->include && which && !(which[i] & mask))
+        for (int k = part->include ? i + 1 : i; k < behind && which; k++)
+            any |= !e->part[k].include && (which[k] & mask) != 0;
+        if (!any)
             continue;
-        if (part->include && part->inside && !is_whole(e, i, which, mask)) {
-            int any = !which;
-            for (int k = i + 1; k <= i + part->inside && which; k++)
-                any |= !e->part[k].include && (which[k] & mask);
-            if (any && file)
-                deck_put(w, "** the cards of %.*s, which is not included as some of them change or stand elsewhere\n", (int)length, file);
-            if (any && (!which || mask & 1))
-                deck_edit_put(e, w, part, 2);
+        if (!part->include || is_whole(e, i, which, mask)) {
+            deck_edit_put(e, w, part, 3);
             continue;
         }
-        if (part->include && which && !part->inside && !(mask & 1))
-            continue;
-        deck_edit_put(e, w, part, 3);
-        i += part->inside;
+        deck_put(w, "** the cards of %.*s, which is not included as some of them change or stand elsewhere\n", (int)length,
+                 file ? file : "");
+        put_parts(e, w, i + 1, behind, which, mask);
+        if (!which || mask & 1)
+            deck_edit_put(e, w, part, 2);
     }
+}
+
+void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask)
+{
+    put_parts(e, w, 0, e->npart, which, mask);
     e->status = e->status ? e->status : w->status;
 }

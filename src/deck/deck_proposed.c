@@ -352,7 +352,7 @@ int deck_propose(struct pool *pool, const struct states *given, const char *home
     int status = deck_add_state(pool, given->state->job.origin, home, test->cards, text);
     if (!status)
         status = read_back(pool, given, home, test, *text, notes);
-    if (status)
-        *text = NULL;
-    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    *text = status ? NULL : *text;
+    return status;
 }

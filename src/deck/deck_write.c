@@ -316,26 +316,35 @@ static void set_or_drop(struct writing *w, int at, const char *option, const cha
         deck_edit_set(&w->edit, at, option, value && *value ? value : NULL);
 }
 
-/* The modes that are held out, on the card of each state; *FIT keeps the states that are held out as a whole. */
+static int is_held_out(const struct job *job)
+{
+    int fitted = 0;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        fitted += !job->measurement.holdout[k];
+    return job->measurement.nmode && !fitted;
+}
+
+/* The modes that are held out: on *FIT, of states on the card of each, *FIT has those that are held out as a whole. */
 static void edit_holdout(struct writing *w)
 {
     int fit = fit_card(w);
-    const char *list = w->edit.status ? NULL : option_text(w, &w->edit.part[fit], "HOLDOUT");
+    struct deck_writer whole = {.pool = w->pool};
     for (int s = 0; s < w->meant.nstate && !w->edit.status; s++) {
         struct deck_writer modes = writer_of(w, s);
+        int all = w->meant.nstate > 1 && is_held_out(&w->meant.state[s].job);
+        if (all)
+            deck_put(&whole, "%sSTATE:%s", whole.length ? ", " : "", w->meant.state[s].name);
+        else
+            deck_put_holdout(&modes);
         int at = w->of[s] < 0 ? fit : find_card(w, "STATE", w->of[s]);
-        const char *whole = w->meant.state[s].name ? pool_format(w->pool, "STATE:%s", w->meant.state[s].name) : NULL;
-        deck_put_holdout(&modes);
-        if (whole && list && strstr(list, whole))
-            continue;
         set_or_drop(w, at, "MODES", NULL);
         set_or_drop(w, at, "HOLDOUT", modes.text);
     }
     if (w->of[0] < 0 || w->edit.status)
         return;
     set_or_drop(w, fit, "MODES", NULL);
-    if (list && strncasecmp(list, "STATE:", 6) != 0)
-        set_or_drop(w, fit, "HOLDOUT", NULL);
+    set_or_drop(w, fit, "HOLDOUT", whole.text);
+    w->edit.status = whole.status;
 }
 
 /* ------------------------------------------------------------------------------------------------ elements */
@@ -500,12 +509,19 @@ static void edit_names(struct writing *w, int s, const char *card)
 
 /* ------------------------------------------------------------------------------------------------ what is new */
 
+/* Whether all states have it, with the same values: a place may lie beyond the end of a shorter one. */
 static int is_in_all(const struct writing *w, const struct effect *effect)
 {
-    int all = 1;
+    int all = 0;
     for (int s = 0; s < w->meant.nstate; s++)
-        all &= !is_new(&w->meant.state[s].job.rotor, effect);
-    return all;
+        for (int i = 0; i < w->meant.state[s].job.rotor.neffect; i++) {
+            const struct effect *other = &w->meant.state[s].job.rotor.effect[i];
+            int same = same_text(other->name, effect->name);
+            for (int p = 0; p < effect_parameters(effect) && same; p++)
+                same = deck_is_near(other->value[p], effect->value[p]);
+            all += same;
+        }
+    return all == w->meant.nstate;
 }
 
 /* What state s has besides: of the causes and unknowns those that are common to all, or those of its own. */
@@ -641,7 +657,7 @@ static int compare(struct writing *w, const struct states *read, const char **ca
         if (bits & w->todo[s] & DECK_OTHER_NOISE)
             bits |= DECK_OTHER_DATA;
         more |= (bits & ~w->todo[s] & ~(unsigned)DECK_OTHER_MODEL) != 0;
-        if (bits && !*card)
+        if (bits && !**card)
             *card = one;
         rest |= bits != 0;
         w->todo[s] |= bits;
@@ -662,7 +678,8 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
         return w.todo && w.of ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
     for (int s = 0; s < meant->nstate && !status; s++)
         status = prepare_state(&w, s);
-    share_mesh(&w.meant);
+    if (!status)
+        share_mesh(&w.meant);
     const char *path = given->state->job.deck, *card = "";
     for (int attempt = 0; attempt < ATTEMPTS && !status && left > 0; attempt++) {
         struct states read;
@@ -677,7 +694,7 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
                     card);
         status = ROTID_ERROR_ARGUMENT;
     }
-    if (status)
-        *text = NULL;
-    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    *text = status ? NULL : *text;
+    return status;
 }
