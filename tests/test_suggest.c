@@ -608,6 +608,9 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
     }
 }
 
+#define STEEL_BAR                                                                                                                \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n0.8, 0.03, 0, 80\n"
+
 /* Where files of these tests lie; the last one is written elsewhere. */
 static const char *file_of(const char *name)
 {
@@ -742,6 +745,25 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
     assert_int_equal(rmdir(file_of("next")), 0);
 }
 
+/* Modes that *FIT holds out are of the test that was made: the next one may not measure them. This once gave no deck. */
+static void modes_that_are_held_out_stay_with_their_state(void **state)
+{
+    static const char *const model = STEEL_BAR "*SPRING, NAME=foam\n0.1, 500\n*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\n";
+    struct message_list notes;
+    struct states states;
+    char *text;
+    (void)state;
+    put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
+    assert_int_equal(propose(file_of("held.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
+    assert_non_null(strstr(text, "*STATE, NAME=measured, MODES=1-3, HOLDOUT=3\n"));
+    put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text));
+    assert_int_equal(read_path(file_of("held.inp"), &states), 0);
+    static const int held[] = {0, 0, 1, 1};
+    assert_memory_equal(states.state[0].job.measurement.holdout, held, sizeof held);
+    assert_memory_equal(states.state[1].job.measurement.holdout, held, 2 * sizeof *held);
+    assert_int_equal(remove(file_of("held.inp")), 0);
+}
+
 static int open_directory(void **state)
 {
     (void)state;
@@ -769,6 +791,7 @@ int main(void)
         TEST(the_deck_of_a_test_is_the_deck_and_a_state),
         TEST(the_deck_of_a_test_like_a_state_has_its_cards),
         TEST(what_is_proposed_reads_as_it_is_meant),
+        TEST(modes_that_are_held_out_stay_with_their_state),
     };
     return cmocka_run_group_tests(tests, open_directory, close_directory);
 }

@@ -187,6 +187,28 @@ static const char *free_name(struct deck_edit *e, const char *name)
     return own;
 }
 
+/* An option of *FIT that lists modes, which the new state need not have: it goes to the states. Its text, NULL where there is
+ * none. */
+static const char *take_modes(struct deck_edit *e, const char *option)
+{
+    const char *list = NULL;
+    for (int i = 0; i < e->npart && !e->status; i++) {
+        const struct deck_part *part = &e->part[i];
+        size_t length = 0;
+        const char *value = part->card && !strcmp(part->card->name, "FIT") ? deck_edit_option(part, option, &length) : NULL;
+        if (!value || !isdigit((unsigned char)*value))
+            continue;
+        list = pool_format(e->pool, "%.*s", (int)length, value);
+        deck_edit_set(e, i, option, NULL);
+    }
+    for (int i = 0; i < e->npart && list && !e->status; i++) {
+        size_t length;
+        if (e->part[i].card && !strcmp(e->part[i].card->name, "STATE") && !deck_edit_option(&e->part[i], option, &length))
+            deck_edit_set(e, i, option, list);
+    }
+    return list;
+}
+
 int deck_add_state(struct pool *pool, const struct deck_origin *origin, const char *home, const char *state, char **text)
 {
     static const char begin[] = "*STATE, NAME=";
@@ -198,6 +220,7 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
     const char *card = strstr(state, begin), *name = card ? card + sizeof begin - 1 : "", *rest = name + strcspn(name, "\n");
     name = pool_format(pool, "%.*s", (int)(rest - name), name);
     name = name ? free_name(&e, name) : NULL;
+    const char *modes = status ? NULL : take_modes(&e, "MODES"), *holdout = status ? NULL : take_modes(&e, "HOLDOUT");
     if (status || !card || !name || !which)
         return status ? status : card ? ROTID_ERROR_MEMORY : ROTID_ERROR_ARGUMENT;
     for (int i = 0; i < e.npart; i++)
@@ -206,7 +229,8 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
         deck_edit_text(&e, &w, NULL, 0);
     } else {
         deck_edit_text(&e, &w, which, COMMON);
-        deck_put(&w, "*STATE, NAME=measured\n");
+        deck_put(&w, "*STATE, NAME=measured%s%s%s%s\n", modes ? ", MODES=" : "", modes ? modes : "", holdout ? ", HOLDOUT=" : "",
+                 holdout ? holdout : "");
         deck_edit_text(&e, &w, which, MEASURED);
     }
     deck_put(&w, "%.*s%s%s\n", (int)(card - state), state, begin, name);

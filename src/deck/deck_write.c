@@ -414,17 +414,32 @@ static void edit_elements(struct writing *w)
 
 /* ------------------------------------------------------------------------------------------------ noise, data */
 
+/* Whether all states need *NOISE, the same one, and none has a card of its own: it is common then. */
+static int shares_noise(const struct writing *w)
+{
+    double first[2], other[2];
+    int same = 1;
+    deck_noise_of_all(&w->meant.state->job, &first[0], &first[1]);
+    for (int s = 0; s < w->meant.nstate; s++) {
+        deck_noise_of_all(&w->meant.state[s].job, &other[0], &other[1]);
+        same &= (w->todo[s] & (DECK_OTHER_NOISE | DECK_OTHER_DATA)) == DECK_OTHER_NOISE && deck_is_near(first[0], other[0]) &&
+                deck_is_near(first[1], other[1]) && find_card(w, "NOISE", w->of[s]) < 0;
+    }
+    return same;
+}
+
 static void edit_noise(struct writing *w, int s)
 {
     double frequency, shape;
     deck_noise_of_all(&w->meant.state[s].job, &frequency, &shape);
-    int at = find_card(w, "NOISE", w->of[s]);
+    int state = w->meant.nstate > 1 && shares_noise(w) ? -1 : w->of[s], at = find_card(w, "NOISE", state);
     char text[DECK_NUMBER_LENGTH];
     if (!isfinite(frequency) && !isfinite(shape))
         return;
     if (at < 0) {
-        at = end_of(w, w->of[s]);
+        at = end_of(w, state);
         deck_edit_insert(&w->edit, at, "*NOISE\n");
+        w->edit.part[at].card = deck_card_find("NOISE");
     }
     if (isfinite(frequency) && !w->edit.status)
         deck_edit_set(&w->edit, at, "FREQUENCY", deck_number_text(frequency, text));
@@ -448,7 +463,14 @@ static void edit_data(struct writing *w, int s)
                 first = i;
             }
     struct deck_writer cards = writer_of(w, s);
+    int noise = find_card(w, "NOISE", -1);
+    double std = w->meant.state[s].job.measurement.nmode ? w->meant.state[s].job.measurement.frequency_std[0] : NAN;
     deck_put_measured(&cards, sensors);
+    if (w->of[s] >= 0 && noise >= 0 && isfinite(std) && (!cards.text || !strstr(cards.text, "*NOISE"))) {
+        deck_put_card(&cards, "NOISE"); /* in place of a common one, whose floor would add to the deviations of the modes */
+        deck_put_option_number(&cards, "FREQUENCY", std, "");
+        deck_put(&cards, "\n");
+    }
     if (first < 0)
         insert(w, w->of[s], &cards);
     else if (!cards.status && cards.length) {
@@ -566,20 +588,22 @@ static void add_heading(struct writing *w)
 
 /* ------------------------------------------------------------------------------------------------ the text */
 
-/* Lines end as those of the deck do. */
-static void end_lines(struct writing *w, const char *deck, struct deck_writer *text)
+/* Lines end as those of the deck do, and a byte that is no character and no letter of Latin-1 goes: a terminal may obey it. */
+static void finish(struct writing *w, const char *deck, struct deck_writer *text)
 {
     const char *feed = strchr(deck, '\n');
-    struct deck_writer with = {.pool = w->pool};
-    if (!feed || feed == deck || feed[-1] != '\r' || text->status)
-        return;
-    for (const char *line = text->text, *end; *line; line = end) {
-        end = line + strcspn(line, "\n");
-        int carriage = end > line && end[-1] == '\r';
-        deck_put(&with, "%.*s%s", (int)(end - line), line, carriage ? "\n" : "\r\n");
-        end += *end == '\n';
+    int carriage = feed && feed > deck && feed[-1] == '\r';
+    struct deck_writer out = {.pool = w->pool};
+    for (const char *from = text->text, *c = from; c && *c && !text->status; from = c) {
+        size_t bytes;
+        while (*c && *c != '\n' && ((bytes = text_visible(c)) || *c == '\t' || *c == '\r' || (unsigned char)*c >= 0xa0))
+            c += bytes ? bytes : 1;
+        deck_put(&out, "%.*s%s", (int)(c - from), from,
+                 !*c ? "" : *c != '\n' ? TEXT_REPLACEMENT : carriage && !(c > text->text && c[-1] == '\r') ? "\r\n" : "\n");
+        c += *c != 0;
     }
-    *text = with;
+    text->status = text->status ? text->status : out.status;
+    text->text = out.text;
 }
 
 static int compose(struct writing *w, char **text)
@@ -622,7 +646,7 @@ static int compose(struct writing *w, char **text)
     add_heading(w);
     deck_edit_text(&w->edit, &out, NULL, 0);
     if (!w->edit.status)
-        end_lines(w, w->edit.part->text, &out);
+        finish(w, w->given->state->job.origin->file[w->given->state->job.origin->nfile - 1].text, &out);
     *text = out.text;
     return w->edit.status ? w->edit.status : out.status;
 }
