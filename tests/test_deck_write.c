@@ -152,8 +152,11 @@ static struct states changed(const struct states *given, int each)
         }
         for (int i = 0; i < job->rotor.neffect; i++)
             effect[i] = job->rotor.effect[i];
-        effect[job->rotor.neffect++] = (struct effect){
-            .name = "found", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {0.02 * rotor_mass(&job->rotor), 0.5 * rotor_length(&job->rotor)}};
+        effect[job->rotor.neffect++] =
+            (struct effect){.name = "found",
+                            .kind = catalogue_find("added_mass")->effect,
+                            .target = -1,
+                            .value = {0.02 * rotor_mass(&job->rotor), 0.5 * rotor_length(&job->rotor)}};
         for (int p = 0; p < job->unknowns.nparameter; p++)
             bounds[p] = all[state_unknown(&meant.state[s], p)];
         for (int k = 0; k < m->nmode; k++)
@@ -207,10 +210,12 @@ static void what_is_new_is_added(void **state)
         const char *given, *meant;
     } pair[] = {
         {MODEL, MODEL "*MODES\n3, 2400, , 0.7\n1, 500\n2, 1300, 0.01\n"},
-        {MODEL "*MODES\n1, 500\n2, 1300\n", MODEL "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n"},
+        {MODEL "*MODES\n1, 500\n2, 1300\n",
+         MODEL "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n"},
         {MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n",
          MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n*SHAPE, MODE=2\n3, 1\n1, -0.1, 0.03\n"},
-        {MODEL "*MODES\n1, 500\n2, 1300\n", MODEL "*MODES\n1, 501\n2, 1300.1\n*FIT, HOLDOUT=2, DERIVATIVE=MODAL, REDUCTION=GUYAN\n"},
+        {MODEL "*MODES\n1, 500\n2, 1300\n",
+         MODEL "*MODES\n1, 501\n2, 1300.1\n*FIT, HOLDOUT=2, DERIVATIVE=MODAL, REDUCTION=GUYAN\n"},
         {MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n*FIT, FUNCTIONAL=HYBRID, ** why\n   MODES=1,3\n",
          MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n*FIT, FUNCTIONAL=HYBRID, HOLDOUT=1,3\n"},
         {MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n*FIT, HOLDOUT=1, 3, FUNCTIONAL=HYBRID\n",
@@ -218,8 +223,9 @@ static void what_is_new_is_added(void **state)
         {MODEL, MODEL "*FIT, MODEL=SOLID\n"},
         {TWO, TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 1e-9\n*CAUSE, NAME=t, TYPE=density, GROUP=core\n"
                   "factor, 0.9\n"},
-        {TWO "*SPRING\n0.1, 1e6\n0.5, 1e7, 10\n0.9, 1e6\n", TWO "*SPRING\n0.1, 1e6\n*SPRING, NAME=spring\n0.5, 1e7, 10\n*SPRING\n0.9, 1e6\n"
-                                                       "*CAUSE, NAME=p, TYPE=support_position, AT=spring\nshift, 0.01\n"},
+        {TWO "*SPRING\n0.1, 1e6\n0.5, 1e7, 10\n0.9, 1e6\n",
+         TWO "*SPRING\n0.1, 1e6\n*SPRING, NAME=spring\n0.5, 1e7, 10\n*SPRING\n0.9, 1e6\n"
+             "*CAUSE, NAME=p, TYPE=support_position, AT=spring\nshift, 0.01\n"},
         {TWO "*SPRING\n0.1, 1e6\n0.5, 1e7\n", TWO "*SPRING, NAME=spring\n0.1, 1e6\n*SPRING\n0.5, 1e7\n"
                                                   "*CAUSE, NAME=p, TYPE=support_position, AT=spring\nshift, 0.01\n"},
         {TWO "*CAUSE, NAME=s, TYPE=joint, BETWEEN=left,core, SUSPECT\n*CAUSE, NAME=m, TYPE=added_mass, SUSPECT\n",
@@ -229,14 +235,15 @@ static void what_is_new_is_added(void **state)
          MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n*SHAPE, MODE=1\n1, 1\n2, -0.5\n3, 1\n*NOISE, SHAPE=0.01\n"
                "*CAUSE, NAME=a, TYPE=sensor_gain, SENSOR=2\ngain, 1.2\n*CAUSE, NAME=b, TYPE=sensor_swap, SENSOR=1,3\n"
                "*CAUSE, NAME=c, TYPE=noise_level, AT=SHAPE\nfactor, 1.5\n"},
-        {BAR UNKNOWN FREE HELD, BAR UNKNOWN "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n*IDENTIFY\nm.mass, 0.1, 2, 0.5\n" FREE HELD},
+        {BAR UNKNOWN FREE HELD,
+         BAR UNKNOWN "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n*IDENTIFY\nm.mass, 0.1, 2, 0.5\n" FREE HELD},
         {BAR UNKNOWN FREE HELD,
          BAR UNKNOWN FREE "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n*IDENTIFY\nm.mass, 0.1, 2, 0.5\n" HELD},
         {BAR UNKNOWN FREE HELD, BAR UNKNOWN FREE HELD "*NOISE, FREQUENCY=0.003, SHAPE=0.02\n"},
         {BAR UNKNOWN FREE HELD, BAR UNKNOWN "*FIT, HOLDOUT=3\n*STATE, NAME=free\n*MODES\n1, 225\n3, 610\n" HELD},
-        {BAR UNKNOWN "*FIT, FUNCTIONAL=HYBRID_F, HOLDOUT=STATE:free\n" FREE HELD,
-         BAR UNKNOWN "*FIT, FUNCTIONAL=HYBRID_F, HOLDOUT=STATE:free\n" FREE "*STATE, NAME=held, HOLDOUT=3\n*SPRING, NAME=right\nend, "
-                     "1e7\n*MODES\n1, 300\n3, 900\n"},
+        {BAR UNKNOWN "*FIT, FUNCTIONAL=HYBRID_F, HOLDOUT=STATE:free\n" FREE HELD, BAR UNKNOWN
+         "*FIT, FUNCTIONAL=HYBRID_F, HOLDOUT=STATE:free\n" FREE "*STATE, NAME=held, HOLDOUT=3\n*SPRING, NAME=right\nend, "
+         "1e7\n*MODES\n1, 300\n3, 900\n"},
         {BAR UNKNOWN "*FIT, STATE=held\n" FREE HELD,
          BAR UNKNOWN "*FIT, STATE=held\n" FREE HELD "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n"},
     };
@@ -287,15 +294,16 @@ static void what_is_new_stands_in_the_units_of_the_deck(void **state)
 {
     static const char *const given =
         "** of today\r\n*HEADING\r\nin millimetres\r\n** steel\r\n*UNITS, LENGTH=MM, MASS=G, STIFFNESS=N/MM, FREQUENCY=KHZ, "
-        "MODULUS=MPA\r\n*MATERIAL, NAME=s\r\n*ELASTIC\r\n210000, 0.3\r\n*DENSITY\r\n7850\r\n*SHAFT, NAME=bar, MATERIAL=s ** solid\r\n"
+        "MODULUS=MPA\r\n*MATERIAL, NAME=s\r\n*ELASTIC\r\n210000, 0.3\r\n*DENSITY\r\n7850\r\n*SHAFT, NAME=bar, MATERIAL=s ** "
+        "solid\r\n"
         "400, 30, 0, 40 ** left\r\n400, 30, 0, 40\r\n*SPRING, NAME=foam\r\n100, 0.5\r\n*MODES\r\n1, 0.2\r\n2, 0.55\r\n3, 1.07\r\n"
-        "** what is sought\r\n*IDENTIFY\r\nbar.E, 1e4, 6e5, 2.1e5 ** start of a handbook\r\nfoam.k, 0.01, 100, 0.5\r\n** the end\r\n";
+        "** what is sought\r\n*IDENTIFY\r\nbar.E, 1e4, 6e5, 2.1e5 ** start of a handbook\r\nfoam.k, 0.01, 100, 0.5\r\n** the "
+        "end\r\n";
     (void)state;
     const struct states first = read_states(given);
     struct states meant;
     struct segment segment[2];
-    struct effect mass = {
-        .name = "m", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {0.25, 0.3}};
+    struct effect mass = {.name = "m", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {0.25, 0.3}};
     assert_int_equal(states_copy(&test_pool, &first, &meant), ROTID_OK);
     struct job *job = &meant.state->job;
     memcpy(segment, job->rotor.segment, sizeof segment);
@@ -309,13 +317,14 @@ static void what_is_new_stands_in_the_units_of_the_deck(void **state)
     const struct deck_write_options options = {.x = x};
     const char *text = write_with(&first, &meant, &options);
     assert_int_equal(count(text, "\n"), count(text, "\r\n"));
-    static const char *const expected[] = {"** of today\r\n*HEADING",
-                                           "** steel\r\n*UNITS",
-                                           "MATERIAL=s ** solid\r\n400, 30, 0, 40 ** left\r\n400, 30, 0, 60\r\n",
-                                           "bar.E, 1e4, 6e5, 205000 ** start of a handbook\r\nfoam.k, 0.01, 100, 2\r\n** the end\r\n",
-                                           "TYPE=added_mass",
-                                           "z, 300\r\n",
-                                           "mass, 250\r\n"};
+    static const char *const expected[] = {
+        "** of today\r\n*HEADING",
+        "** steel\r\n*UNITS",
+        "MATERIAL=s ** solid\r\n400, 30, 0, 40 ** left\r\n400, 30, 0, 60\r\n",
+        "bar.E, 1e4, 6e5, 205000 ** start of a handbook\r\nfoam.k, 0.01, 100, 2\r\n** the end\r\n",
+        "TYPE=added_mass",
+        "z, 300\r\n",
+        "mass, 250\r\n"};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         if (!strstr(text, expected[i]))
             print_error("%s\nlacks %s\n", text, expected[i]);
@@ -340,8 +349,9 @@ static void files_stay_where_they_can(void **state)
     const double x[] = {1.9e11};
     const struct deck_write_options options = {.x = x};
     const char *text = write_with(&given, &given, &options);
-    assert_non_null(strstr(text, pool_format(&test_pool, "*INCLUDE, FILE=%s/below/shaft.inc\n** measured\n*MODES,\n FILE=%s/modes.csv "
-                                                         "** today\n",
+    assert_non_null(strstr(text, pool_format(&test_pool,
+                                             "*INCLUDE, FILE=%s/below/shaft.inc\n** measured\n*MODES,\n FILE=%s/modes.csv "
+                                             "** today\n",
                                              folder, folder)));
     assert_non_null(strstr(text, "bar.E, 1e10, 1e12, 1.9e11"));
     struct states meant;
@@ -374,7 +384,8 @@ static void what_was_set_for_the_run_is_written(void **state)
 {
     static const char *const set[] = {"FIT.REDUCTION=NONE", "FIT.HOLDOUT=2", "NOISE.FREQUENCY=0.002"};
     (void)state;
-    const char *path = folder_write("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n** how\n*FIT, REDUCTION=GUYAN, FUNCTIONAL=HYBRID\n");
+    const char *path =
+        folder_write("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n** how\n*FIT, REDUCTION=GUYAN, FUNCTIONAL=HYBRID\n");
     for (size_t i = 0; i < sizeof set / sizeof *set; i++) {
         struct override override;
         assert_int_equal(override_parse(&test_pool, set[i], &override), 0);
@@ -395,8 +406,8 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
     memset(longest, 'x', 1023);
     (void)strcpy(longest + 1023, "\xc3\xa4 and more"); /* the character does not fit */
     for (int with = 0; with < 2; with++) {
-        const struct states given =
-            read_states(with ? "** first\n*HEADING\nthe deck\npaper error_percent = 1, 2\n\n** the model\n" MODEL : "** first\n" MODEL);
+        const struct states given = read_states(
+            with ? "** first\n*HEADING\nthe deck\npaper error_percent = 1, 2\n\n** the model\n" MODEL : "** first\n" MODEL);
         const char *text = write_with(&given, &given, &options);
         const struct states second = read_written(text);
         const struct job *job = &second.state->job;
@@ -416,18 +427,19 @@ static void written_at_x_the_starts_are_those_of_x(void **state)
     static const double x[] = {1.9e11, 3e-8, -0.07}, own[] = {1.5e11, 2e6, 2.5e11};
     struct deck_write_options options = {.x = x};
     (void)state;
-    const struct states first =
-        read_states(TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
-                        "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
-                        "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-7, 1e-8\nt.slope, -0.5, 0.5, 0.1\n"),
+    const struct states first = read_states(
+                            TWO
+                            "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
+                            "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
+                            "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-7, 1e-8\nt.slope, -0.5, 0.5, 0.1\n"),
                         second = read_written(write_with(&first, &first, &options));
     for (int p = 0; p < 3; p++)
         assert_true(second.bounds[p].start == x[p] && second.bounds[p].lower == first.bounds[p].lower);
     assert_true(first.state->job.unknowns.bounds[0].start == 2e11); /* untouched */
     /* of states each its own */
-    const struct states states = read_states(BAR UNKNOWN FREE
-                                             "*STATE, NAME=own\n*IDENTIFY\nleft.k, 1e3, 1e9, 1e5\nbar.E, 1e10, 1e12, 3e11\n"
-                                             "*MODES\n1, 225\n2, 610\n");
+    const struct states states =
+        read_states(BAR UNKNOWN FREE "*STATE, NAME=own\n*IDENTIFY\nleft.k, 1e3, 1e9, 1e5\nbar.E, 1e10, 1e12, 3e11\n"
+                                     "*MODES\n1, 225\n2, 610\n");
     assert_int_equal(states.nparameter, 3);
     options.x = own;
     const struct states back = read_written(write_with(&states, &states, &options));
@@ -511,12 +523,13 @@ static void what_no_deck_can_say_is_refused(void **state)
     static const char *const names[] = {"a,b", "", " a", "a ", "a**b", "a\nb", longest, NULL};
     static const struct {
         const char *given, *meant, *card;
-    } other[] = {{MODEL, TWO, "*SHAFT"},
-                 {MODEL "*DISK\n0.5, 1\n", MODEL "*DISK\n0.5, 1.0001\n", "*DISK"},
-                 {MODEL, MODEL "*SPRING\n0.5, 1e6\n", "*SPRING"},
-                 {MODEL, MODEL "*SLING, LENGTH=1\n", "*SLING"},
-                 {MODEL, MODEL "*PRELOAD, GROUP=core\n100\n", "*PRELOAD"},
-                 {MODEL "*PERFORATION, GROUP=core\n3, 0.01, 0.03\n", MODEL "*PERFORATION, GROUP=core\n4, 0.01, 0.03\n", "*PERFORATION"}};
+    } other[] = {
+        {MODEL, TWO, "*SHAFT"},
+        {MODEL "*DISK\n0.5, 1\n", MODEL "*DISK\n0.5, 1.0001\n", "*DISK"},
+        {MODEL, MODEL "*SPRING\n0.5, 1e6\n", "*SPRING"},
+        {MODEL, MODEL "*SLING, LENGTH=1\n", "*SLING"},
+        {MODEL, MODEL "*PRELOAD, GROUP=core\n100\n", "*PRELOAD"},
+        {MODEL "*PERFORATION, GROUP=core\n3, 0.01, 0.03\n", MODEL "*PERFORATION, GROUP=core\n4, 0.01, 0.03\n", "*PERFORATION"}};
     const char *said;
     (void)state;
     memset(longest, 'n', sizeof longest - 1);

@@ -753,7 +753,8 @@ static void modes_that_are_held_out_stay_with_their_state(void **state)
     struct states states;
     char *text;
     (void)state;
-    put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
+    put_file("held.inp",
+             pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
     assert_int_equal(propose(file_of("held.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
     assert_non_null(strstr(text, "*STATE, NAME=measured, MODES=1-3, HOLDOUT=3\n"));
     put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text));

@@ -15,8 +15,7 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
                      s->ntests ? "no deck can say the first of the tests: name its supports" : "there is no test to propose");
         return EXIT_DOUBTFUL;
     }
-    int status =
-        deck_propose(&command->pool, deck_states_of(command->read), s->state, &s->tests[0], &command->messages, &text);
+    int status = deck_propose(&command->pool, deck_states_of(command->read), s->state, &s->tests[0], &command->messages, &text);
     if (status == ROTID_ERROR_MEMORY)
         return command_fail(command, status);
     if (status) {

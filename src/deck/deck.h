@@ -16,9 +16,11 @@
  *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
  *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
  *
- * Writing: deck_write (deck_write*.c, deck_writer.c) gives a text that reads as the same job to the last bit; deck_write_states;
- * deck_extended.c the deck of a diagnosis; deck_proposed.c the *STATE of a test that src/suggest proposes.
- * Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no fit. */
+ * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
+ * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
+ * deck_extended.c gives it a diagnosis and finds the result its place; deck_proposed.c adds the *STATE of a test that src/suggest
+ * proposes. Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no
+ * fit. */
 
 #include <stdio.h>
 
@@ -98,8 +100,8 @@ struct deck_text {
     const char **file;
     int ntable;
     size_t table_room;
-    struct table_text **table;      /* read so far: a table may serve several cards */
-    int nsource; /* the deck and what it includes, as they were read */
+    struct table_text **table; /* read so far: a table may serve several cards */
+    int nsource;               /* the deck and what it includes, as they were read */
     size_t source_room;
     struct deck_file *source;
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
@@ -164,7 +166,7 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
 
 /* Shared by the readers of the cards: what has been read so far, and the reading of single fields. */
 
-#define DECK_MOST_KINDS 64 /* of cards */
+#define DECK_MOST_KINDS 64             /* of cards */
 #define DECK_QUANTITIES JOB_QUANTITIES /* whose units *UNITS can state */
 
 struct deck_reader {
@@ -503,8 +505,8 @@ void deck_edit_append(struct deck_edit *e, int part, const char *text);
 /* Puts text before part `at`, in front of the comments that introduce it. */
 void deck_edit_insert(struct deck_edit *e, int at, const char *text);
 
-/* The text of all parts, or of those that have a bit of `which` (NULL: all) in `mask`. A file that is included stays one where none
- * of its cards has changed and all are wanted, else its cards stand in its place. Relative paths become absolute. */
+/* The text of all parts, or of those that have a bit of `which` (NULL: all) in `mask`. A file that is included stays one where
+ * none of its cards has changed and all are wanted, else its cards stand in its place. Relative paths become absolute. */
 void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask);
 /* One part alone: its card (1), its comments (2), both (3). */
 void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck_part *part, int with);

@@ -35,7 +35,8 @@ static void compare_segments(struct comparing *c, const struct rotor *a, const s
         if (p.elements != q.elements)
             differ(c, DECK_OTHER_ELEMENTS, "SHAFT");
         q.elements = p.elements;
-        require(c, same && deck_is_same(p.rectangular ? deck_beam_rows : deck_shaft_rows, &p, &q), p.rectangular ? "BEAM" : "SHAFT");
+        require(c, same && deck_is_same(p.rectangular ? deck_beam_rows : deck_shaft_rows, &p, &q),
+                p.rectangular ? "BEAM" : "SHAFT");
     }
 }
 
@@ -110,9 +111,8 @@ static struct job_raw as_read(const struct job *job)
 {
     const struct job_measurement *m = &job->measurement;
     return m->raw ? *m->raw
-                  : (struct job_raw){job->rotor.nsensor, job->rotor.sensor,        m->shape,
-                                     m->shape_std,       m->frequency_std,         m->point_frequency_hz,
-                                     m->point_frequency_std};
+                  : (struct job_raw){job->rotor.nsensor,    job->rotor.sensor,     m->shape, m->shape_std, m->frequency_std,
+                                     m->point_frequency_hz, m->point_frequency_std};
 }
 
 static void compare_faults(struct comparing *c, const struct job_measurement *a, const struct job_measurement *b)
@@ -123,7 +123,9 @@ static void compare_faults(struct comparing *c, const struct job_measurement *a,
         int same = !strcmp(p->id, q->id) && same_text(p->name, q->name) && deck_is_near(p->value, q->value) &&
                    are_near(2, p->more, q->more) && (!p->block || !strcmp(p->block, q->block));
         const struct cause_kind *kind = catalogue_find(p->id);
-        int sensors = !kind || kind->target == TARGET_BLOCK ? 0 : kind->target == TARGET_SENSORS ? 2 : kind->target == TARGET_SENSOR;
+        int sensors = !kind || kind->target == TARGET_BLOCK ? 0
+                      : kind->target == TARGET_SENSORS      ? 2
+                                                            : kind->target == TARGET_SENSOR;
         for (int s = 0; s < sensors; s++)
             same &= p->sensor[s] == q->sensor[s];
         require(c, same, "CAUSE");

@@ -1,5 +1,5 @@
-/* The text of a deck in parts. A part is a card with its lines and the comments between them; an edit replaces the text of a part,
- * and what no edit touches is written as it was read, character by character. */
+/* The text of a deck in parts. A part is a card with its lines and the comments between them; an edit replaces the text of a
+ * part, and what no edit touches is written as it was read, character by character. */
 #include "deck/deck.h"
 
 #include <ctype.h>
@@ -374,7 +374,7 @@ static void apply(struct deck_edit *e, const struct override *o)
     int found = 0;
     if (same_text(o->option, "FILE") && *value != '/') {
         char here[4096] = ""; /* PATH_MAX of Linux */
-        value = e->origin->memory  ? pool_format(e->pool, "%s/%s", e->origin->directory ? e->origin->directory : ".", value)
+        value = e->origin->memory ? pool_format(e->pool, "%s/%s", e->origin->directory ? e->origin->directory : ".", value)
                 : getcwd(here, sizeof here) ? pool_format(e->pool, "%s/%s", here, value)
                                             : NULL;
     }

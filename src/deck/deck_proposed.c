@@ -362,7 +362,8 @@ static int read_back(struct pool *pool, const struct states *given, const char *
         const struct job was = without_state(pool, &given->state[s].job), is = without_state(pool, &states.state[s].job);
         like = home && given->state[s].name && same_text(home, given->state[s].name) ? &given->state[s].job : like;
         if (deck_compare(pool, &was, &is, &card))
-            message_add(notes, SEVERITY_ERROR, from, 1, 1, "state %s would be read as something else with the test in the deck: *%s",
+            message_add(notes, SEVERITY_ERROR, from, 1, 1,
+                        "state %s would be read as something else with the test in the deck: *%s",
                         given->state[s].name ? given->state[s].name : "measured", card);
     }
     if (!is_test(pool, &states.state[given->nstate].job, like, test))

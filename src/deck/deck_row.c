@@ -198,7 +198,8 @@ int deck_is_same(const struct deck_row *row, const void *a, const void *b)
 
 int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b)
 {
-    const char *p = *(const char *const *)((const char *)a + kind->list), *q = *(const char *const *)((const char *)b + kind->list);
+    const char *p = *(const char *const *)((const char *)a + kind->list),
+               *q = *(const char *const *)((const char *)b + kind->list);
     int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
     for (int i = 0; i < count && same; i++)
         same = deck_is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);

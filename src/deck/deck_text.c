@@ -23,11 +23,11 @@ struct deck_source {
     size_t nkept, room;
 };
 
-/* 0, or the error number of the operating system. "-" is standard input. */
-static int deck_source_open(struct deck_source *source, const char *path)
+/* 0, or the error number of the operating system. A deck "-" is standard input. */
+static int deck_source_open(struct deck_source *source, const char *path, int is_deck)
 {
     *source = (struct deck_source){.text = NULL};
-    source->stream = file_open(strcmp(path, "-") != 0 ? path : "/dev/stdin", 0, &source->information);
+    source->stream = file_open(is_deck && !strcmp(path, "-") ? "/dev/stdin" : path, 0, &source->information);
     return source->stream ? 0 : errno;
 }
 
@@ -433,7 +433,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
 {
     struct deck_source source;
     char why[HOST_ERROR_TEXT];
-    int failed = deck_source_open(&source, path);
+    int failed = deck_source_open(&source, path, !from.file);
     if (failed) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
                     "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));

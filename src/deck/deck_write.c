@@ -142,7 +142,8 @@ static int is_card(const struct deck_part *part, const char *name)
 static const char *option_text(struct writing *w, const struct deck_part *part, const char *name)
 {
     size_t length = 0;
-    const char *value = deck_edit_option(part, name, &length), *copy = value ? pool_format(w->pool, "%.*s", (int)length, value) : NULL;
+    const char *value = deck_edit_option(part, name, &length),
+               *copy = value ? pool_format(w->pool, "%.*s", (int)length, value) : NULL;
     if (value && !copy)
         w->edit.status = ROTID_ERROR_MEMORY;
     return copy;
@@ -488,11 +489,16 @@ static void put_named(struct deck_writer *out, const char *line, size_t length, 
 {
     const struct in_part *in = context;
     const struct rotor *meant = &in->w->meant.state[in->s].job.rotor, *given = &in->w->given->state[in->s].job.rotor;
-    int spring = !strcmp(in->part->card->name, "SPRING"), at = in->first + number,
-        count = spring ? given->nspring : given->ndisk;
-    const char *is = at >= count ? NULL : spring ? meant->spring[at].name : meant->disk[at].name,
-               *was = at >= count ? NULL : spring ? given->spring[at].name : given->disk[at].name,
-               *before = !number || at > count ? NULL : spring ? meant->spring[at - 1].name : meant->disk[at - 1].name;
+    int spring = !strcmp(in->part->card->name, "SPRING"), at = in->first + number, count = spring ? given->nspring : given->ndisk;
+    const char *is = at >= count ? NULL
+                     : spring    ? meant->spring[at].name
+                                 : meant->disk[at].name,
+               *was = at >= count ? NULL
+                      : spring    ? given->spring[at].name
+                                  : given->disk[at].name,
+               *before = !number || at > count ? NULL
+                         : spring              ? meant->spring[at - 1].name
+                                               : meant->disk[at - 1].name;
     if (number && is && !was)
         deck_put(out, "*%s, NAME=%s\n", in->part->card->name, is);
     else if (before)
@@ -599,7 +605,10 @@ static void finish(struct writing *w, const char *deck, struct deck_writer *text
         while (*c && *c != '\n' && ((bytes = text_visible(c)) || *c == '\t' || *c == '\r' || (unsigned char)*c >= 0xa0))
             c += bytes ? bytes : 1;
         deck_put(&out, "%.*s%s", (int)(c - from), from,
-                 !*c ? "" : *c != '\n' ? TEXT_REPLACEMENT : carriage && !(c > text->text && c[-1] == '\r') ? "\r\n" : "\n");
+                 !*c                                              ? ""
+                 : *c != '\n'                                     ? TEXT_REPLACEMENT
+                 : carriage && !(c > text->text && c[-1] == '\r') ? "\r\n"
+                                                                  : "\n");
         c += *c != 0;
     }
     text->status = text->status ? text->status : out.status;
@@ -714,8 +723,8 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
         left = status ? 1 : compare(&w, &read, &card);
     }
     if (!status && left) {
-        message_add(notes, SEVERITY_ERROR, path, 1, 1, "no deck is written: *%s would be read as something else than what is meant",
-                    card);
+        message_add(notes, SEVERITY_ERROR, path, 1, 1,
+                    "no deck is written: *%s would be read as something else than what is meant", card);
         status = ROTID_ERROR_ARGUMENT;
     }
     status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
