@@ -119,6 +119,8 @@ int command_write_result(struct command *command, struct result *result, int cod
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
+/* The same of a deck that was made from that of the command, to --extended. */
+int command_write_deck(struct command *command, const char *text, int code);
 
 /* A state to work on at identified values, or the deck that is one. */
 struct fitted_state {

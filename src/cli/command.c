@@ -83,6 +83,20 @@ int command_write_file(struct command *command, const char *path, const char *te
     return EXIT_INTERNAL;
 }
 
+int command_write_deck(struct command *command, const char *text, int code)
+{
+    char *placed;
+    int status = deck_place(&command->pool, command->deck, text, command->extended, &command->messages, &placed);
+    if (status == ROTID_ERROR_MEMORY)
+        return command_fail(command, status);
+    if (!status)
+        return command_write_file(command, command->extended, placed, code);
+    command_print_messages(command);
+    terminal_say("rotid: %s is not written: %s\n", command->extended,
+                 status == ROTID_ERROR_IO ? "there is no such folder" : "it would be read as something else there");
+    return EXIT_INTERNAL;
+}
+
 void command_begin_head(struct command *command)
 {
     command->head = (struct result_head){.schema = RESULT_SCHEMA,

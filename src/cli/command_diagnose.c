@@ -14,11 +14,10 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         return code;
     }
     if (!diagnosis->extended_deck) {
-        terminal_say("rotid: cannot write %s: no deck %s\n", command->extended,
-                     diagnosis->base && diagnosis->base->nstates ? "with several states is written" : "can say this model");
+        terminal_say("rotid: cannot write %s: no deck reads as this model\n", command->extended);
         return EXIT_INTERNAL;
     }
-    return command_write_file(command, command->extended, diagnosis->extended_deck, code);
+    return command_write_deck(command, diagnosis->extended_deck, code);
 }
 
 static int show(struct command *command, rotid_diagnosis *diagnosis)
