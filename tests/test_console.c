@@ -125,9 +125,9 @@ static void a_reduction_that_is_none_has_no_column(void **state)
     const char *output, *path = folder_write("deck.inp", deck);
     (void)state;
     (void)shell_code(&test_pool, &output, ROTID_PROGRAM " identify %s --no-baseline", path);
-    assert_non_null(strstr(output, "mode  measured [Hz]  predicted [Hz]  error [%]  mesh [%]\n"));
+    assert_non_null(strstr(output, "mode  measured [Hz]  predicted [Hz]  error [%]  mesh [%]"));
     (void)shell_code(&test_pool, &output, ROTID_PROGRAM " identify %s --no-baseline --set FIT.REDUCTION=GUYAN", path);
-    assert_non_null(strstr(output, "mode  measured [Hz]  predicted [Hz]  error [%]  reduction [%]  mesh [%]\n"));
+    assert_non_null(strstr(output, "mode  measured [Hz]  predicted [Hz]  error [%]  reduction [%]  mesh [%]"));
     assert_non_null(strstr(shell(&test_pool, ROTID_PROGRAM " modes %s", path), "condensed [Hz]  reduction [%]"));
     path = folder_write("deck.inp", MATERIAL SHAFT "*SENSORS\n1, 0.3\n");
     assert_null(strstr(shell(&test_pool, ROTID_PROGRAM " modes %s", path), "reduction"));

@@ -298,7 +298,7 @@ static void a_modal_analysis_has_a_page(void **state)
     cJSON_ArrayForEach(channel, get(json, "channels")) if (cJSON_GetArraySize(get(channel, "doubts")))
     {
         channels++;
-        page_says(html, "Node %.0f over node %.0f: %s", number_of(channel, "response_node"), number_of(channel, "reference_node"),
+        page_says(html, "node %.0f over node %.0f: %s", number_of(channel, "response_node"), number_of(channel, "reference_node"),
                   get(channel, "doubts")->child->valuestring);
     }
     assert_true(channels >= 1);

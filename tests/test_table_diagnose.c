@@ -550,7 +550,7 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
     show(0, 100);
     for (size_t i = 1; i < sizeof parts / sizeof *parts; i++)
         assert_order(parts[i - 1], parts[i]);
-    assert_says("core.E 1.178e+11 Pa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
+    assert_says("core.E 117.8 GPa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
     assert_says("sensor_gain sensor 23: 1.4 +- 0.03, chi2 less by 180; sensor 23 reads");
     assert_says("adequate model): below 0.001; the extended model is adequate");
     assert_says("    named: flexibility 2.13e-10 rad/(N.m) (95 %: 1.92e-10 to 2.34e-10)");

@@ -108,7 +108,7 @@ static void what_is_not_determined_or_at_a_bound_is_said(void **state)
     (void)snprintf(arguments, sizeof arguments, "identify %s --no-baseline", deck);
     assert_int_equal(run(arguments), 1); /* a bar this slender says nothing about shear */
     assert_non_null(strstr(line_with("bar.G  "), "not determined by these data\n"));
-    assert_null(strstr(line_with("bar.E  "), "not determined"));
+    assert_null(strstr(line_with("bar.E  "), "  200  not"));
     (void)snprintf(arguments, sizeof arguments, "sensitivity %s --quiet", deck);
     assert_int_equal(run(arguments), 0);
     assert_string_equal(text, "");
@@ -216,10 +216,10 @@ static void what_is_no_number_is_a_dash(void **state)
                    "%s*MODES\n1, 500\n2, 1300\n3, 2400\n*NOISE, FREQUENCY=1e-30\n*IDENTIFY\ncore.E, 1e11, 4e11, 2e11\n", first);
     run_deck("diagnose", "--verbose --replicates 100", deck);
     assert_no_such_word();
-    const char *head = strstr(text, "res./sigma"), *row = strstr(text, "     1            500 ");
+    const char *head = strstr(text, "res./sigma"), *row = strstr(text, "\n   1        500.000 ");
     assert_true(head && row);
-    assert_int_equal(strcspn(row, "|"), strcspn(strstr(row, "\n") + 1, "|"));
-    assert_non_null(strstr(row, "e+2"));
+    assert_int_equal(strcspn(row + 1, "|"), strcspn(strstr(row + 1, "\n") + 1, "|"));
+    assert_non_null(strstr(row, "e2"));
     /* modes by their shapes, without an NCO */
     int length = snprintf(deck, sizeof deck, SHAFT "*SENSORS\n", MANY);
     for (int i = 0; i <= MANY; i++)

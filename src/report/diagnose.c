@@ -338,7 +338,7 @@ static struct table *table_of_misfit(struct pool *pool, const rotid_diagnosis *d
     for (int k = 0; k < base->nmodes && k < d->nmodes_standardised; k++)
         if (isfinite(d->modes_standardised[k]))
             scale = fmax(scale, ceil(fabs(d->modes_standardised[k])));
-    const char *head = pool_format(pool, "%-+*.0f0%+*.0f", BAR_HALF, -scale, BAR_HALF, scale);
+    const char *head = pool_format(pool, "%-+*.4g0%+*.4g", BAR_HALF, -scale, BAR_HALF, scale);
     for (int k = 0; k < base->nmodes; k++) {
         const rotid_compared_mode *mode = &base->modes[k];
         double standardised = k < d->nmodes_standardised ? d->modes_standardised[k] : (double)NAN;
@@ -592,11 +592,12 @@ static void print_today(const struct screen *to, const rotid_diagnosis *d)
                   as_judged ? "as it is judged below" : "what that choice alone costs");
     for (int i = 0; i < fit->nparameters; i++) {
         const rotid_fitted_parameter *p = &fit->parameters[i];
+        const struct human_unit unit = human_unit(p->value, p->unit);
         struct wrap wrap;
         double base = 100 * (p->value / value_of(d->base, p->name) - 1),
                extended = 100 * (p->value / value_of(d->extended, p->name) - 1);
         wrap_open(&wrap, to->out, 4, to->width, "  ");
-        wrap_item(&wrap, "%s %.4g%s%s", p->name, p->value, layout_gap(p->unit), layout_unit(p->unit));
+        wrap_item(&wrap, "%s %s%s%s", p->name, IN_DIGITS(4, p->value * unit.factor), *unit.text ? " " : "", unit.text);
         if (p->at_bound)
             wrap_item(&wrap, "AT ITS BOUND");
         if (isfinite(base))

@@ -10,6 +10,7 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
                                       const rotid_identification *fit, const char *caption)
 {
     const rotid_reference *hz = head_reference(head, "predicted_hz"), *error = head_reference(head, "error_percent");
+    const unsigned reduced = strcmp(fit->reduction, "NONE") ? 0 : IN_CSV_ONLY; /* what a condensation would cost */
     struct table *table = table_open(pool, caption ? caption : "Modes: errors are predicted over measured frequency, less one");
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
@@ -23,7 +24,7 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
         number_column(table, "error", "%", SHOW_SIGNED(3), mode->error_percent);
         number_column(table, "reference", "Hz", SHOW_FIXED(2) | NOT_IN_CSV, reference_value(hz, first + k));
         number_column(table, "reference error", "%", SHOW_SIGNED(2) | NOT_IN_CSV, reference_value(error, first + k));
-        number_column(table, "reduction", "%", SHOW_SIGNED(3), fit->reduction_error_percent[k]);
+        number_column(table, "reduction", "%", SHOW_SIGNED(3) | reduced, fit->reduction_error_percent[k]);
         number_column(table, "mesh", "%", SHOW_SIGNED(4), fit->mesh_error_percent[k]);
         number_column(table, "nco", NULL, SHOW_FIXED(3), mode->nco);
         number_column(table, "mac", NULL, SHOW_FIXED(3), mode->mac);
