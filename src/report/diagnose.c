@@ -26,10 +26,16 @@ static const char *or_nothing(const char *text)
     return text ? text : "";
 }
 
+/* What stands between the name of a cause and its target: "joint of core|right", "support at 0 m". */
+static const char *before_target(const char *target)
+{
+    return !*target ? "" : strncmp(target, "at ", 3) ? " of " : " ";
+}
+
 /* "joint of core|right in state hot" */
 static const char *label_of(struct pool *pool, const rotid_cause *cause, const char *name)
 {
-    return or_nothing(pool_format(pool, "%s%s%s%s%s", name, *cause->target ? " of " : "", cause->target,
+    return or_nothing(pool_format(pool, "%s%s%s%s%s", name, before_target(cause->target), cause->target,
                                   cause->state ? " in state " : "", or_nothing(cause->state)));
 }
 
@@ -107,7 +113,7 @@ static const char *note_of(struct pool *pool, const rotid_diagnosis *d, const ro
         text = pool_format(pool, "%s; your suspicion, a %s", text, c->cause.id);
     if (c->collinear_with && isfinite(c->cosine) && text)
         text = pool_format(pool, "%s; similar to %s%s%s (%.2f)", text, c->collinear_with,
-                           c->collinear_target && *c->collinear_target ? " of " : "", or_nothing(c->collinear_target), c->cosine);
+                           before_target(or_nothing(c->collinear_target)), or_nothing(c->collinear_target), c->cosine);
     return text;
 }
 
@@ -180,7 +186,7 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
             continue;
         text = pool_format(pool, "%s%s %s by %s%s%s", text, *text ? ";" : "unseen:",
                            linear_percent_text(100 * fabs(hidden->shift / p->value), figure), hidden->id,
-                           *hidden->target ? " of " : "", hidden->target);
+                           before_target(hidden->target), hidden->target);
         if (isfinite(hidden->z_m) && text)
             text = pool_format(pool, "%s at z %.3g m", text, hidden->z_m);
         if (strcmp(hidden->component, "presence") != 0 && text)
@@ -309,7 +315,7 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
         double neutral = falls_from(d->id), shown = isfinite(neutral) ? neutral - d->smallest : d->smallest;
         if (d->beyond || !isfinite(d->smallest)) {
             beyond = pool_format(pool, "%s%s %s%s%s", beyond, *beyond ? ";" : "No size within physical bounds would show:", d->id,
-                                 *d->target ? " of " : "", d->target);
+                                 before_target(d->target), d->target);
             continue;
         }
         table_row(table);

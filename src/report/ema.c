@@ -153,8 +153,8 @@ static struct table *table_of_mac(struct pool *pool, const struct ema_result *em
         table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, i + 1);
         for (int j = 0; j < count; j++)
-            text_column(table, i ? "" : pool_format(pool, "%d", j + 1), SHOW_TEXT,
-                        j > i ? "" : human_fixed(pool, 100 * ema->mac[i + (ptrdiff_t)j * ema->nmodes], 0));
+            number_column(table, i ? "" : pool_format(pool, "%d", j + 1), NULL, SHOW_COUNT,
+                          100 * ema->mac[i + (ptrdiff_t)j * ema->nmodes]);
     }
     return table;
 }

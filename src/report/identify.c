@@ -225,8 +225,9 @@ void screen_identify(const struct screen *to, const struct result *result, int b
         screen_table(to, table_of_history(to->pool, fit));
     for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {
         const rotid_identification of_state = fit_of_state(fit, s);
-        (void)fprintf(out, "\nstate %s%s\n", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
-        screen_table(to, table_of_compared_modes(to->pool, &result->head, first, &of_state, ""));
+        const char *caption =
+            pool_format(to->pool, "state %s%s", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
+        screen_table(to, table_of_compared_modes(to->pool, &result->head, first, &of_state, caption));
         print_rms(out, &of_state);
     }
     if (fit->nstates)
