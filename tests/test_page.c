@@ -63,10 +63,10 @@ static void a_page_is_whole_and_says_what_the_result_holds(void **state)
                *high = shown(cJSON_GetArrayItem(ci, 1)->valuedouble / 1e9, 1);
     page_says(html, "core.E = %s\xc2\xa0GPa (95\xc2\xa0%%: %s to %s)", value, low, high);
     page_says(html, "<dt>core.E [GPa]</dt>\n<dd class=\"large\">%s</dd>\n<dd>95\xc2\xa0%%: %s to %s</dd>", value, low, high);
-    page_says(
-        html,
-        "<tr><th scope=\"row\">core.E</th><td>GPa</td><td class=\"n\">%s</td><td class=\"n\">22</td><td class=\"n\">%s</td><td class=\"n\">%s</td>",
-        value, low, high);
+    page_says(html,
+              "<tr><th scope=\"row\">core.E</th><td>GPa</td><td class=\"n\">%s</td><td class=\"n\">22</td><td "
+              "class=\"n\">%s</td><td class=\"n\">%s</td>",
+              value, low, high);
     cJSON_ArrayForEach(mode, get(json, "modes"))
     {
         double error = number_of(mode, "error_percent");

@@ -688,7 +688,7 @@ static void what_is_absent_is_left_away(void **state)
     show(1, 100);
     assert_silent("smallest NCO");
     assert_says("no p-value can be stated");
-    assert_says("  no interval");
+    assert_says("  no interval can be stated");
     interrupted_at_once();
     show(1, 100);
     assert_says("VERDICT  NONE");

@@ -465,7 +465,8 @@ static const char *state_of(const struct export_model *model)
     return !fit ? NULL : !fit->converged ? "not_converged" : fit->any_at_bound ? "at_bound" : "converged";
 }
 
-void screen_export(const struct screen *to, const struct result_head *head, const struct export_files *files, const struct export_model *model)
+void screen_export(const struct screen *to, const struct result_head *head, const struct export_files *files,
+                   const struct export_model *model)
 {
     const struct job *job = model->job;
     const struct spectrum *s = &model->spectrum;

@@ -10,7 +10,7 @@
 #include "report/report.h"
 
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
-#define MOST_REASONS              16
+#define MOST_REASONS   16
 
 /* "in fewer than 1 of 1,000": how often chance does it; "" where p is not known. */
 static const char *words_chance(struct pool *pool, double p)
@@ -340,10 +340,11 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
         text_column(table, "moved by", SHOW_TEXT,
                     value ? pool_copy_text(pool, linear_percent_text(100 * fabs(hidden[i].shift / value->value), figure)) : "");
         text_column(table, "cause", SHOW_TEXT, cause_name(pool, hidden[i].id, hidden[i].target));
-        text_column(table, "its size", SHOW_TEXT,
-                    !strcmp(hidden[i].component, "presence")
-                        ? "there or not"
-                        : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
+        text_column(
+            table, "its size", SHOW_TEXT,
+            !strcmp(hidden[i].component, "presence")
+                ? "there or not"
+                : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
         number_column(table, "z", "m", SHOW_TRIMMED(3), hidden[i].z_m);
     }
     document_section(document, "hidden", "What may hide in the parameters");
@@ -396,7 +397,8 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
         }
         struct table *table = table_of_candidates(pool, d, i, 1);
         if (table)
-            table->caption = or_nothing(pool_format(pool, "Candidates of round %d: sizes and places with 95 %% intervals", i + 1));
+            table->caption =
+                or_nothing(pool_format(pool, "Candidates of round %d: sizes and places with 95 %% intervals", i + 1));
         document_table(document, table);
     }
 }
@@ -497,12 +499,11 @@ void section_diagnose(struct document *document, const struct result *result)
     if (d->base) {
         document_section(document, "modes-compared", "Mode by mode");
         document_figures(document, "matrices");
-        document_table(document,
-                       table_of_compared_modes(document->pool, &result->head, 0, d->extended ? d->extended : d->base,
-                                             d->extended ? "Modes of the extended model" : NULL));
+        document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->extended ? d->extended : d->base,
+                                                         d->extended ? "Modes of the extended model" : NULL));
         if (d->extended)
-            document_table(document,
-                           table_of_compared_modes(document->pool, &result->head, 0, d->base, "Modes of the model without the cause"));
+            document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->base,
+                                                             "Modes of the model without the cause"));
     }
     if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */
         document_section(document, "places", "Where on the rotor");

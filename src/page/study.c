@@ -159,7 +159,8 @@ static struct table *cells_of(struct pool *pool, const struct study_result *s, c
         number_column(table, "failed", NULL, SHOW_COUNT, cell->failed);
         number_column(table, "at a bound", NULL, SHOW_COUNT, cell->at_bound);
         number_column(table, "not converged", NULL, SHOW_COUNT, cell->not_converged);
-        number_column(table, "at the best", NULL, SHOW_COUNT, cell->reached_best == ROTID_NONE ? (double)NAN : cell->reached_best);
+        number_column(table, "at the best", NULL, SHOW_COUNT,
+                      cell->reached_best == ROTID_NONE ? (double)NAN : cell->reached_best);
         number_column(table, "error, fitted", "%", SHOW_DIGITS(3), above_rounding(cell->frequency_rms_percent, ROUNDING));
         number_column(table, "error, held out", "%", SHOW_DIGITS(3),
                       above_rounding(cell->holdout_frequency_rms_percent, ROUNDING));

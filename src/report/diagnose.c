@@ -11,10 +11,10 @@
 
 #define LABEL     14 /* columns before a strip */
 #define BAR_HALF  14
-#define MARKS     4 /* causes that are drawn */
-#define SET_SHOWN 5 /* candidates of the set, unless verbose */
-#define SHOWN     4 /* of the others */
-#define LISTED    6 /* causes of a set by which a parameter is said */
+#define MARKS     4     /* causes that are drawn */
+#define SET_SHOWN 5     /* candidates of the set, unless verbose */
+#define SHOWN     4     /* of the others */
+#define LISTED    6     /* causes of a set by which a parameter is said */
 #define TINY      1e-12 /* zero but for rounding, in SI units */
 #define SMALL     1e-3  /* shown with a power of ten */
 #define LARGE     1e5
@@ -168,10 +168,10 @@ static void value_row(struct table *table, const char *name, const char *by, con
     number_column(table, "lower 95 %", ROW_UNIT, SHOW_ROW, is->ci95[0]);
     number_column(table, "upper 95 %", ROW_UNIT, SHOW_ROW, is->ci95[1]);
     text_column(table, "remark", SHOW_TEXT,
-                is->at_bound                  ? "at its bound"
-                : !is->identifiable           ? "not determined"
-                : !isfinite(is->ci95[0])      ? "no interval"
-                                              : "");
+                is->at_bound             ? "at its bound"
+                : !is->identifiable      ? "not determined"
+                : !isfinite(is->ci95[0]) ? "no interval can be stated"
+                                         : "");
     text_column(table, "if it is", MAY_BE_CUT, by);
 }
 
@@ -184,14 +184,14 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
         const rotid_hidden *hidden = &d->hidden[i];
         if (strcmp(hidden->parameter, p->name) != 0)
             continue;
-        text = pool_format(pool, "%s%s %s by %s%s%s", text, *text ? ";" : "unseen:",
-                           linear_percent_text(100 * fabs(hidden->shift / p->value), figure), hidden->id,
+        text = pool_format(pool, "%s%s %s by %s%s%s", text,
+                           *text ? ";" : "unseen:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure), hidden->id,
                            before_target(hidden->target), hidden->target);
         if (isfinite(hidden->z_m) && text)
             text = pool_format(pool, "%s at z %.3g m", text, hidden->z_m);
         if (strcmp(hidden->component, "presence") != 0 && text)
-            text = pool_format(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size), layout_gap(hidden->size_unit),
-                               layout_unit(hidden->size_unit));
+            text = pool_format(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size),
+                               layout_gap(hidden->size_unit), layout_unit(hidden->size_unit));
     }
     return text;
 }
@@ -213,7 +213,8 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
     const rotid_verdict *v = &d->verdict;
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     int unseen = d->nhidden && (v->kind == ROTID_ADEQUATE || v->adequate_after); /* else what is left is seen */
-    struct table *table = table_open(pool, d->extended ? "Parameters of the extended model" : "Parameters of the model of the deck");
+    struct table *table =
+        table_open(pool, d->extended ? "Parameters of the extended model" : "Parameters of the model of the deck");
     for (int p = 0; p < d->base->nparameters; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         int shown = 0, left = 0;
@@ -281,7 +282,9 @@ static struct table *table_of_change(struct pool *pool, const rotid_diagnosis *d
     for (int i = 0; i < d->gain.nparameters && d->extended; i++) {
         const char *name = d->gain.parameters[i].name;
         const rotid_fitted_parameter *before = fit_parameter(d->base, name), *after = fit_parameter(d->extended, name),
-                                     *one = after ? after : before ? before : &none;
+                                     *one = after    ? after
+                                            : before ? before
+                                                     : &none;
         before = before ? before : &none;
         after = after ? after : &none;
         table_row(table);
@@ -327,9 +330,9 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
         number_column(table, "at z", "m", SHOW_DIGITS(3), d->z_m);
         number_column(table, "at worst", ROW_UNIT, SHOW_DIGITS(2), d->worst);
         text_column(table, "remark", SHOW_TEXT,
-                    isfinite(neutral)                              ? "or less"
+                    isfinite(neutral)                         ? "or less"
                     : isfinite(d->z_m) && !isfinite(d->worst) ? "not everywhere"
-                                                                   : "");
+                                                              : "");
     }
     if (table)
         table->note = beyond && *beyond ? beyond : NULL;
@@ -446,8 +449,8 @@ static void table_misfit(const struct screen *to, const rotid_diagnosis *d)
     if (!base)
         return;
     if (d->before)
-        (void)fprintf(to->out, "\nWHAT CHANGED  %s beside the model that fits %s, less what that misses there",
-                      d->after, d->before);
+        (void)fprintf(to->out, "\nWHAT CHANGED  %s beside the model that fits %s, less what that misses there", d->after,
+                      d->before);
     else
         (void)fprintf(to->out, "\nWHAT IS WRONG  full model, likelihood");
     if (isfinite(base->chi2))
@@ -688,8 +691,7 @@ static void print_foot(const struct screen *to, const struct result_head *head, 
     print_noise(to, d);
     for (int i = 0; i < d->nsteps; i++)
         seconds += d->steps[i].seconds;
-    (void)fprintf(to->out, "seed %.0f, %d thread%s", head->seed, head->threads,
-                  head->threads == 1 ? "" : "s");
+    (void)fprintf(to->out, "seed %.0f, %d thread%s", head->seed, head->threads, head->threads == 1 ? "" : "s");
     if (d->nsteps)
         (void)fprintf(to->out, ", %.3g s", seconds);
     (void)fputc('\n', to->out);

@@ -126,7 +126,8 @@ static void print_stabilisation(FILE *out, const struct ema_result *ema)
             char mark = '.';
             if (p->stable_frequency)
                 mark = p->stable_damping ? 's' : 'f';
-            if (p->part && (mark != 's' || p->mode == ROTID_NONE)) /* tables of parts are dense: what counts of them are the modes */
+            if (p->part &&
+                (mark != 's' || p->mode == ROTID_NONE)) /* tables of parts are dense: what counts of them are the modes */
                 continue;
             if (row[column] == ' ' || mark == 's' || (mark == 'f' && row[column] == '.'))
                 row[column] = mark;
@@ -146,9 +147,9 @@ static void print_stabilisation(FILE *out, const struct ema_result *ema)
 static struct table *table_of_mac(struct pool *pool, const struct ema_result *ema)
 {
     int count = ema->nmodes < MOST_MAC ? ema->nmodes : MOST_MAC;
-    struct table *table = table_open(pool, ema->nmodes > MOST_MAC
-                                               ? "MAC of the shapes with each other [%], the first twenty (all in the JSON)"
-                                               : "MAC of the shapes with each other [%]");
+    struct table *table =
+        table_open(pool, ema->nmodes > MOST_MAC ? "MAC of the shapes with each other [%], the first twenty (all in the JSON)"
+                                                : "MAC of the shapes with each other [%]");
     for (int i = 0; i < count && count > 1; i++) {
         table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, i + 1);
@@ -168,10 +169,7 @@ static struct table *table_of_poles(struct pool *pool, const struct ema_result *
         number_column(table, "order", NULL, SHOW_COUNT, p->order);
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), p->frequency_hz);
         number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * p->damping);
-        text_column(table, "stable", SHOW_TEXT,
-                    p->stable_frequency && p->stable_damping ? "fd"
-                    : p->stable_frequency                    ? "f"
-                                                             : "");
+        text_column(table, "stable", SHOW_TEXT, p->stable_frequency && p->stable_damping ? "fd" : p->stable_frequency ? "f" : "");
         number_column(table, "mode", NULL, SHOW_COUNT, p->mode == ROTID_NONE ? (double)NAN : p->mode);
     }
     return table;

@@ -144,7 +144,8 @@ struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_r
     for (int m = 0; m < of->nmodes; m++) {
         const struct transfer_mode *mode = &of->modes[m];
         const struct transfer_mode_agreement *agrees = mode->agreement;
-        const struct transfer_function *f = agrees && agrees->worst_function != ROTID_NONE ? &of->functions[agrees->worst_function] : NULL;
+        const struct transfer_function *f =
+            agrees && agrees->worst_function != ROTID_NONE ? &of->functions[agrees->worst_function] : NULL;
         double worst = NAN;
         if (!(mode->model_hz <= of->high_hz))
             continue;
@@ -179,10 +180,11 @@ static void function_row(struct table *table, const struct transfer_function *f,
     number_column(table, "scale", NULL, SHOW_DIGITS(4), agrees->scale);
     number_column(table, "level", "dB", SHOW_SIGNED(2), agrees->level_db);
     text_column(table, "remark", SHOW_TEXT,
-                !f ? ""
-                : agrees->scale < 0 ? "opposite sign: check the direction"
-                : gain > agrees->frac + FLIPPED ? pool_format(pool, "FRAC %.3f with the conjugate: check the sign of time", gain)
-                : f->beside->measured_reciprocal ? "measured the other way round" : "");
+                !f                               ? ""
+                : agrees->scale < 0              ? "opposite sign: check the direction"
+                : gain > agrees->frac + FLIPPED  ? pool_format(pool, "FRAC %.3f with the conjugate: check the sign of time", gain)
+                : f->beside->measured_reciprocal ? "measured the other way round"
+                                                 : "");
 }
 
 struct ranked {
@@ -200,8 +202,9 @@ static int by_frac(const void *left, const void *right)
 static struct table *table_of_functions(struct pool *pool, const struct transfer_result *of, int all)
 {
     static const double border[] = {0.95, 0.8, 0.5, -1};
-    struct table *table = table_open(pool, "Transfer functions; at meas. Hz: with the measured frequencies in place of the model's; "
-                                           "what is below 1 there is shape, mass or damping");
+    struct table *table =
+        table_open(pool, "Transfer functions; at meas. Hz: with the measured frequencies in place of the model's; "
+                         "what is below 1 there is shape, mass or damping");
     struct ranked *rank = POOL_ARRAY(pool, struct ranked, of->nfunctions);
     int count[4] = {0}, none = 0, many = of->nfunctions > MOST_ROWS && !all;
     for (int i = 0; i < of->nfunctions && rank; i++) {
@@ -218,9 +221,11 @@ static struct table *table_of_functions(struct pool *pool, const struct transfer
         function_row(table, &of->functions[rank[i].row], &of->functions[rank[i].row].beside->agreement);
     function_row(table, NULL, of->agreement);
     if (many && table)
-        table->note = pool_format(pool, "The %d worst of %d; FRAC from 0.95: %d, from 0.8: %d, from 0.5: %d, below: %d, without values: "
-                                        "%d (--verbose: all).",
-                                  WORST, of->nfunctions, count[0], count[1], count[2], count[3], none);
+        table->note =
+            pool_format(pool,
+                        "The %d worst of %d; FRAC from 0.95: %d, from 0.8: %d, from 0.5: %d, below: %d, without values: "
+                        "%d (--verbose: all).",
+                        WORST, of->nfunctions, count[0], count[1], count[2], count[3], none);
     return table;
 }
 
@@ -257,10 +262,11 @@ static void print_model(const struct screen *to, const struct transfer_result *o
                   human_plural(of->lines, "line", "lines"), of->low_hz, of->high_hz);
     (void)fprintf(out, "full model %s", of->nparameters ? "at the identified parameters" : "as the deck states it");
     for (int p = 0; p < of->nparameters; p++)
-        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", of->parameters[p].name, of->parameters[p].value, of->parameters[p].unit);
-    (void)fprintf(
-        out, "\nsum of %d %s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
-        rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, of->modes_up_to_hz);
+        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", of->parameters[p].name, of->parameters[p].value,
+                      of->parameters[p].unit);
+    (void)fprintf(out,
+                  "\nsum of %d %s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
+                  rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, of->modes_up_to_hz);
     for (int m = 0; m < rigid; m++) {
         (void)fprintf(out, "%s%.4f Hz", m ? ", " : "modes on the supports: ", of->modes[m].model_hz);
         damping = of->modes[m].damping_from;

@@ -7,7 +7,7 @@
 #define DASH         "\xe2\x80\x93"
 #define MINUS        "\xe2\x88\x92"
 #define NARROW_SPACE "\xc2\xa0" /* that does not break */
-#define WIDEST       1e9  /* from here on in a column with a power of ten */
+#define WIDEST       1e9        /* from here on in a column with a power of ten */
 #define SMALL        1e-3       /* below, more zeros than a reader counts */
 
 static const char *or_nothing(const char *text)

@@ -54,8 +54,9 @@ struct table *table_of_parameters(struct pool *pool, const rotid_identification 
         number_column(table, "at bound", NULL, SHOW_COUNT | IN_CSV_ONLY, is->at_bound);
         number_column(table, "identifiable", NULL, SHOW_COUNT | IN_CSV_ONLY, is->identifiable);
         text_column(table, "remark", NOT_IN_CSV,
-                    is->at_bound        ? "at its bound"
-                    : !is->identifiable ? "not determined by these data"
+                    is->at_bound             ? "at its bound"
+                    : !is->identifiable      ? "not determined by these data"
+                    : !isfinite(is->ci95[0]) ? "no interval can be stated"
                     : interval_is_wide(is->value, is->ci95[0], is->ci95[1])
                         ? pool_format(pool, "determined to %s only",
                                       percent_text(interval_half_percent(is->value, is->ci95[0], is->ci95[1]), (char[32]){""}))
@@ -88,7 +89,8 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
     for (int b = 0; b <= fit->nbaseline; b++) {
         const rotid_minimiser *other = b ? &fit->baseline[b - 1] : NULL;
         table_row(table);
-        text_column(table, "minimiser", SHOW_TEXT, other ? pool_format(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
+        text_column(table, "minimiser", SHOW_TEXT,
+                    other ? pool_format(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
         number_column(table, "objective", NULL, SHOW_DIGITS(9), other ? other->objective : fit->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(2) | DETAIL, other ? other->gradient : fit->gradient);
         number_column(table, "evaluations", NULL, SHOW_COUNT, other ? other->evaluations : fit->evaluations);
@@ -122,7 +124,8 @@ static void print_rms(FILE *out, const rotid_identification *fit)
 {
     double fitted = fit_rms_percent(fit, 0), held_out = fit_rms_percent(fit, 1);
     if (isfinite(fitted))
-        (void)fprintf(out, "rms error of the fitted modes %.2f %%%s", fitted, isfinite(held_out) ? ", of the modes held out " : "\n");
+        (void)fprintf(out, "rms error of the fitted modes %.2f %%%s", fitted,
+                      isfinite(held_out) ? ", of the modes held out " : "\n");
     else if (isfinite(held_out)) /* a state that is held out */
         (void)fputs("rms error of the modes held out ", out);
     if (isfinite(held_out))
@@ -135,16 +138,18 @@ static void print_intervals(const struct screen *to, const struct result_head *h
     FILE *out = to->out;
     double wide = fit->intervals_widened_by;
     if (fit->noise && !strcmp(fit->noise->intervals_from, "residuals") && fit->dof > 0)
-        screen_say(to, "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on "
-                       "the measurement",
+        screen_say(to,
+                   "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on "
+                   "the measurement",
                    fit->dof);
     if (wide > 1 && fit_is_inadequate(fit))
         screen_say(to, "the misfit is %.3g times the stated noise: the intervals are widened by that", wide);
     else if (wide > 1) /* half of all adequate models have a misfit above the noise */
-        screen_say(to,
-                   "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone does as much in %.0f %% "
-                   "of such tests",
-                   wide, 100 * fit_p_value(fit));
+        screen_say(
+            to,
+            "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone does as much in %.0f %% "
+            "of such tests",
+            wide, 100 * fit_p_value(fit));
     if (fit_is_inadequate(fit)) {
         (void)fputs("the model is not adequate for these data: its parameters have absorbed what it lacks; rotid diagnose ", out);
         name_cell(out, 0, head->deck ? head->deck : "DECK");
@@ -236,8 +241,9 @@ void screen_identify(const struct screen *to, const struct result *result, int b
         screen_table(to, table_of_compared_modes(to->pool, &result->head, 0, fit, NULL));
     print_rms(out, fit);
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
-        screen_say(to, "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies "
-                       "alone",
+        screen_say(to,
+                   "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies "
+                   "alone",
                    strcmp(fit->reduction, "NONE") ? "condensed model" : "model");
     if (isfinite(fit->chi2_per_dof))
         (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);

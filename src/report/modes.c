@@ -42,9 +42,8 @@ static const char *correction_text(struct pool *pool, const struct correction *c
     for (int s = 0; s < c->nsensor && text; s++)
         text = pool_format(pool, "%s%s%d", text, s ? " and " : " of sensor ", c->sensor[s]);
     text = pool_format(pool, "%s%s%s, value %.6g", text, c->block ? " of " : "", c->block ? c->block : "", c->value);
-    return text && same_text(c->id, "sensor_line")
-               ? pool_format(pool, "%s, scale %.6g, flip %.6g", text, c->more[0], c->more[1])
-               : text;
+    return text && same_text(c->id, "sensor_line") ? pool_format(pool, "%s, scale %.6g, flip %.6g", text, c->more[0], c->more[1])
+                                                   : text;
 }
 
 /* The CAUSE cards. */
@@ -59,10 +58,7 @@ static struct table *table_of_causes(struct pool *pool, const struct job *job)
         const struct correction *correction = effect ? NULL : &job->measurement.correction[i - neffect - nsuspect];
         table_row(table);
         text_column(table, "cause", SHOW_TEXT, effect ? effect->name : correction->name);
-        text_column(table, "role", SHOW_TEXT,
-                    correction    ? "taken out of the data"
-                    : i < neffect ? "in the model"
-                                  : "suspected");
+        text_column(table, "role", SHOW_TEXT, correction ? "taken out of the data" : i < neffect ? "in the model" : "suspected");
         text_column(table, "what", SHOW_TEXT,
                     effect ? effect_text(pool, &job->rotor, effect) : correction_text(pool, correction));
     }
@@ -150,7 +146,8 @@ struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spec
 
 struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside)
 {
-    struct table *table = table_open(pool, "Modes of the rotor as a beam and as a solid: the difference is beam over solid, less one");
+    struct table *table =
+        table_open(pool, "Modes of the rotor as a beam and as a solid: the difference is beam over solid, less one");
     for (int k = 0; k < beside->nmodes; k++) {
         const rotid_beside_mode *mode = &beside->modes[k];
         table_row(table);
@@ -257,8 +254,9 @@ static struct table *table_of_quotients(struct pool *pool, const struct result_h
 {
     const char *quantity = pool_format(pool, "sensitivity %s", one->name);
     const rotid_reference *paper = quantity ? head_reference(head, quantity) : NULL;
-    struct table *table = table_open(pool, pool_format(pool, "%s: E_k = 1 - R*_k/w_k^2 of the paper for each relative change, by "
-                                                             "steps of %g %% and their limit",
+    struct table *table = table_open(pool, pool_format(pool,
+                                                       "%s: E_k = 1 - R*_k/w_k^2 of the paper for each relative change, by "
+                                                       "steps of %g %% and their limit",
                                                        one->name, 100 * s->step));
     for (int k = 0; k < s->nfrequency_hz; k++) {
         table_row(table);

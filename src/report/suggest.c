@@ -15,10 +15,11 @@ struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters");
     if (table)
-        table->note = pool_format(pool,
-                              "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
-                              "frequencies alone (geometric mean).",
-                              s->plan_modes);
+        table->note =
+            pool_format(pool,
+                        "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
+                        "frequencies alone (geometric mean).",
+                        s->plan_modes);
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *p = &s->plans[i];
         table_row(table);
@@ -62,7 +63,8 @@ struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
         number_column(table, "share", NULL, SHOW_FIXED(2), s->rivals[i].share);
     }
     if (table)
-        table->note = pool_format(pool, "The true one is among them with a chance of %.2f; the chances of the tests allow for that.", s->among);
+        table->note = pool_format(
+            pool, "The true one is among them with a chance of %.2f; the chances of the tests allow for that.", s->among);
     return table;
 }
 
@@ -84,10 +86,11 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Tests: the chance that the true one of the rivals is named, what it takes");
     if (table)
-        table->note = pool_format(pool,
-                              "margin: lead of rival 1 that is expected, were it true, over the closest other one; a set-up costs "
-                              "as much as %g points.",
-                              s->set_up_cost);
+        table->note =
+            pool_format(pool,
+                        "margin: lead of rival 1 that is expected, were it true, over the closest other one; a set-up costs "
+                        "as much as %g points.",
+                        s->set_up_cost);
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         const rotid_expected_margin *m = closest(s, t);
@@ -148,7 +151,8 @@ static void print_wanted(const struct screen *to, const rotid_suggestion *s)
     if (s->modes_needed != ROTID_NONE)
         screen_say(to, "wanted %g %%: frequencies of %d modes", s->wanted_percent, s->modes_needed);
     else if (s->sensors_needed != ROTID_NONE)
-        screen_say(to, "wanted %g %%: shapes of %d modes at the %d best points", s->wanted_percent, s->plan_modes, s->sensors_needed);
+        screen_say(to, "wanted %g %%: shapes of %d modes at the %d best points", s->wanted_percent, s->plan_modes,
+                   s->sensors_needed);
     else
         screen_say(to, "wanted %g %%: not reached by 8 modes, nor by %d modes at %d points", s->wanted_percent, s->plan_modes,
                    s->ncounts ? s->counts[s->ncounts - 1].sensors : 0);
@@ -176,6 +180,6 @@ void screen_suggest(const struct screen *to, const struct result *result)
     screen_table(to, table_of_plans(to->pool, s));
     print_places(to, s);
     screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable,
-                                          "Detection limits of the first plan: smallest size that shows 9 times in 10 at 3 % of "
-                                          "false alarms"));
+                                         "Detection limits of the first plan: smallest size that shows 9 times in 10 at 3 % of "
+                                         "false alarms"));
 }

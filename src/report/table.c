@@ -173,7 +173,7 @@ void table_write_csv(FILE *out, const struct table *table)
 /* What a terminal of any kind shows: the signs of people's numbers and units as ASCII; other letters stay. */
 static const char *ascii(struct pool *pool, const char *text)
 {
-    static const char *const signs[][2] = {{DASH, "-"},        {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "},
+    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "},
                                            {"\xc2\xb7", "."}, {"\xc2\xb2", "2"},     {"\xc2\xb3", "3"}};
     char *copy = pool_copy_text(pool, text), *to = copy;
     for (const char *from = copy; from && *from;) {
