@@ -6,8 +6,8 @@
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
  *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
- *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c   tables of the results (table_of_*), and what
- *                     the command shows on the screen (screen_*); table_uff.c; chart.c: bars, strips along the axis
+ *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*), and
+ *                     what the command shows on the screen (screen_*); chart.c: bars, strips along the axis
  *   screen.c          heading, notes, name of a state, a table on the screen
  *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
  *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
@@ -284,11 +284,7 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
 
 /* ------------------------------------------------------------------------------------------------------------ report uff */
 
-/* What a universal file holds: as tables, and as the struct of their JSON. */
-
-/* The summary, the sets, the doubtful places. all: each set a row; else those that are alike share one, at most about forty. */
-void table_uff(FILE *out, const char *path, const struct listing *listing, int summary_count, const char *const *summary,
-               int all);
+/* What a universal file holds, as the struct of its JSON. */
 
 /* all: with every node and every shape. messages: their errors. On the pool; NULL where memory is out. */
 const struct uff_result *uff_result_of(struct pool *pool, const char *path, const struct listing *listing, int summary_count,
@@ -431,6 +427,9 @@ void screen_suggest(const struct screen *to, const struct result *result);
 void screen_sensitivity(const struct screen *to, const struct result *result);
 /* baseline: NLopt was asked for */
 void screen_identify(const struct screen *to, const struct result *result, int baseline);
+/* The summary, the sets, the doubtful places; sets that are alike share a row, at most about forty. */
+void screen_uff(const struct screen *to, const char *path, const struct listing *listing, int summary_count,
+                const char *const *summary);
 /* Modes, what is doubtful, stabilisation table as a picture, MAC of the result with itself, worst channels. */
 void screen_ema(const struct screen *to, const struct ema_report *report);
 /* Behind a heading. */
