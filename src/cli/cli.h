@@ -113,6 +113,8 @@ int command_fail_with(struct command *command, int status, const char *failure);
 
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
+/* Where they go. */
+struct screen command_screen(struct command *command);
 
 /* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
 int command_write_result(struct command *command, struct result *result, int code);

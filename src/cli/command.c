@@ -72,6 +72,11 @@ int command_wants_table(const struct command *command)
     return !command->quiet && !(command->json && !strcmp(command->json, "-"));
 }
 
+struct screen command_screen(struct command *command)
+{
+    return (struct screen){terminal_out(), &command->pool, command->verbose, SCREEN_WIDTH};
+}
+
 int command_write_file(struct command *command, const char *path, const char *text, int code)
 {
     if (!text)

@@ -58,8 +58,9 @@ int command_suggest(struct command *command)
     struct result result = {.head = command->head, .suggest = suggestion};
     command_take_messages(command, NULL, suggestion->nmessage, suggestion->message);
     if (command_wants_table(command)) {
-        table_suggest(terminal_out(), &result, command->verbose);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_suggest(&to, &result);
+        screen_notes(&to, &command->messages);
     }
     int written = command_write_result(command, &result, EXIT_DONE), code = write_extended(command, suggestion, written);
     rotid_suggestion_free(suggestion);

@@ -38,8 +38,10 @@ int command_uff(struct command *command)
         return command_fail(command, status);
     command_print_messages(command);
     int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
-    if (command_wants_table(command))
-        table_uff(terminal_out(), command->deck, &listing, summary_count, summary, command->verbose);
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_uff(&to, command->deck, &listing, summary_count, summary);
+    }
     struct result result = {.head = command->head};
     if (command->json)
         result.uff =
