@@ -912,7 +912,8 @@ typedef struct rotid_diagnosis {
     int nmessage;
     const rotid_message *message;
     const char
-        *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
+        *extended_deck; /* the deck with the named causes and the fitted values in it, as text, which names files by absolute
+                           paths; NULL where no deck reads as that model: a warning says why */
     void *memory;       /* internal */
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
     int nhidden;

@@ -133,7 +133,7 @@ void fuzz_one_deck(const uint8_t *bytes, size_t count)
     int status = deck_read_states(&pool, path, NULL, 0, NULL, &messages, &states);
     require((status != ROTID_OK) == (messages.errors > 0));
     if (!status) { /* what a deck cannot say is an argument that it refuses */
-        int written = deck_write_states(&pool, &states, NULL, &text);
+        int written = deck_write(&pool, &states, &states, NULL, &messages, &text);
         require(written == ROTID_OK || written == ROTID_ERROR_ARGUMENT);
         require((written == ROTID_OK) == (text != NULL));
     }

@@ -4,7 +4,9 @@
 
 #include "run/run.h"
 
-/* All numbers to the last bit, but standard deviations of frequencies within one unit of the last place. */
+/* What numbers may differ by, relative; 0 at first: to the last bit, standard deviations of frequencies within one unit of the
+ * last place. */
+extern double same_job_rounding;
 void assert_same_job(const struct job *a, const struct job *b);
 
 #endif

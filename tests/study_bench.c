@@ -233,6 +233,12 @@ cJSON *bench_result(const struct study *study, long run)
     return json;
 }
 
+double bench_truth(const cJSON *result, int p)
+{
+    const cJSON *name = get(cJSON_GetArrayItem(get(result, "parameters"), p), "name");
+    return number_of(get(result, "truth"), name->valuestring);
+}
+
 double bench_number(const cJSON *result, const char *list, int i, const char *key)
 {
     const cJSON *item = cJSON_GetArrayItem(get(result, list), i);

@@ -59,5 +59,7 @@ int bench_study(struct pool *pool, const char *text, struct message_list *messag
 cJSON *bench_result(const struct study *study, long run);
 /* Member `key` of element i of the array `list`. */
 double bench_number(const cJSON *result, const char *list, int i, const char *key);
+/* What parameter p is in truth. */
+double bench_truth(const cJSON *result, int p);
 
 #endif

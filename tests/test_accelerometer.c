@@ -200,7 +200,7 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         /* the deck that is written gives the fit again, and nothing more is found in it */
         const struct deck_write_options options = {.x = d.base.fit->x};
         char *written;
-        assert_status(deck_write(&test_pool, &d.job, &options, &written), ROTID_OK);
+        assert_status(deck_write(&test_pool, &d.given, &d.judged, &options, &notes, &written), ROTID_OK);
         assert_non_null(strstr(written, "TYPE=accelerometer_mass, MOUNT=MOVING"));
         assert_non_null(strstr(written, "*FREQUENCIES"));
         if (seed == 1) {
@@ -300,7 +300,7 @@ static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
     for (int i = 0; i < d.round[0].ncandidate; i++)
         assert_true(strcmp(d.round[0].candidate[i].cause->id, "accelerometer_mass") != 0);
     const struct deck_write_options options = {.x = d.base.fit->x};
-    assert_status(deck_write(&test_pool, &d.job, &options, &written), ROTID_OK);
+    assert_status(deck_write(&test_pool, &d.given, &d.judged, &options, &notes, &written), ROTID_OK);
     read_deck(written, &again);
     for (int i = 0; i < POINTS * MODES; i++)
         assert_close(again.measurement.shape_std[i], d.job.measurement.shape_std[i], 1e-12, 0);

@@ -68,7 +68,7 @@ static void the_extended_deck_keeps_the_words_of_the_user(void **state)
         {"brake_reuss_lap.inp", {"*FIT", "*CAUSE, NAME=lap, ", "width, 0.12"}, 0},
         {"roving_hammer_beam.inp", {"*FIT", "beam.E", "beam.G"}, 0},
         {"foam_bar_supports.inp", {"*FIT", "bar.E"}, 0},
-        {"solid_rotor.inp", {"*FIT", "core.E", "core.G", "*MEASURED", "*NOISE"}, 1},
+        {"solid_rotor.inp", {"*FIT", "core.E", "core.G", "*MEASURED"}, 1},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         char path[512], failure[ROTID_FAILURE_LENGTH];
@@ -93,7 +93,7 @@ static void the_extended_deck_keeps_the_words_of_the_user(void **state)
             assert_true(has_line(d->extended_deck, line, length));
         }
         assert_true(comments > 2);
-        assert_true(!table[i].in_file || !strstr(d->extended_deck, "FILE=")); /* it may be read from anywhere */
+        assert_true(!table[i].in_file || strstr(d->extended_deck, "FILE=/")); /* it may be read from anywhere */
         free(text);
         /* what it gives is what the diagnosis found */
         const rotid_identification *found = d->extended ? d->extended : d->base;

@@ -17,12 +17,14 @@ static void rows_of(int n, int nfar, const int *far, int *row)
         row[i] = f < nfar && far[f] == i ? n - nfar + f++ : inner++;
 }
 
-/* Bands of 1 to 6 with no, four, six and nine full rows; shifts below, between and above eigenvalues. */
+/* Bands of 1 to 6 with no, four, six, nine full rows, and the last two, which keep their places; shifts below, between and above
+ * eigenvalues. */
 static void solutions_and_counts_are_those_of_dense_matrices(void **state)
 {
     struct random_stream stream = {91};
-    const int far[9] = {0, 1, 7, 11, 12, 20, 24, 25, 36}, nfars[4] = {0, 4, 6, 9};
-    for (int trial = 0; trial < 24; trial++) {
+    const int spread[9] = {0, 1, 7, 11, 12, 20, 24, 25, 36}, ends[2] = {N - 2, N - 1}, nfars[5] = {0, 4, 6, 9, 2};
+    for (int trial = 0; trial < 30; trial++) {
+        const int *far = trial < 24 ? spread : ends;
         int kd = 1 + trial % 6, nfar = nfars[trial / 6], row[N], negative[ARROW_SHIFTS], judged = 0;
         rotid_matrix k, m;
         struct arrow a;

@@ -114,7 +114,8 @@ static void sets_that_are_not_used_are_read_over(void **state)
     assert_status(uff_write_units(stream, &uff_si), ROTID_OK);
     assert_int_equal(fclose(stream), 0);
     doubts_are("over.uff", ",");
-    says("over.uff", 0, "elements                 read over");
+    says("over.uff", 0, "read over");
+    assert_non_null(strstr(uff_output, "elements  "));
     assert_int_equal(run("over.uff --json -"), 0);
     cJSON *json = cJSON_Parse(uff_output);
     for (int i = 0; i < 6; i++) {

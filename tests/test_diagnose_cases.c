@@ -98,7 +98,8 @@ static void check_extended(struct run *r)
         message_open(&quiet, &pool);
         if (way) {
             const struct deck_write_options options = {.x = found->x};
-            assert_status(deck_write(&pool, &d->extended_job, &options, &text), ROTID_OK);
+            message_open(&messages, &pool);
+            assert_status(deck_write(&pool, &d->given, &d->extended_states, &options, &messages, &text), ROTID_OK);
             read_deck(&pool, &messages, folder_write("extended.inp", text), &job);
         } else
             job = d->extended_job;

@@ -114,7 +114,8 @@ static void a_beam_that_is_a_solid_is_told_so(void **state)
     assert_close(d.extended.fit->x[0], true_e, 0.015, 0);
     assert_close(d.extended.fit->x[1], true_g, 0.03, 0);
     char *deck;
-    assert_status(deck_write_extended(&test_pool, &d, "deck.inp", &deck), ROTID_OK);
+    message_open(&messages, &test_pool);
+    assert_status(deck_write_extended(&test_pool, &d, &messages, &deck), ROTID_OK);
     assert_non_null(strstr(deck, "MODEL=SOLID"));
     struct job again;
     message_open(&messages, &test_pool);

@@ -55,7 +55,7 @@ static void noise_explains_a_misfit_or_the_model_is_not_adequate(void **state)
         FILE *stream = open_memstream(&text, &length);
         assert_close(fit_p_value(&fit), cases[i].p, 1e-12, 0);
         assert_non_null(stream);
-        table_identify(stream, &result, 0, 0);
+        screen_identify(&(struct screen){stream, &test_pool, 0, SCREEN_WIDTH}, &result, 0);
         assert_int_equal(fclose(stream), 0);
         if (!strstr(text, cases[i].says) || strstr(text, cases[i].silent))
             print_error("p = %g:\n%s\n", cases[i].p, text);
@@ -191,9 +191,9 @@ static void an_interval_is_wide_from_15_per_cent_on(void **state)
     char *screen = NULL;
     size_t size;
     FILE *out = open_memstream(&screen, &size);
-    table_identify(out, &result, 0, 0);
+    screen_identify(&(struct screen){out, &test_pool, 0, SCREEN_WIDTH}, &result, 0);
     (void)fclose(out);
-    assert_non_null(strstr(screen, "   to 16 % only\n"));
+    assert_non_null(strstr(screen, "  determined to 16 % only\n"));
     assert_null(strstr(screen, "to 14 % only"));
     assert_ptr_equal(hidden_in(3, hidden, &p[0]), &hidden[0]);
     assert_null(hidden_in(3, hidden, &p[1])); /* within its interval */
@@ -212,5 +212,5 @@ int main(void)
         cmocka_unit_test(a_lead_counts_what_was_searched_for),
         cmocka_unit_test(the_fit_of_today_is_shown_where_it_differs),
     };
-    return cmocka_run_group_tests_name("judgement", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("judgement", tests, open_test_pool, close_test_pool);
 }

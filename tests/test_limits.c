@@ -269,6 +269,44 @@ static void reading_ends_and_limits_of_files_are_errors(void **state)
     assert_string_equal(shell(&test_pool, "ls %s", folder), "");
 }
 
+/* 101 sets 55 of modes at three nodes */
+static void more_modes_of_a_file_than_a_deck_takes_are_refused(void **state)
+{
+    (void)state;
+    const char *output;
+    (void)shell(
+        &test_pool,
+        "cd %s && awk 'BEGIN { print \"    -1\\n    15\"; for (i = 1; i < 4; i++) printf "
+        "\"%%10d%%10d%%10d%%10d%%13.5e%%13.5e%%13.5e\\n\", i, 0, 0, 1, 0, 0, 0.3 * i; print \"    -1\"; for (k = 1; k <= 101; "
+        "k++) { print \"    -1\\n    55\\nNONE\\nNONE\\nNONE\\nNONE\\nNONE\"; printf "
+        "\"%%10d%%10d%%10d%%10d%%10d%%10d\\n%%10d%%10d%%10d%%10d\\n%%13.5e%%13.5e%%13.5e%%13.5e\\n\", 1, 2, 2, 8, 2, 3, 2, 4, 1, "
+        "k, "
+        "100 * k, 1, 0, 0; for (i = 1; i < 4; i++) printf \"%%10d\\n%%13.5e%%13.5e%%13.5e\\n\", i, 1, 0.5 * i, k %% i; print "
+        "\"    -1\" } }' > m.uff && printf '" SHAFT "\n*MEASURED, FILE=m.uff, DIRECTION=X, AXIS=Z\n' > deck",
+        folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && " LIMITED "check deck 2>&1", folder), 2);
+    assert_non_null(strstr(output, "m.uff:1707:1: the number of a mode is 101, expected 1 to 100"));
+    (void)shell(&test_pool, "cd %s && rm m.uff deck", folder);
+}
+
+/* A pipe into which nobody writes, and one in which nothing more comes: reading ends by the signal and not by an error. */
+static void a_signal_is_no_error_of_what_is_read(void **state)
+{
+    (void)state;
+    static const char *const writer[] = {":", "exec 3<> slow; printf '    -1\\n    55\\n' >&3"};
+    for (int w = 0; w < 2; w++) {
+        const char *output;
+        assert_int_equal(shell_code(&test_pool, &output,
+                                    "cd %s && rm -f slow && mkfifo slow && { %s; timeout -s TERM -k 8 0.5 " ROTID_PROGRAM
+                                    " uff slow; } 2>&1",
+                                    folder, writer[w]),
+                         124);
+        assert_null(strstr(output, "Interrupted system call"));
+        assert_true(w || strstr(output, "rotid: interrupted")); /* else the clock of signals has ended it */
+    }
+    (void)shell(&test_pool, "cd %s && rm slow", folder);
+}
+
 /* Every command on an input that keeps it busy for seconds, or on a program or a pipe that does: ended by the signal of
  * timeout(1), code 124, and not by the SIGKILL that follows, 137, within a second and what the machine is late. */
 static void every_command_obeys_within_a_second(void **state)
@@ -366,6 +404,8 @@ int main(void)
         cmocka_unit_test(who_does_not_end_is_ended),
         cmocka_unit_test_setup_teardown(reading_ends_and_limits_of_files_are_errors, open_test_pool, close_test_pool),
         cmocka_unit_test(two_signals_at_once_are_one),
+        cmocka_unit_test_setup_teardown(more_modes_of_a_file_than_a_deck_takes_are_refused, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_signal_is_no_error_of_what_is_read, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(every_command_obeys_within_a_second, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("limits", tests, setup, teardown);

@@ -128,7 +128,15 @@ static void the_deck_that_is_written_states_the_elements(void **state)
     char *text;
     (void)state;
     read_text(&r, MATERIAL SHAFTS("", "", "") MODES);
-    assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_OK);
+    struct state only, other;
+    const struct states given = states_of(&r.job, &only), meant = states_of(&r.job, &other);
+    double std[10];
+    for (int k = 0; k < r.job.measurement.nmode; k++)
+        std[k] = 1e-6;
+    other.job.measurement.frequency_std = std; /* for which a finer mesh would be chosen */
+    other.job.options.fit.functional = ROTID_LIKELIHOOD;
+    assert_status(deck_write(&r.pool, &given, &meant, NULL, &r.messages, &text), ROTID_OK);
+    assert_non_null(strstr(text, "*NOISE, FREQUENCY=1e-6"));
     read_text(&again, text);
     for (int s = 0; s < 3; s++)
         assert_int_equal(again.job.rotor.segment[s].elements, r.job.rotor.segment[s].elements);

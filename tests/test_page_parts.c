@@ -95,37 +95,36 @@ static void write_html(FILE *out, const struct table *table)
 static void a_table_is_shown_in_three_ways(void **state)
 {
     (void)state;
-    static const struct table_column columns[] = {{"part", NULL, TABLE_TEXT, 0},
-                                                  {"error", "%", TABLE_SIGNED, 2},
-                                                  {"none", NULL, TABLE_FIXED, 3},
-                                                  {"chance", NULL, TABLE_CHANCE, 2},
-                                                  {"mass", "kg", TABLE_TRIMMED, 4}};
+    static const struct {
+        const char *part;
+        double error, chance, mass;
+    } rows[] = {{"=left", -0.126, 1e-9, 60}, {"core \xe2\x82\xac", 12.5, 0.254, NAN}};
     struct table *table = table_open(&test_pool, "Masses & errors");
-    table_add_columns(table, 5, columns);
     table->note = "The last row is not known.";
-    cell_text(table, "=left");
-    cell_number(table, -0.126);
-    cell_number(table, NAN);
-    cell_number(table, 1e-9);
-    cell_number(table, 60);
-    cell_text(table, "core \xe2\x82\xac");
-    cell_number(table, 12.5);
-    cell_number(table, NAN);
-    cell_number(table, 0.254);
-    cell_number(table, NAN);
+    for (int i = 0; i < 2; i++) {
+        table_row(table);
+        text_column(table, "part", SHOW_TEXT, rows[i].part);
+        number_column(table, "error", "%", SHOW_SIGNED(2), rows[i].error);
+        number_column(table, "none", NULL, SHOW_FIXED(3), NAN);
+        number_column(table, "chance", NULL, SHOW_CHANCE(2), rows[i].chance);
+        scaled_column(table, "stiffness", "N/m", SHOW_DIGITS(3), 2e6, 1e6 * (i + 1));
+        number_column(table, "mass", "kg", SHOW_TRIMMED(4), rows[i].mass);
+        number_column(table, "raw", NULL, SHOW_COUNT | IN_CSV_ONLY, i);
+        text_column(table, "remark", NOT_IN_CSV | DETAIL, i ? "a long remark that a narrow screen has no room for" : "");
+    }
     assert_false(table->failed);
     assert_int_equal(table_rows(table), 2);
     assert_int_equal(table_column_is_shown(table, 2), 0); /* dashes alone */
     /* columns end under their heads, in characters and not in bytes; a column without a value is not there */
     assert_string_equal(written(write_text, table), "Masses & errors\n"
-                                                    "part    error [%]  chance  mass [kg]\n"
-                                                    "=left       " MINUS "0.13  <0.001         60\n"
-                                                    "core \xe2\x82\xac     +12.50    0.25          " DASH "\n"
+                                                    "part    error [%]  chance  stiffness [MN/m]  mass [kg]\n"
+                                                    "=left       -0.13  <0.001              1.00         60\n"
+                                                    "core \xe2\x82\xac     +12.50    0.25              2.00          -\n"
                                                     "The last row is not known.\n");
     /* numbers as they are, and nothing that a spreadsheet runs */
-    assert_string_equal(written(table_write_csv, table), "part,error [%],none,chance,mass [kg]\n"
-                                                         "'=left,-0.126,,1e-9,60\n"
-                                                         "core \xe2\x82\xac,12.5,,0.254,\n");
+    assert_string_equal(written(table_write_csv, table), "part,error [%],none,chance,stiffness [N/m],mass [kg],raw\n"
+                                                         "'=left,-0.126,,1e-9,1e6,60,0\n"
+                                                         "core \xe2\x82\xac,12.5,,0.254,2e6,,1\n");
     const char *html = written(write_html, table);
     page_says(html, "<caption id=\"table-7\"><span>Masses &amp; errors</span></caption>");
     page_says(html, "<tr><th scope=\"col\">part</th><th scope=\"col\" class=\"n\">error [%%]</th>");
@@ -134,18 +133,17 @@ static void a_table_is_shown_in_three_ways(void **state)
     assert_null(strstr(html, "none"));
 }
 
-static void an_interval_is_four_cells(void **state)
+/* People read it in its unit, with the digits of its interval; CSV has SI. */
+static void a_row_has_a_unit(void **state)
 {
     (void)state;
     struct table *table = table_open(&test_pool, "");
-    table_add_column(table, "unit", NULL, TABLE_TEXT, 0);
-    for (int i = 0; i < 3; i++)
-        table_add_column(table, "number", NULL, TABLE_DIGITS, 3);
-    cell_interval(table, 115.75e9, (const double[]){55.1e9, 176.4e9}, "Pa");
-    static const char *const text[] = {"GPa", "115.8", "55.1", "176.4"};
-    for (int j = 0; j < 4; j++)
-        assert_string_equal(table->cell[j].text, text[j]);
-    assert_close(table->cell[1].value, 115.75, 1e-14, 0);
+    table_row(table);
+    unit_column(table, 115.75e9, (176.4e9 - 55.1e9) / 2, "Pa");
+    number_column(table, "value", ROW_UNIT, SHOW_ROW, 115.75e9);
+    number_column(table, "upper", ROW_UNIT, SHOW_ROW, 176.4e9);
+    assert_string_equal(written(write_text, table), "unit  value  upper\nGPa   115.8  176.4\n");
+    assert_string_equal(written(table_write_csv, table), "unit,value,upper\nPa,115750000000,1.764e11\n");
 }
 
 static void ids_become_words_and_paths_names(void **state)
@@ -188,8 +186,8 @@ static void every_text_of_a_page_is_shown_so(void **state)
     document_list(&document, 1, text);
     document_facts(&document, 1, name, text);
     struct table *table = table_open(&test_pool, "caption: layer_slip");
-    table_add_column(table, "head: tie_shear", NULL, TABLE_TEXT, 0);
-    cell_text(table, "cell: tie_tension");
+    table_row(table);
+    text_column(table, "head: tie_shear", SHOW_TEXT, "cell: tie_tension");
     table->note = "note: tie_stiffness";
     document_table(&document, table);
     document.verbatim = 1;
@@ -223,7 +221,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(numbers_are_written_for_people, open_test_pool, close_test_pool),
         cmocka_unit_test(texts_are_escaped),
         cmocka_unit_test_setup_teardown(a_table_is_shown_in_three_ways, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(an_interval_is_four_cells, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_row_has_a_unit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(ids_become_words_and_paths_names, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(every_text_of_a_page_is_shown_so, open_test_pool, close_test_pool),
     };

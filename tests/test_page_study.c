@@ -42,7 +42,7 @@ static void intervals_are_counted_against_the_truth(void **state)
         int first = number_of(get(run, "cell"), "noise_frequency") < 0.002;
         for (int p = 0; p < 2; p++) {
             const cJSON *item = parameter(run, p), *ci = get(item, "ci95");
-            double truth = number_of(item, "truth");
+            double truth = number_of(get(run, "truth"), get(item, "name")->valuestring);
             int holds = cJSON_GetArrayItem(ci, 0)->valuedouble <= truth && truth <= cJSON_GetArrayItem(ci, 1)->valuedouble;
             all += holds;
             held[p] += first && holds;

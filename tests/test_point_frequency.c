@@ -282,8 +282,13 @@ static void the_deck_comes_back(void **state)
     for (int i = 0; i < 3; i++) {
         struct reading r, back;
         char *written;
+        double damping[] = {0.01, 0.02};
         read_text(&r, text[i]);
-        assert_status(deck_write(&test_pool, &r.job, NULL, &written), ROTID_OK);
+        struct state only, other;
+        const struct states given = states_of(&r.job, &only), meant = states_of(&r.job, &other);
+        other.job.measurement.damping = damping; /* so that the data are written anew */
+        assert_status(deck_write(&test_pool, &given, &meant, NULL, &r.messages, &written), ROTID_OK);
+        assert_non_null(strstr(written, "MEAN=NO"));
         read_text(&back, written);
         assert_same(12, r.job.measurement.point_frequency_hz, back.job.measurement.point_frequency_hz);
         assert_same(12, r.job.measurement.point_frequency_std, back.job.measurement.point_frequency_std);

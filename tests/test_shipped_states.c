@@ -8,7 +8,6 @@
 #include "deck/deck.h"
 #include "hidden.h"
 #include "rotid.h"
-#include "same_job.h"
 
 #define STRIP  ROTID_SOURCE_DIR "/input/strip_states.inp"
 #define ROLLER ROTID_SOURCE_DIR "/input/roller_states.inp"
@@ -160,28 +159,6 @@ static void a_place_of_the_roller_is_predicted_within_one_per_cent(void **state)
     }
 }
 
-/* The decks as they are written are read as the same states. */
-static void they_come_back(void **state)
-{
-    (void)state;
-    static const char *const decks[] = {STRIP, ROLLER};
-    for (int i = 0; i < 2; i++) {
-        struct message_list messages;
-        struct states first, second;
-        char *text;
-        message_open(&messages, &test_pool);
-        assert_status(deck_read_states(&test_pool, decks[i], NULL, 0, NULL, &messages, &first), ROTID_OK);
-        assert_status(deck_write_states(&test_pool, &first, NULL, &text), ROTID_OK);
-        const struct deck_memory memory = {"again", strlen(text), text, NULL};
-        assert_status(deck_read_states(&test_pool, "again", &memory, 0, NULL, &messages, &second), ROTID_OK);
-        assert_int_equal(first.nstate, second.nstate);
-        for (int s = 0; s < first.nstate && i; s++) /* lengths of the strip may differ by a rounding */
-            assert_same_job(&first.state[s].job, &second.state[s].job);
-        for (int s = 0; s < first.nstate; s++)
-            assert_close(rotor_length(&first.state[s].job.rotor), rotor_length(&second.state[s].job.rotor), 1e-14, 0);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -190,7 +167,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(without_the_accelerometer_the_strip_is_too_high, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_accelerometer_of_the_strip_is_in_the_set, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_place_of_the_roller_is_predicted_within_one_per_cent, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(they_come_back, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("shipped_states", tests, NULL, NULL);
 }

@@ -297,6 +297,36 @@ static void decks_are_identified_as_they_stand(void **state)
     assert_int_equal(bench_lines("x.jsonl"), 0);
 }
 
+/* Of decks named on the command line a repeated command computes those again that were mended, and nothing else. */
+static void a_mended_deck_runs_again(void **state)
+{
+    (void)state;
+    (void)bench_write("first.inp", BENCH_DECK);
+    (void)bench_write("second.inp", "*SHAFT\n");
+    bench_says("study first.inp second.inp -o mended.jsonl", 1, "1 failed");
+    char *before = bench_read("mended.jsonl");
+    (void)bench_write("second.inp", BENCH_DECK);
+    bench_says("study first.inp second.inp -o mended.jsonl --json m.json", 0, "2 of 2 runs of identify, 0 failed");
+    char *after = bench_read("mended.jsonl"), *json = bench_read("m.json");
+    const char *run = strstr(before, "{\"run\":0");
+    size_t length = strcspn(run, "\n") + 1;
+    assert_non_null(strstr(after, "{\"run\":0"));
+    assert_int_equal(strncmp(strstr(after, "{\"run\":0"), run, length), 0); /* its time as well: it was not computed again */
+    assert_int_equal(bench_lines("mended.jsonl"), 3);
+    free(before);
+    free(json);
+    bench_says("study --summary mended.jsonl", 0, "2 of 2 runs");
+    bench_says("study first.inp second.inp -o mended.jsonl --quiet", 0, "");
+    before = bench_read("mended.jsonl");
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+    (void)bench_write("first.inp", BENCH_DECK "*NOISE, FREQUENCY=0.01\n"); /* of one that had not failed as well */
+    bench_says("study first.inp second.inp -o mended.jsonl", 0,
+               "lines of decks that have changed since: 1; their runs are computed again");
+    bench_says("study first.inp -o mended.jsonl", 2, "the plan has changed"); /* not the same decks */
+}
+
 static void wrong_usage_is_refused(void **state)
 {
     (void)state;
@@ -400,6 +430,7 @@ int main(void)
         cmocka_unit_test(workers_end_with_their_study),
         cmocka_unit_test(two_studies_do_not_write_one_file),
         cmocka_unit_test(decks_are_identified_as_they_stand),
+        cmocka_unit_test(a_mended_deck_runs_again),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(the_summary_is_a_table_or_json),
         cmocka_unit_test(a_full_disk_stops_it),

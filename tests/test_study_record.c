@@ -43,13 +43,14 @@ static const char *line_of(long run, const char *status, double value)
     static char text[8][900];
     static int next;
     next = (next + 1) % 8;
-    (void)snprintf(text[next], sizeof text[next],
-                   "{\"run\":%ld,\"cell\":" CELL ",\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
-                   "\"functional\":\"HYBRID\",\"reduction\":\"GUYAN\",\"objective\":%g,\"chi2_per_dof\":%g,\"dof\":1,"
-                   "\"iterations\":1,\"evaluations\":1,\"stop_reason\":\"\",\"sensors\":0,\"parameters\":[{\"name\":\"a\","
-                   "\"unit\":\"1\",\"value\":%g,\"start\":1,\"std\":2,\"ci95\":[0,4],\"at_bound\":false,"
-                   "\"identifiable\":true,\"truth\":3}],\"modes\":[],\"hidden\":null,\"warnings\":[],\"seconds\":%g}\n",
-                   run, run, status, value, value > 5 ? 6.64 : 6.63, value, 0.001 * (double)run);
+    (void)snprintf(
+        text[next], sizeof text[next],
+        "{\"run\":%ld,\"cell\":" CELL ",\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
+        "\"functional\":\"HYBRID\",\"reduction\":\"GUYAN\",\"objective\":%g,\"chi2\":null,\"chi2_per_dof\":%g,\"dof\":1,"
+        "\"iterations\":1,\"evaluations\":1,\"stop_reason\":\"\",\"sensors\":0,\"truth\":{\"a\":3},\"hidden\":null,"
+        "\"parameters\":[{\"name\":\"a\",\"unit\":\"1\",\"value\":%g,\"start\":1,\"lower\":0,\"upper\":9,\"std\":2,"
+        "\"ci95\":[0,4],\"at_bound\":false,\"identifiable\":true}],\"modes\":[],\"warnings\":[],\"seconds\":%g}\n",
+        run, run, status, value, value > 5 ? 6.64 : 6.63, value, 0.001 * (double)run);
     return text[next];
 }
 
@@ -191,19 +192,20 @@ static void other_files_are_left_alone(void **state)
         const char *words;
     } table[] = {
         {{"1.2.4", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
-          RUNS, 1, 1},
+          RUNS, 1, 1, NULL},
          "begun by rotid 1.2.3 (abc), this is 1.2.4 (abc)"},
-        {{"1.2.3", "abc", NULL, "identify", "x", study.decks_digest, study.data_digest, study.options_digest, 1, RUNS, 1, 1},
+        {{"1.2.3", "abc", NULL, "identify", "x", study.decks_digest, study.data_digest, study.options_digest, 1, RUNS, 1, 1,
+          NULL},
          "the plan has changed"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, "x", "y", study.options_digest, 1, RUNS, 1, 1},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, "x", "y", study.options_digest, 1, RUNS, 1, 1, NULL},
          "a deck and the measured data have changed"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, "x", 1, RUNS, 1, 1},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, "x", 1, RUNS, 1, 1, NULL},
          "--set has changed"},
         {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 7,
-          RUNS, 1, 1},
+          RUNS, 1, 1, NULL},
          "its seed is 1, not 7"},
         {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
-          RUNS, 2, 3},
+          RUNS, 2, 3, NULL},
          "is of shard 1/1 and not of 2/3"},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {

@@ -548,11 +548,13 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
                       cards[] = "** proposed\n*STATE, NAME=again\n*NOISE, FREQUENCY=0.001\n";
     char *text;
     (void)state;
-    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "disc", cards, &text), 0);
+    const struct deck_file file = {"old", old};
+    const struct deck_origin origin = {.path = "old", .memory = 1, .nfile = 1, .file = &file};
+    assert_int_equal(deck_add_state(&test_pool, &origin, "disc", cards, &text), 0);
     assert_int_equal(strncmp(text, old, sizeof old - 1), 0);
     assert_string_equal(text + sizeof old - 1, "** proposed\n*STATE, NAME=again\n*DISK, NAME=d\n0.5, 3\n*SET\nbar.length, "
                                                "0.9\n*NOISE, FREQUENCY=0.001\n");
-    assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, "bare", cards, &text), 0);
+    assert_int_equal(deck_add_state(&test_pool, &origin, "bare", cards, &text), 0);
     assert_string_equal(text + sizeof old - 1, cards);
 }
 
@@ -587,7 +589,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
                                   .averages = 1};
         char *cards, *text, failure[ROTID_FAILURE_LENGTH];
         assert_int_equal(deck_write_test(&test_pool, &job, &test, &cards), 0);
-        assert_int_equal(deck_add_state(&test_pool, "old", old, NULL, NULL, cards, &text), 0);
+        assert_int_equal(deck_add_state(&test_pool, job.origin, NULL, cards, &text), 0);
         assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
@@ -605,6 +607,9 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
         rotid_deck_free(deck);
     }
 }
+
+#define STEEL_BAR                                                                                                                \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n0.8, 0.03, 0, 80\n"
 
 /* Where files of these tests lie; the last one is written elsewhere. */
 static const char *file_of(const char *name)
@@ -656,7 +661,8 @@ static int propose(const char *from, const char *to, const char *home, enum test
     assert_int_equal(deck_write_test(&test_pool, &states.state[states.nstate - 1].job, &test, &own), 0);
     suggested.cards = cards ? cards : own;
     message_open(notes, &test_pool);
-    return deck_propose(&test_pool, from, to, home, &suggested, notes, text);
+    int status = deck_propose(&test_pool, &states, home, &suggested, notes, text);
+    return status ? status : deck_place(&test_pool, from, *text, to, notes, text);
 }
 
 /* What is proposed for a deck stands in its units, finds its files from the other folder, gets a name of its own and goes with
@@ -724,10 +730,10 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
                 "** proposed\n*STATE, NAME=mass\n*DISK, NAME=known_mass\n0.25, 0.5\n*SENSORS\n1, 100\n2, 400\n3, 700\n"
                 "** *MODES\n** 1, 0.2\n",
                 &notes, &text),
-        ROTID_ERROR_SYNTAX);
+        ROTID_ERROR_ARGUMENT);
     assert_null(text);
     assert_non_null(strstr(notes.item[0].text, "the cards of the test mass would be read as another one"));
-    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_SYNTAX);
+    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_ARGUMENT);
     assert_null(text);
     assert_int_equal(propose(file_of("units.inp"), file_of("nowhere/x.inp"), NULL, TEST_MASS, NULL, &notes, &text),
                      ROTID_ERROR_IO);
@@ -737,6 +743,26 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
     for (size_t i = 0; i < sizeof made / sizeof *made; i++)
         remove(file_of(made[i]));
     assert_int_equal(rmdir(file_of("next")), 0);
+}
+
+/* Modes that *FIT holds out are of the test that was made: the next one may not measure them. This once gave no deck. */
+static void modes_that_are_held_out_stay_with_their_state(void **state)
+{
+    static const char *const model = STEEL_BAR "*SPRING, NAME=foam\n0.1, 500\n*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\n";
+    struct message_list notes;
+    struct states states;
+    char *text;
+    (void)state;
+    put_file("held.inp",
+             pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
+    assert_int_equal(propose(file_of("held.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
+    assert_non_null(strstr(text, "*STATE, NAME=measured, MODES=1-3, HOLDOUT=3\n"));
+    put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text));
+    assert_int_equal(read_path(file_of("held.inp"), &states), 0);
+    static const int held[] = {0, 0, 1, 1};
+    assert_memory_equal(states.state[0].job.measurement.holdout, held, sizeof held);
+    assert_memory_equal(states.state[1].job.measurement.holdout, held, 2 * sizeof *held);
+    assert_int_equal(remove(file_of("held.inp")), 0);
 }
 
 static int open_directory(void **state)
@@ -766,6 +792,7 @@ int main(void)
         TEST(the_deck_of_a_test_is_the_deck_and_a_state),
         TEST(the_deck_of_a_test_like_a_state_has_its_cards),
         TEST(what_is_proposed_reads_as_it_is_meant),
+        TEST(modes_that_are_held_out_stay_with_their_state),
     };
     return cmocka_run_group_tests(tests, open_directory, close_directory);
 }

@@ -68,7 +68,7 @@ static void identify_shows_measured_predicted_error_and_the_papers_own(void **st
                         paper[] = {-3.83, 8.38, 2.52, -1.12, -3.72, -1.00};
     assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
     (void)line_with("converged, fit of 6 modes, functional HYBRID, reduction GUYAN");
-    (void)line_with("core.E            1.15706e+11  Pa");
+    (void)line_with("core.E     GPa   115.7");
     (void)line_with(WITH_NLOPT ? "NLopt LN_BOBYQA" : "no minimiser beside it: this rotid is built without NLopt");
     (void)line_with("the hybrid quotient equals the frequency of the condensed model");
     for (int k = 1; k <= 6; k++) {
@@ -76,9 +76,9 @@ static void identify_shows_measured_predicted_error_and_the_papers_own(void **st
         assert_close(cell(k, 3), paper_hz[k - 1], 0, 0);
         assert_close(cell(k, 4), paper[k - 1], 0, 0);
     }
-    assert_null(strstr(text, "iteration   objective"));
+    assert_null(strstr(text, "iteration  "));
     assert_int_equal(run("identify " INPUT "paper_rotor.inp --verbose --no-baseline"), 0);
-    (void)line_with("iteration   objective");
+    (void)line_with("iteration  ");
     assert_null(strstr(text, "NLopt"));
 }
 
@@ -107,8 +107,8 @@ static void what_is_not_determined_or_at_a_bound_is_said(void **state)
     assert_int_equal(fclose(file), 0);
     (void)snprintf(arguments, sizeof arguments, "identify %s --no-baseline", deck);
     assert_int_equal(run(arguments), 1); /* a bar this slender says nothing about shear */
-    assert_non_null(strstr(line_with("bar.G  "), "NOT DETERMINED by these data\n"));
-    assert_null(strstr(line_with("bar.E  "), "2e+11   NOT"));
+    assert_non_null(strstr(line_with("bar.G  "), "not determined by these data\n"));
+    assert_null(strstr(line_with("bar.E  "), "  200  not"));
     (void)snprintf(arguments, sizeof arguments, "sensitivity %s --quiet", deck);
     assert_int_equal(run(arguments), 0);
     assert_string_equal(text, "");
@@ -126,17 +126,17 @@ static void modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error(v
     }
     assert_null(strstr(text, "z [m]"));
     assert_int_equal(run("modes " INPUT "solid_steel.inp --verbose"), 0);
-    (void)line_with("    z [m]  mode 1  ");
-    (void)line_with("  2.03000");
+    (void)line_with("sensor  position [m]    mode 1  ");
+    (void)line_with("  2.03000 ");
 }
 
 static void sensitivity_shows_table_1_beside_the_paper(void **state)
 {
     (void)state;
     assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp --at core.E=8e10,core.G=3e10,core.nu=0.3333333333 --points 3"), 0);
-    assert_non_null(strstr(line_with("373.1534"), "6.690e-01")); /* the paper's first entry beside ours */
+    assert_non_null(strstr(line_with("373.1534"), "0.6690")); /* the paper's first entry beside ours */
     (void)line_with("core.nu at 0.333333");
-    (void)line_with(" 0.500");
+    (void)line_with("\n0.500 ");
     assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp"), 0);
     (void)line_with("core.E at 6e+10 Pa");
     static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at ,",
@@ -159,7 +159,7 @@ static void check_shows_mass_mesh_and_groups(void **state)
     assert_non_null(strstr(line_with("centre of mass"), "1.059125 m"));
     assert_non_null(strstr(line_with("mesh"), "176 nodes, 175 elements"));
     assert_non_null(strstr(line_with("rigid-body modes"), "2 (modes on the supports at"));
-    assert_non_null(strstr(line_with("core  "), "1.1570e+11"));
+    assert_non_null(strstr(line_with("core  "), "115.70"));
 }
 
 /* ---- numbers that are none */
@@ -216,10 +216,10 @@ static void what_is_no_number_is_a_dash(void **state)
                    "%s*MODES\n1, 500\n2, 1300\n3, 2400\n*NOISE, FREQUENCY=1e-30\n*IDENTIFY\ncore.E, 1e11, 4e11, 2e11\n", first);
     run_deck("diagnose", "--verbose --replicates 100", deck);
     assert_no_such_word();
-    const char *head = strstr(text, "res./sigma"), *row = strstr(text, "     1            500 ");
+    const char *head = strstr(text, "res./sigma"), *row = strstr(text, "\n   1        500.000 ");
     assert_true(head && row);
-    assert_int_equal(strcspn(row, "|"), strcspn(strstr(row, "\n") + 1, "|"));
-    assert_non_null(strstr(row, "e+2"));
+    assert_int_equal(strcspn(row + 1, "|"), strcspn(strstr(row + 1, "\n") + 1, "|"));
+    assert_non_null(strstr(row, "e2"));
     /* modes by their shapes, without an NCO */
     int length = snprintf(deck, sizeof deck, SHAFT "*SENSORS\n", MANY);
     for (int i = 0; i <= MANY; i++)

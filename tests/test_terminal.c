@@ -193,9 +193,29 @@ static void extended_decks(void **state)
     (void)RUN("diagnose", "a.inp", "--extended", "b.inp", "--replicates", "100");
     assert_text_file("b.inp", 1);
     (void)read_file("b.inp", text, sizeof text);
-    assert_non_null(strstr(text, "L\xef\xbf\xbdnge \xef\xbf\xbd \xef\xbf\xbd " LETTERS));
+    assert_non_null(strstr(text, "L\xe4nge \xef\xbf\xbd \xff " LETTERS)); /* the words of the user, but for a control */
     assert_non_null(strstr(text, "NAME=L\xe4ufer"));
     assert_run(RUN("check", "b.inp"), 0);
+}
+
+/* A deck from standard input, and one that is made of it: files are relative to where the program runs. */
+static void a_deck_may_come_from_standard_input(void **state)
+{
+    static char text[1 << 16];
+    const char *output;
+    (void)state;
+    write_file("modes.csv", "mode,frequency [Hz]\n1,430\n2,1150\n3,2150\n4,3380\n");
+    write_file("a.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+                        "1, 0.1, 0, 20\n** of today\n*MODES, FILE=modes.csv\n*NOISE, FREQUENCY=0.002\n"
+                        "*IDENTIFY\nbar.E, 1e11, 4e11, 2e11\n");
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && %s diagnose - --quiet --replicates 100 --extended b.inp < a.inp",
+                                folder, ROTID_PROGRAM),
+                     0);
+    (void)read_file("b.inp", text, sizeof text);
+    assert_non_null(strstr(text, "** of today\n*MODES, FILE=modes.csv\n"));
+    assert_non_null(strstr(text, "from -, verdict"));
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && %s check - < /dev/null", folder, ROTID_PROGRAM), 2);
+    assert_non_null(strstr(output, "-:1:1: the deck is empty"));
 }
 
 /* ---- universal files */
@@ -425,6 +445,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(decks_and_their_names, setup, teardown),
         cmocka_unit_test_setup_teardown(decks_with_control_characters, setup, teardown),
         cmocka_unit_test_setup_teardown(extended_decks, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_deck_may_come_from_standard_input, setup, teardown),
         cmocka_unit_test_setup_teardown(universal_files, setup, teardown),
         cmocka_unit_test_setup_teardown(results_of_commands, setup, teardown),
         cmocka_unit_test_setup_teardown(results_of_studies, setup, teardown),

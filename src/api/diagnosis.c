@@ -4,12 +4,18 @@
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 
-static rotid_diagnosis *make_result(struct call *call, const struct states *states, const char *path, struct diagnosis *d)
+static rotid_diagnosis *make_result(struct call *call, const struct states *states, struct diagnosis *d)
 {
     struct pool *pool = &call->entry.scratch;
     char *text = NULL;
+    struct message_list refusals;
+    message_open(&refusals, pool);
     if (d->result.verdict.sentence && d->base.fit && !d->result.before)
-        (void)deck_write_extended(pool, d, path, &text);
+        (void)deck_write_extended(pool, d, &refusals, &text);
+    for (size_t i = 0; i < refusals.count && !text; i++) { /* the diagnosis stands without a deck */
+        const rotid_message *m = &refusals.item[i];
+        message_add(&call->notes, SEVERITY_WARNING, m->file, m->line, m->column, "%s", m->text);
+    }
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
     made->nmessage = (int)call->notes.count;
@@ -56,7 +62,7 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
                  : diagnose_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, &d);
     if (status)
         return status;
-    *result = make_result(call, states, deck->path, &d);
+    *result = make_result(call, states, &d);
     if (*result)
         return ROTID_OK;
     diagnose_free(&d);

@@ -113,12 +113,16 @@ int command_fail_with(struct command *command, int status, const char *failure);
 
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
+/* Where they go. */
+struct screen command_screen(struct command *command);
 
 /* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
 int command_write_result(struct command *command, struct result *result, int code);
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
+/* The same of a deck that was made from that of the command, to --extended. */
+int command_write_deck(struct command *command, const char *text, int code);
 
 /* A state to work on at identified values, or the deck that is one. */
 struct fitted_state {

@@ -38,6 +38,10 @@ void command_print_messages(struct command *command)
 
 int command_fail(struct command *command, int status)
 {
+    if (command_cancelled(NULL)) { /* what failed did so for the signal: a read that it ended has no error of its own */
+        terminal_say("rotid: interrupted\n");
+        return EXIT_DOUBTFUL;
+    }
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));
@@ -68,6 +72,11 @@ int command_wants_table(const struct command *command)
     return !command->quiet && !(command->json && !strcmp(command->json, "-"));
 }
 
+struct screen command_screen(struct command *command)
+{
+    return (struct screen){terminal_out(), &command->pool, command->verbose, SCREEN_WIDTH};
+}
+
 int command_write_file(struct command *command, const char *path, const char *text, int code)
 {
     if (!text)
@@ -76,6 +85,20 @@ int command_write_file(struct command *command, const char *path, const char *te
     if (!status)
         return code;
     terminal_say("rotid: cannot write %s: %s\n", path, output_error());
+    return EXIT_INTERNAL;
+}
+
+int command_write_deck(struct command *command, const char *text, int code)
+{
+    char *placed;
+    int status = deck_place(&command->pool, command->deck, text, command->extended, &command->messages, &placed);
+    if (status == ROTID_ERROR_MEMORY)
+        return command_fail(command, status);
+    if (!status)
+        return command_write_file(command, command->extended, placed, code);
+    command_print_messages(command);
+    terminal_say("rotid: %s is not written: %s\n", command->extended,
+                 status == ROTID_ERROR_IO ? "there is no such folder" : "it would be read as something else there");
     return EXIT_INTERNAL;
 }
 

@@ -36,8 +36,9 @@ int command_check(struct command *command)
     if (!code)
         code = look(command, &result, job);
     if (!code && command_wants_table(command)) {
-        table_check(terminal_out(), &result, job);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_check(&to, &result, job);
+        screen_notes(&to, &command->messages);
     }
     if (!code)
         code = command_write_result(command, &result, EXIT_DONE);

@@ -3,8 +3,6 @@
 #include "cli/cli.h"
 #include "report/report.h"
 
-#define WIDTH 100 /* columns: fits a terminal beside an editor, and a page of a log */
-
 static int write_extended(struct command *command, const rotid_diagnosis *diagnosis, int code)
 {
     if (!command->extended)
@@ -14,11 +12,10 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         return code;
     }
     if (!diagnosis->extended_deck) {
-        terminal_say("rotid: cannot write %s: no deck %s\n", command->extended,
-                     diagnosis->base && diagnosis->base->nstates ? "with several states is written" : "can say this model");
+        terminal_say("rotid: cannot write %s: no deck reads as this model\n", command->extended);
         return EXIT_INTERNAL;
     }
-    return command_write_file(command, command->extended, diagnosis->extended_deck, code);
+    return command_write_deck(command, diagnosis->extended_deck, code);
 }
 
 static int show(struct command *command, rotid_diagnosis *diagnosis)
@@ -27,9 +24,9 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
     int code = EXIT_DONE, written;
     command_take_messages(command, NULL, diagnosis->nmessage, diagnosis->message);
     if (command_wants_table(command)) {
-        const struct diagnosis_view view = {terminal_out(), &result.head, diagnosis, command->verbose, WIDTH};
-        table_diagnose(&view);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_diagnose(&to, &result);
+        screen_notes(&to, &command->messages);
     }
     if (diagnosis->interrupted || command_cancelled(NULL)) {
         terminal_say("rotid: interrupted; the result holds what was finished\n");

@@ -102,8 +102,10 @@ int command_ema(struct command *command)
     }
     if (command->output && !report.output)
         terminal_say("rotid: %s: not written, there is no mode\n", command->output);
-    if (command_wants_table(command))
-        table_ema(terminal_out(), &report, command->verbose);
-    struct result result = {.head = command->head, .ema = command->json ? ema_result_of(&command->pool, &report) : NULL};
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_ema(&to, &report);
+    }
+    struct result result = {.head = command->head, .ema = command->json ? ema_result_of(&command->pool, &report, 1) : NULL};
     return command_write_result(command, &result, code);
 }

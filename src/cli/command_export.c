@@ -65,8 +65,9 @@ static int write_files(struct command *command, const struct export_files *files
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(terminal_out(), &command->head, files, model);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_export(&to, &command->head, files, model);
+        screen_notes(&to, &command->messages);
     }
     struct result result = {.head = command->head,
                             .export = command->json ? export_result_of(&command->pool, files, model) : NULL};

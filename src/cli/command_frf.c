@@ -44,7 +44,8 @@ static int write_output(struct command *command, const struct frf_view *view, in
 /* count: of the views, one for each state */
 static int report(struct command *command, int count, const struct frf_view *view, struct result *result, int code)
 {
-    int status = ROTID_OK, told = 0;
+    const struct screen to = command_screen(command);
+    int told = 0, shown = command_wants_table(command);
     for (int i = 0; i < count && command->json; i++) {
         const struct frf_result *r = view[i].result;
         if ((double)r->nline * r->ndone > JSON_FRF_MOST_LINES && !told++)
@@ -52,27 +53,24 @@ static int report(struct command *command, int count, const struct frf_view *vie
                         "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
                         r->ndone, r->nline, JSON_FRF_MOST_LINES);
     }
-    if (command_wants_table(command)) {
-        table_heading(terminal_out(), &command->head);
-        for (int i = 0; i < count && !status; i++) {
-            if (view[i].state)
-                table_state(terminal_out(), i, view[i].state);
-            status = table_frf(terminal_out(), &view[i]);
-        }
-        table_notes(terminal_out(), &command->messages);
-    }
-    if (status)
-        return command_fail(command, status);
-    for (int i = 0; i < count && command->json; i++) {
+    if (shown)
+        screen_heading(&to, &command->head);
+    for (int i = 0; i < count && (shown || command->json); i++) {
         const struct transfer_result *made = frf_result_of(&view[i]);
         if (!made)
             return command_fail(command, ROTID_ERROR_MEMORY);
+        if (shown && view[i].state)
+            screen_state(&to, i, view[i].state);
+        if (shown)
+            screen_frf(&to, &view[i], made);
         result->frf = i ? result->frf : made;
         if (result->nstates) {
             result->states[i].name = view[i].state;
             result->states[i].frf = made;
         }
     }
+    if (shown)
+        screen_notes(&to, &command->messages);
     int written = command_write_result(command, result, code);
     code = write_output(command, view, written);
     return code > written ? code : written;
@@ -97,8 +95,7 @@ static int synthesise(struct command *command, const struct fitted_state *state,
                               .job = state->job,
                               .identified = identified,
                               .set = with_file && !status ? &measurement->set : NULL,
-                              .result = result,
-                              .verbose = command->verbose};
+                              .result = result};
     return status;
 }
 

@@ -10,8 +10,9 @@ static int show(struct command *command, rotid_identification *found)
     int code = doubtful ? EXIT_DOUBTFUL : EXIT_DONE;
     command_take_messages(command, NULL, found->nmessage, found->message);
     if (command_wants_table(command)) {
-        table_identify(terminal_out(), &result, !command->no_baseline, command->verbose);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_identify(&to, &result, !command->no_baseline);
+        screen_notes(&to, &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted after %d iterations; the result is the best point so far\n", fit->iterations);

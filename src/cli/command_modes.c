@@ -39,8 +39,9 @@ int command_modes(struct command *command)
     if (!code)
         code = compute(command, &result);
     if (!code && command_wants_table(command)) {
-        table_modes(terminal_out(), &result, command->verbose);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_modes(&to, &result);
+        screen_notes(&to, &command->messages);
     }
     const struct csv_spectrum tables = {result.modes, command->job};
     if (!code)

@@ -119,7 +119,9 @@ int command_sensitivity(struct command *command)
     if (status || !found)
         return command_fail(command, found ? status : ROTID_ERROR_MEMORY);
     result.sensitivity = found;
-    if (command_wants_table(command))
-        table_sensitivity(terminal_out(), &result);
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_sensitivity(&to, &result);
+    }
     return command_write_result(command, &result, EXIT_DONE);
 }

@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "api/api.h"
 #include "cli/cli.h"
 #include "deck/deck.h"
 #include "report/report.h"
@@ -14,18 +15,16 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
                      s->ntests ? "no deck can say the first of the tests: name its supports" : "there is no test to propose");
         return EXIT_DOUBTFUL;
     }
-    int status =
-        deck_propose(&command->pool, command->deck, command->extended, s->state, &s->tests[0], &command->messages, &text);
+    int status = deck_propose(&command->pool, deck_states_of(command->read), s->state, &s->tests[0], &command->messages, &text);
     if (status == ROTID_ERROR_MEMORY)
         return command_fail(command, status);
     if (status) {
         command_print_messages(command);
-        terminal_say("rotid: %s is not written: %s\n", command->extended,
-                     status == ROTID_ERROR_IO ? "cannot read the deck again, or there is no such folder"
-                                              : "the deck with the test in it would not be read as it is meant");
+        terminal_say("rotid: %s is not written: the deck with the test in it would not be read as it is meant\n",
+                     command->extended);
         return EXIT_INTERNAL;
     }
-    return command_write_file(command, command->extended, text, code);
+    return command_write_deck(command, text, code);
 }
 
 int command_suggest(struct command *command)
@@ -59,8 +58,9 @@ int command_suggest(struct command *command)
     struct result result = {.head = command->head, .suggest = suggestion};
     command_take_messages(command, NULL, suggestion->nmessage, suggestion->message);
     if (command_wants_table(command)) {
-        table_suggest(terminal_out(), &result, command->verbose);
-        table_notes(terminal_out(), &command->messages);
+        const struct screen to = command_screen(command);
+        screen_suggest(&to, &result);
+        screen_notes(&to, &command->messages);
     }
     int written = command_write_result(command, &result, EXIT_DONE), code = write_extended(command, suggestion, written);
     rotid_suggestion_free(suggestion);

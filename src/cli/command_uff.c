@@ -32,18 +32,16 @@ int command_uff(struct command *command)
     if (refused)
         return refused;
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
-    if (status == ROTID_STOP_CANCELLED) {
-        terminal_say("rotid: interrupted\n");
-        return EXIT_DOUBTFUL;
-    }
     if (!status)
         status = listing_summarise(&command->pool, &listing, &summary_count, &summary);
     if (status)
         return command_fail(command, status);
     command_print_messages(command);
     int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
-    if (command_wants_table(command))
-        table_uff(terminal_out(), command->deck, &listing, summary_count, summary, command->verbose);
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_uff(&to, command->deck, &listing, summary_count, summary);
+    }
     struct result result = {.head = command->head};
     if (command->json)
         result.uff =

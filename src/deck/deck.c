@@ -366,6 +366,17 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
         return status ? status : ROTID_ERROR_SYNTAX;
     }
     int nread = reader.text.ncard;
+    struct deck_origin *origin = POOL_NEW(pool, struct deck_origin);
+    if (!origin)
+        return ROTID_ERROR_MEMORY;
+    *origin = (struct deck_origin){.path = memory ? memory->name : path,
+                                   .directory = memory ? memory->directory : NULL,
+                                   .memory = memory != NULL,
+                                   .nfile = reader.text.nsource,
+                                   .file = reader.text.source,
+                                   .noverride = noverride,
+                                   .override = override};
+    job.origin = origin;
     for (int i = 0; i < noverride; i++)
         if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)
             return ROTID_ERROR_MEMORY;

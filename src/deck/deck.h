@@ -16,12 +16,13 @@
  *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
  *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
  *
- * Writing: deck_write (deck_write*.c, deck_writer.c) gives a text that reads as the same job to the last bit; deck_write_states;
- * deck_extended.c the deck of a diagnosis; deck_proposed.c the *STATE of a test that src/suggest proposes.
- * Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no fit. */
+ * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
+ * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
+ * deck_extended.c gives it a diagnosis and finds the result its place; deck_proposed.c adds the *STATE of a test that src/suggest
+ * proposes. Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no
+ * fit. */
 
 #include <stdio.h>
-#include <sys/stat.h>
 
 #include "base/base.h"
 #include "diagnose/causes/causes.h"
@@ -29,27 +30,6 @@
 #include "run/run.h"
 #include "suggest/suggest.h"
 #include "uff/uff.h"
-
-/* ----------------------------------------------------------------------------------------------------------- deck source */
-
-/* Where the characters of a deck come from: a file, or the memory of a host. */
-
-#define DECK_SOURCE_END (-1)
-
-/* A deck without a file. */
-struct deck_memory {
-    const char *name; /* what stands for the file in messages */
-    size_t length;
-    const char *text;      /* [length] */
-    const char *directory; /* of what it names, or NULL: it may name no files */
-};
-
-struct deck_source {
-    struct stat information; /* of the file; zeros for memory */
-    FILE *stream;            /* NULL: memory */
-    const char *text;
-    size_t left;
-};
 
 /* ------------------------------------------------------------------------------------------------------------- deck text */
 
@@ -82,6 +62,19 @@ struct data_line {
 
 struct table_text;
 
+/* A deck without a file. */
+struct deck_memory {
+    const char *name; /* what stands for the file in messages */
+    size_t length;
+    const char *text;      /* [length] */
+    const char *directory; /* of what it names, or NULL: it may name no files */
+};
+
+/* A file as it was read, up to a zero. */
+struct deck_file {
+    const char *path, *text;
+};
+
 struct card_option {
     const char *name, *value; /* value "" where there is no '=' */
     struct place place, value_place;
@@ -107,7 +100,10 @@ struct deck_text {
     const char **file;
     int ntable;
     size_t table_room;
-    struct table_text **table;      /* read so far: a table may serve several cards */
+    struct table_text **table; /* read so far: a table may serve several cards */
+    int nsource;               /* the deck and what it includes, as they were read */
+    size_t source_room;
+    struct deck_file *source;
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
 
@@ -170,8 +166,8 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
 
 /* Shared by the readers of the cards: what has been read so far, and the reading of single fields. */
 
-#define DECK_MOST_KINDS 64 /* of cards */
-#define DECK_QUANTITIES 8  /* whose units *UNITS can state */
+#define DECK_MOST_KINDS 64             /* of cards */
+#define DECK_QUANTITIES JOB_QUANTITIES /* whose units *UNITS can state */
 
 struct deck_reader {
     struct pool *pool;
@@ -228,6 +224,9 @@ int deck_is_usual(double value);
 double deck_unit_factor(const char *si, const char *word);
 /* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
 double deck_in_si(const struct deck_reader *reader, const char *what);
+/* The factors of all quantities, into the job; and of one of them, of a job whose deck has been read. */
+void deck_keep_units(struct deck_reader *reader);
+double deck_unit_of(const struct job_units *units, const char *what);
 /* The deck's own unit of it, for messages. */
 const char *deck_unit_name(const struct deck_reader *reader, const char *what);
 /* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
@@ -358,11 +357,6 @@ const char *cause_target_expected(enum cause_target target);
  * error. */
 int cause_read_target(struct cause_card *c);
 
-/* The extended deck of a diagnosis that has a verdict (sentence): with what was named, the base model where nothing was named,
- * the moduli at their fitted values, the verdict in its heading. from: path of the deck that was diagnosed. ROTID_OK and *text on
- * the pool; statuses of deck_write. */
-int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, const char *from, char **text);
-
 /* ------------------------------------------------------------------------------------------------------ deck frequencies */
 
 /* Frequencies at single sensors, from a card or a universal file. */
@@ -379,55 +373,6 @@ int deck_point_is_far(const struct job *job, int mode, double hz);
 /* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
  * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */
 void deck_settle_noise(struct deck_reader *reader);
-
-/* ------------------------------------------------------------------------------------------------------------ deck write */
-
-/* Decks from jobs: one self-contained text that deck_read turns into the same job. */
-
-struct deck_write_options {
-    int nextra;
-    const char *const *extra; /* [nextra] lines of text for the heading, behind those of the job; long ones are cut */
-    const double *x;          /* [nparameter] the model and the starts of *IDENTIFY at these values; NULL: as in the job */
-};
-
-/* The deck of a job. Measured data stand in it as they were read, in *SENSORS, *MODES and *SHAPE, with the faults found in them
- * as *CAUSE cards behind. Reading it gives the numbers of the job to the last bit, but a standard deviation of a frequency within
- * one unit of the last place and, where x lies on a bound or is zero, a start beside it; names of materials become those of their
- * owners.
- * options may be NULL. ROTID_OK and *text on the pool; ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where a deck cannot say it: a
- * name with a comma or too long for a line, a cause without a name, a sensor id or mode number beyond those of a deck, too many
- * cards. */
-int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text);
-
-/* The deck of all states; x of the options: of the unknowns of all [states->nparameter]. Common are the cards that all states
- * begin with, and the unknowns that are common or of a cause that is in all; moduli, densities and lengths of groups that differ
- * stand in *SET. Reading it gives each state as deck_write would, but for lengths that *SET states, and positions on them, within
- * 1e-12. Statuses as of deck_write. */
-int deck_write_states(struct pool *pool, const struct states *states, const struct deck_write_options *options, char **text);
-
-/* --------------------------------------------------------------------------------------------------------- deck proposed */
-
-/* A test that is proposed, as the state of a deck. */
-
-/* The *STATE of a test: what changes in the rotor, its sensors, its noise, and as comments where its measurements go, beside the
- * frequencies that the best rival expects, all in the units of the deck. job: the model that is tested. ROTID_OK and *text on the
- * pool, ROTID_ERROR_MEMORY, or ROTID_ERROR_ARGUMENT where a deck cannot say it: a support without a name. */
-int deck_write_test(struct pool *pool, const struct job *job, const struct test *test, char **text);
-
-/* The text `deck` of the file `path` (NULL: it is read) with that state behind it: as it is where it has states, of which the new
- * one takes the cards of `home` (may be NULL) that say how the structure is; else its measured data become a state of their own,
- * `measured`, so that the other cards are common to both. Comments and *INCLUDE stay, but for a file that holds what is common
- * beside what was measured: its cards stand in its place. Where the deck has a state of the name of the new one, that gets a
- * number. Relative paths become absolute where `to`, the file that is written (NULL: paths stay), lies in another folder.
- * ROTID_OK, ROTID_ERROR_MEMORY or, of a file or folder that cannot be read, ROTID_ERROR_IO. */
-int deck_add_state(struct pool *pool, const char *path, const char *deck, const char *to, const char *home, const char *state,
-                   char **text);
-
-/* The same of a test that was suggested, read back: with the expected frequencies in it the text reads as the states of the file
- * `from`, to the last digit, and one more, which is `home` with what the test changes. Else *text is NULL, the list has an error
- * and the status is ROTID_ERROR_SYNTAX, or ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
-int deck_propose(struct pool *pool, const char *from, const char *to, const char *home, const rotid_suggested_test *test,
-                 struct message_list *notes, char **text);
 
 /* -------------------------------------------------------------------------------------------------- deck state, deck uff */
 
@@ -456,15 +401,13 @@ void deck_set_lengths(struct deck_reader *reader);
 void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff_file *file, int count,
                   const struct uff_shape *const *chosen, int component);
 
-/* ----------------------------------------------------------------------------------------------------------- deck writer */
+/* ------------------------------------------------------------------------------------------------------------- deck print */
 
-/* Shared by what writes the cards: a text that grows, and the form that a reader of decks accepts. */
+/* Numbers and cards as a reader of decks takes them, in the units of the deck. */
 
 struct deck_writer {
     struct pool *pool;
-    const struct job *job;
-    struct rotor rotor; /* of the job, at x */
-    const double *x;    /* [nparameter] or NULL */
+    const struct job *job; /* what is written; its units are those of the numbers, NULL: SI */
     char *text;
     size_t length, room;
     int status; /* the first failure; nothing is written behind it */
@@ -477,57 +420,167 @@ void deck_put(struct deck_writer *w, const char *format, ...) __attribute__((for
 /* The fewest digits that give the value back to the last bit, written out unless that is much longer. Returns `text`. */
 const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH]);
 
-/* A number in such digits; the value of a data line with the separator in front of it. */
-void deck_put_number(struct deck_writer *w, const char *separator, double value);
+/* A number behind the separator, in the deck's unit of `what` ("length [m]", a unit alone, "" for a number without one): in such
+ * digits, in another unit than SI to 15 of them, for a quotient is rounded. */
+void deck_put_number(struct deck_writer *w, const char *separator, double value, const char *what);
 
 /* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. A text that a deck cannot
  * give back is an error. The caller ends the line. */
 void deck_put_card(struct deck_writer *w, const char *name);
 void deck_put_option(struct deck_writer *w, const char *name, const char *value);
-void deck_put_option_number(struct deck_writer *w, const char *name, double value);
+void deck_put_option_number(struct deck_writer *w, const char *name, double value, const char *what);
 
-/* A writer of the job at x [nparameter], or as it stands where x is NULL, with a copy of what of the rotor can vary: groups,
- * rods, disks, springs, causes. Its status. */
-int deck_writer_open(struct deck_writer *w, struct pool *pool, const struct job *job, const double *x);
-/* The text, NULL where there is a failure or where it is beyond the limits of a reader. */
-int deck_writer_end(struct deck_writer *w, char **text);
+/* Cards of w->job. *MODES, *SHAPE, *FREQUENCIES and, where all modes have one noise, *NOISE, as they were read; with_sensors:
+ * *SENSORS before. The faults of the data from `first` on; a cause or suspect (fixed: which of its parameters are given); the
+ * line of unknown p in *IDENTIFY under this name; HOLDOUT= of the modes that are held out, "" where none is. */
+void deck_put_measured(struct deck_writer *w, int with_sensors);
+void deck_put_corrections(struct deck_writer *w, int first);
+void deck_put_cause(struct deck_writer *w, const struct effect *effect, const int *fixed);
+void deck_put_unknown(struct deck_writer *w, int p, const char *name);
+void deck_put_holdout(struct deck_writer *w);
 
-/* The cards, by file: the heading; of the model; of the measured data; of their faults, causes and suspects; of the
- * identification; of the transfer functions. */
-void deck_write_heading(struct deck_writer *w, const struct deck_write_options *options);
-void deck_write_model(struct deck_writer *w);
-void deck_write_measured(struct deck_writer *w);
-void deck_write_corrections(struct deck_writer *w);
-void deck_write_causes(struct deck_writer *w);
-void deck_write_fit(struct deck_writer *w, int with_holdout);
-void deck_write_frf(struct deck_writer *w);
+/* A line of text that a deck takes for text. */
+void deck_put_text(struct deck_writer *w, const char *text);
 
-/* The line of unknown p in *IDENTIFY, under this name; the option HOLDOUT, where modes are held out. */
-void deck_write_unknown(struct deck_writer *w, int p, const char *name);
-void deck_write_holdout(struct deck_writer *w);
+/* Of all modes, as they were read: NaN where they differ or one has none, of the frequencies where there are readings of single
+ * sensors too. */
+void deck_noise_of_all(const struct job *job, double *frequency, double *shape);
 
-/* ----------------------------------------------------------------------------------------------------- deck write states */
+/* -------------------------------------------------------------------------------------------------------------- deck edit */
 
-/* Shared by what writes decks of several states. */
+/* The text of a deck in parts that can be changed one by one; what is not changed stays as its user wrote it. */
 
-struct deck_card;
+/* What a deck was read from: whoever writes it again edits these texts. */
+struct deck_origin {
+    const char *path;      /* of the deck */
+    const char *directory; /* of a deck from memory */
+    int memory;            /* a deck from memory */
+    int nfile;
+    const struct deck_file *file; /* the deck and what it includes, as they were read */
+    int noverride;
+    const struct override *override;
+};
 
-/* A card with its data lines; of a group or a bundle with the material in front of it. */
-struct block {
-    const char *text;
+/* A card with all lines up to the next one, comments among them. */
+struct deck_part {
+    const char *text, *file; /* file: that it stands in */
     size_t length;
-    const struct deck_card *kind;
-    int part, common; /* part: faults of the data and causes are lists of their own */
+    const struct deck_card *card; /* NULL: not known, and what stands before the first card */
+    int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
+    int state;                    /* which *STATE it stands behind, from 0; -1: none */
+    int changed;
 };
 
-struct written {
-    const struct state *state;
-    int *common; /* [job.unknowns.nparameter] which of its unknowns are common to all */
-    struct deck_writer w;
-    struct deck_writer set; /* the lines of *SET */
-    int nblock;
-    struct block *block;
+struct deck_edit {
+    struct pool *pool;
+    const struct deck_origin *origin;
+    int npart, nstate, status;
+    size_t room;
+    struct deck_part *part;
 };
+
+/* The parts of all files, with the overrides in them. Its status: ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO of an origin
+ * that lacks the text of a file. */
+int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin);
+/* The same of a text whose included files are left alone. */
+int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path, const char *text);
+
+/* The value of an option of a part: where it begins, and its length; NULL: the card has none of that name. */
+const char *deck_edit_option(const struct deck_part *part, const char *name, size_t *length);
+/* Gives the option that value in place of its own, or behind the others; NULL: takes it out. */
+void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *value);
+
+/* The part with `line` in place of each data line: called with its text [length], line feed and all, and its number from 0. */
+void deck_edit_lines(struct deck_edit *e, int part, void (*line)(struct deck_writer *, const char *, size_t, int, void *),
+                     void *context);
+/* Field `number` (from 0) of a data line: where it begins, and its length without blanks; -1 where the line has fewer. */
+int deck_edit_field(const char *line, size_t length, int number, int *count);
+/* The line with that field replaced, or added behind the one before it. */
+void deck_edit_put_field(struct deck_writer *w, const char *line, size_t length, int number, const char *value);
+
+/* The comments of a part alone. */
+void deck_edit_clear(struct deck_edit *e, int part);
+/* Text behind the last line of a part, in front of the comments with which it ends. */
+void deck_edit_append(struct deck_edit *e, int part, const char *text);
+/* Puts text before part `at`, in front of the comments that introduce it. */
+void deck_edit_insert(struct deck_edit *e, int at, const char *text);
+
+/* The text of all parts, or of those that have a bit of `which` (NULL: all) in `mask`. A file that is included stays one where
+ * none of its cards has changed and all are wanted, else its cards stand in its place. Relative paths become absolute. */
+void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask);
+/* One part alone: its card (1), its comments (2), both (3). */
+void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck_part *part, int with);
+
+/* ----------------------------------------------------------------------------------------------------------- deck compare */
+
+/* What a writer can do of a difference. */
+enum deck_difference {
+    DECK_OTHER_FIT = 1,      /* how is fitted */
+    DECK_OTHER_HOLDOUT = 2,  /* which modes are held out */
+    DECK_OTHER_ELEMENTS = 4, /* elements of sections */
+    DECK_OTHER_NOISE = 8,    /* deviations of frequencies and shapes */
+    DECK_OTHER_DATA = 16,    /* modes and shapes, as they were read */
+    DECK_OTHER_SENSORS = 32,
+    DECK_OTHER_MODEL = 64 /* anything else: there is nothing to be done */
+};
+
+/* Bits of how `read` differs from `meant`, both with their parameters at the starts, numbers to rounding; *card: the card that
+ * says the gravest of them. Mode numbers and options of a job without measured modes count as well. */
+unsigned deck_compare(struct pool *pool, const struct job *meant, const struct job *read, const char **card);
+/* rotor_copy without the springs of a sling, which a deck does not state. */
+int deck_copy_rotor(struct pool *pool, const struct rotor *rotor, struct rotor *copy);
+/* Of the rotor alone: the last bits but those of the data. Sensors are compared by themselves. */
+unsigned deck_compare_rotors(const struct rotor *meant, const struct rotor *read, const char **card);
+
+/* ------------------------------------------------------------------------------------------------------------- deck write */
+
+struct deck_write_options {
+    int nextra;
+    const char *const *extra; /* [nextra] lines of text for the heading, behind those of the deck; long ones are cut */
+    const double *x;          /* [nparameter] starts of *IDENTIFY; NULL: as in the states */
+};
+
+/* The deck that `given` was read from, edited so that it reads as `meant`: with other starts, *FIT, elements, noise or measured
+ * data where these differ, the causes, faults of the data and unknowns that it has besides, and without the suspects that it
+ * lacks. Comments, names, units, *STATE, tables and included files stay as they are wherever what they say does; files are named
+ * by absolute paths, so that the text can be read from anywhere. The text is read and compared before it is given. ROTID_OK and
+ * *text on the pool; ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT and an error in the list, which names the card, where no such
+ * text reads as what is meant. */
+int deck_write(struct pool *pool, const struct states *given, const struct states *meant,
+               const struct deck_write_options *options, struct message_list *notes, char **text);
+
+/* deck_write of a diagnosis that has a verdict (sentence): what was named, the base model where nothing was, the moduli at their
+ * fitted values, the verdict in the heading. */
+int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, struct message_list *notes, char **text);
+
+/* The text of deck_write for the file `to`: the paths of files in the folder of the deck `from` are relative where `to` lies
+ * there too. The result is read from there and compared with the text. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_IO where there
+ * is no such folder, or ROTID_ERROR_ARGUMENT with an error in the list. */
+int deck_place(struct pool *pool, const char *from, const char *text, const char *to, struct message_list *notes, char **placed);
+
+/* The states of a text of deck_write. */
+int deck_read_back(struct pool *pool, const char *path, const char *text, struct message_list *notes, struct states *states);
+
+/* ---------------------------------------------------------------------------------------------------------- deck proposed */
+
+/* A test that is proposed, as the state of a deck. */
+
+/* The *STATE of a test: what changes in the rotor, its sensors, its noise, and as comments where its measurements go, beside the
+ * frequencies that the best rival expects, all in the units of the deck. job: the model that is tested. ROTID_OK and *text on the
+ * pool, ROTID_ERROR_MEMORY, or ROTID_ERROR_ARGUMENT where a deck cannot say it: a support without a name. */
+int deck_write_test(struct pool *pool, const struct job *job, const struct test *test, char **text);
+
+/* The deck of `origin` with that state behind it: as it is where it has states, of which the new one takes the cards of `home`
+ * (may be NULL) that say how the structure is; else its measured data become a state of their own, `measured`, so that the other
+ * cards are common to both. Where the deck has a state of the name of the new one, that gets a number. Statuses of
+ * deck_edit_open. */
+int deck_add_state(struct pool *pool, const struct deck_origin *origin, const char *home, const char *state, char **text);
+
+/* The same of a test that was suggested, read back: with the expected frequencies in it the text reads as the states `given` of
+ * the deck and one more, which is `home` with what the test changes. Else *text is NULL, the list has an error and the status is
+ * ROTID_ERROR_ARGUMENT, or ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
+int deck_propose(struct pool *pool, const struct states *given, const char *home, const rotid_suggested_test *test,
+                 struct message_list *notes, char **text);
 
 /* ------------------------------------------------------------------------------------------------------------ table text */
 

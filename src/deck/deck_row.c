@@ -1,5 +1,6 @@
-#include "deck/deck_row.h"
+#include "deck/card_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -108,81 +109,99 @@ void deck_read_list(struct deck_reader *reader, const struct card *card, const s
 
 /* ---- writing */
 
-static double number_of(const struct deck_row *row, const void *member)
+/* Values at the end that may lack are left out where they say nothing: zero, or what they follow. */
+static int says_more(const struct deck_row *row, const void *from)
 {
-    return row->kind == ROW_WHOLE ? *(const int *)member : *(const double *)member;
-}
-
-void deck_write_options(struct deck_writer *w, const struct deck_row *row, const void *from)
-{
-    const char *name = NULL;
-    char text[16];
     for (; !deck_row_is_last(row); row++) {
-        const void *member = (const char *)from + row->offset;
-        if (!row->option || row->kind == ROW_OTHER)
+        const char *member = (const char *)from + row->offset;
+        if (row->option)
             continue;
-        if (row->kind == ROW_NAME)
-            name = *(const char *const *)member;
-        if (row->kind == ROW_NAME && !name && row->bits & ROW_MAY_LACK)
-            continue;
-        if (row->bits & ROW_ABOVE_0 && !(number_of(row, member) > 0))
-            continue;
-        if (row->kind == ROW_NAME || row->kind == ROW_MATERIAL)
-            deck_put_option(w, row->option, name);
-        else if (row->kind == ROW_WORD)
-            deck_put_option(w, row->option, row->words[*(const int *)member]);
-        else if (row->kind == ROW_WHOLE) {
-            (void)snprintf(text, sizeof text, "%d", *(const int *)member);
-            deck_put_option(w, row->option, text);
-        } else
-            deck_put_option_number(w, row->option, *(const double *)member);
+        double value = row->kind == ROW_WHOLE ? *(const int *)member : *(const double *)member;
+        if (!(row->bits & ROW_MAY_LACK) || (value != 0 && !(row->as && value == *(const double *)((const char *)from + row->as))))
+            return 1;
     }
+    return 0;
 }
 
-void deck_write_values(struct deck_writer *w, const char *before, const struct deck_row *row, const void *from)
+void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from)
 {
-    for (; !deck_row_is_last(row); row++) {
+    const char *before = "";
+    for (; !deck_row_is_last(row) && says_more(row, from); row++) {
         const void *member = (const char *)from + row->offset;
-        if (row->option || (row->as && *(const double *)member == *(const double *)((const char *)from + row->as)))
-            continue;
-        if (row->bits & ROW_ABOVE_0 && !(number_of(row, member) > 0))
+        if (row->option)
             continue;
         if (row->kind == ROW_WHOLE)
             deck_put(w, "%s%d", before, *(const int *)member);
         else
-            deck_put_number(w, before, *(const double *)member);
+            deck_put_number(w, before, *(const double *)member, row->kind == ROW_POSITION ? "m" : row->what);
         before = ", ";
     }
     deck_put(w, "\n");
 }
 
-static const char *name_of(const struct deck_card *kind, const void *from)
+void deck_put_list_item(struct deck_writer *w, const char *card, const void *from)
 {
+    const struct deck_card *kind = deck_card_find(card);
+    deck_put_card(w, card);
     for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
-        if (row->kind == ROW_NAME)
-            return *(const char *const *)((const char *)from + row->offset);
-    return NULL;
+        if (row->kind == ROW_NAME && *(const char *const *)((const char *)from + row->offset))
+            deck_put_option(w, row->option, *(const char *const *)((const char *)from + row->offset));
+    deck_put(w, "\n");
+    deck_put_values(w, kind->row, from);
 }
 
-/* Whether the card of the struct before does for this one: it says nothing of either. */
-static int shares_card(const struct deck_card *kind, const char *before, const char *one)
+/* ---- comparing */
+
+int deck_is_near(double a, double b)
 {
-    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
-        if (row->option && row->kind != ROW_NAME)
-            return 0;
-    return !name_of(kind, before) && !name_of(kind, one);
+    return a == b || fabs(a - b) <= DECK_ROUNDING * fmax(fabs(a), fabs(b)) || (isnan(a) && isnan(b));
 }
 
-void deck_write_list(struct deck_writer *w, const struct deck_card *kind)
+static int is_same_text(const char *a, const char *b)
 {
-    const char *rotor = (const char *)&w->rotor, *list = *(const char *const *)(rotor + kind->list);
-    for (int i = 0; i < *(const int *)(rotor + kind->count); i++) {
-        const char *one = list + (size_t)i * kind->size;
-        if (!i || !shares_card(kind, one - kind->size, one)) {
-            deck_put_card(w, kind->name);
-            deck_write_options(w, kind->row, one);
-            deck_put(w, "\n");
+    return a && b ? same_text(a, b) : !a == !b;
+}
+
+int deck_is_same_material(const struct material *a, const struct material *b)
+{
+    return a->isotropic == b->isotropic && a->laminated == b->laminated && deck_is_near(a->e, b->e) &&
+           deck_is_near(a->nu, b->nu) && deck_is_near(a->rho, b->rho) && (a->isotropic || deck_is_near(a->g, b->g)) &&
+           (!a->laminated || (deck_is_near(a->sheet_e, b->sheet_e) && deck_is_near(a->stacking, b->stacking)));
+}
+
+int deck_is_same(const struct deck_row *row, const void *a, const void *b)
+{
+    int same = 1;
+    for (; !deck_row_is_last(row) && same; row++) {
+        const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
+        switch (row->kind) {
+        case ROW_NAME:
+            same = is_same_text(*(const char *const *)p, *(const char *const *)q);
+            break;
+        case ROW_MATERIAL:
+            same = deck_is_same_material(p, q);
+            break;
+        case ROW_WORD:
+        case ROW_WHOLE:
+            same = *(const int *)p == *(const int *)q;
+            break;
+        case ROW_NUMBER:
+        case ROW_POSITION:
+            same = deck_is_near(*(const double *)p, *(const double *)q);
+            break;
+        default:
+            break;
         }
-        deck_write_values(w, "", kind->row, one);
     }
+    return same;
+}
+
+int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b)
+{
+    const char *p = *(const char *const *)((const char *)a + kind->list),
+               *q = *(const char *const *)((const char *)b + kind->list);
+    int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
+    for (int i = 0; i < count && same; i++)
+        same = deck_is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
+    return same;
 }

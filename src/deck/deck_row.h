@@ -103,10 +103,16 @@ int deck_read_values(struct deck_reader *reader, const struct data_line *line, c
 /* A card without code of its own: a struct for each data line, one where it has a name. room: of the list. */
 void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room);
 
-/* The same the other way: options go on in the line of the card; values begin with `before`. */
-void deck_write_options(struct deck_writer *w, const struct deck_row *row, const void *from);
-void deck_write_values(struct deck_writer *w, const char *before, const struct deck_row *row, const void *from);
-/* The structs of a card without code of its own; those without name and options share a card with those before. */
-void deck_write_list(struct deck_writer *w, const struct deck_card *kind);
+/* The values of a struct as a data line, in the units of the deck; the card and line of a struct of a list. */
+void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from);
+void deck_put_list_item(struct deck_writer *w, const char *card, const void *from);
+
+/* Whether two numbers, materials, structs or lists of two rotors are the same but for rounding: of sums and ratios of lengths, of
+ * a quotient by a unit. */
+#define DECK_ROUNDING 1e-11
+int deck_is_near(double a, double b);
+int deck_is_same_material(const struct material *a, const struct material *b);
+int deck_is_same(const struct deck_row *row, const void *a, const void *b);
+int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b);
 
 #endif

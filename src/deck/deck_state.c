@@ -137,10 +137,7 @@ static void read_one(struct deck_reader *reader, const struct division *d, int s
         text_of_state(reader, d, s, &own);
     if (!reader->out_of_memory)
         deck_read_cards(&own);
-    to->job.units = (struct job_units){.length = deck_in_si(&own, "m"),
-                                       .mass = deck_in_si(&own, "kg"),
-                                       .stiffness = deck_in_si(&own, "N/m"),
-                                       .frequency = deck_in_si(&own, "Hz")};
+    deck_keep_units(&own);
     reader->no_section |= own.no_section;
     reader->out_of_memory |= own.out_of_memory || messages->out_of_memory;
     reader->text.nfile = own.text.nfile; /* they go on where this one ends */

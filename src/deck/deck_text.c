@@ -10,14 +10,27 @@
 #include "file/file.h"
 #include "rotid.h"
 
-static int deck_source_open(struct deck_source *source, const char *path)
+/* Where the characters of a deck come from: a file, or the memory of a host. What was read is kept: writers edit that text. */
+
+#define DECK_SOURCE_END (-1)
+
+struct deck_source {
+    struct stat information; /* of the file; zeros for memory */
+    FILE *stream;            /* NULL: memory */
+    const char *text;
+    size_t left;
+    char *kept;
+    size_t nkept, room;
+};
+
+/* 0, or the error number of the operating system. A deck "-" is standard input. */
+static int deck_source_open(struct deck_source *source, const char *path, int is_deck)
 {
     *source = (struct deck_source){.text = NULL};
-    source->stream = file_open(path, 0, &source->information);
+    source->stream = file_open(is_deck && !strcmp(path, "-") ? "/dev/stdin" : path, 0, &source->information);
     return source->stream ? 0 : errno;
 }
 
-/* 0, or the error number of the operating system. */
 static void deck_source_open_memory(struct deck_source *source, const struct deck_memory *memory)
 {
     *source = (struct deck_source){.text = memory->text, .left = memory->length};
@@ -29,25 +42,6 @@ static long long deck_source_length(const struct deck_source *source)
     if (!source->stream)
         return source->left <= (size_t)1 << 62 ? (long long)source->left : 1LL << 62;
     return S_ISREG(source->information.st_mode) ? (long long)source->information.st_size : -1;
-}
-
-/* The next byte, or DECK_SOURCE_END. */
-static int deck_source_next(struct deck_source *source)
-{
-    if (source->stream) {
-        int c = getc(source->stream);
-        return c == EOF ? DECK_SOURCE_END : c;
-    }
-    return source->left ? (source->left--, (unsigned char)*source->text++) : DECK_SOURCE_END;
-}
-
-/* 0, or the error number where reading ended before the end. */
-static int deck_source_close(struct deck_source *source)
-{
-    int number = source->stream && ferror(source->stream) ? errno : 0;
-    if (source->stream)
-        (void)fclose(source->stream);
-    return number;
 }
 
 struct reader {
@@ -63,6 +57,35 @@ struct reader {
     int continues;
     int out_of_memory;
 };
+
+/* The next byte, or DECK_SOURCE_END. */
+static int deck_source_next(struct reader *reader, struct deck_source *source)
+{
+    int c = DECK_SOURCE_END;
+    if (source->stream)
+        c = getc(source->stream);
+    else if (source->left) {
+        source->left--;
+        c = (unsigned char)*source->text++;
+    }
+    char *grown = pool_grow(reader->pool, source->kept, source->nkept, &source->room, 1);
+    reader->out_of_memory |= !grown;
+    if (!grown)
+        return DECK_SOURCE_END;
+    source->kept = grown;
+    source->kept[source->nkept] = (char)(c < 0 ? 0 : c); /* a zero ends the text */
+    source->nkept += c >= 0;
+    return c;
+}
+
+/* 0, or the error number where reading ended before the end. */
+static int deck_source_close(struct deck_source *source)
+{
+    int number = source->stream && ferror(source->stream) ? errno : 0;
+    if (source->stream)
+        (void)fclose(source->stream);
+    return number;
+}
 
 const struct card_option *card_option(const struct card *card, const char *name)
 {
@@ -366,7 +389,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
     char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
     size_t length = 0;
     int line = 1, c, stop = 0;
-    while (!stop && !reader->over && !reader->out_of_memory && (c = deck_source_next(source)) != DECK_SOURCE_END) {
+    while (!stop && !reader->over && !reader->out_of_memory && (c = deck_source_next(reader, source)) != DECK_SOURCE_END) {
         if (--reader->bytes_left < 0) {
             too_large(reader, path);
             break;
@@ -393,6 +416,13 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
     if (length)
         reader->text->end = (struct place){path, line, (int)length + 1};
     int failed = deck_source_close(source);
+    struct deck_text *text = reader->text;
+    struct deck_file *grown = pool_grow(reader->pool, text->source, (size_t)text->nsource, &text->source_room, sizeof *grown);
+    reader->out_of_memory |= !grown;
+    if (grown) {
+        text->source = grown;
+        text->source[text->nsource++] = (struct deck_file){path, source->kept ? source->kept : ""};
+    }
     if (failed)
         message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", host_error_text(failed, why));
     reader->continues = 0;
@@ -403,7 +433,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
 {
     struct deck_source source;
     char why[HOST_ERROR_TEXT];
-    int failed = deck_source_open(&source, path);
+    int failed = deck_source_open(&source, path, !from.file);
     if (failed) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
                     "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));

@@ -89,6 +89,18 @@ double deck_in_si(const struct deck_reader *reader, const char *what)
     return q >= 0 && reader->unit[q] ? quantity[q].factor[reader->unit[q]] : 1;
 }
 
+void deck_keep_units(struct deck_reader *reader)
+{
+    for (int q = 0; q < DECK_QUANTITIES; q++)
+        reader->job->units.si[q] = quantity[q].factor[reader->unit[q]];
+}
+
+double deck_unit_of(const struct job_units *units, const char *what)
+{
+    int q = find(what);
+    return q >= 0 && units->si[q] > 0 ? units->si[q] : 1;
+}
+
 const char *deck_unit_name(const struct deck_reader *reader, const char *what)
 {
     static const char *const lengths[] = {"m", "cm", "mm", "in"};

@@ -1,149 +1,733 @@
-#include "deck/deck.h"
+/* A deck that reads as it is meant, from the text that it was read from. The text is edited where it has to say something else,
+ * read again, and compared with what is meant; where the two differ in what can be stated (*FIT, elements, noise, the data), that
+ * is stated as well, so that as little as possible changes:
+ *
+ *   1 prepare   what is meant at the starts, inside the physical bounds of its causes, which other names lack names for
+ *   2 compose   edits of the parts (deck_edit.c): starts, suspects that were named, and what step 4 asked for; then what is new
+ *   3 read      the whole text as any deck is read
+ *   4 compare   deck_compare.c: nothing differs: done; else step 2 with more, as long as there is more that can be stated */
+#include "deck/card_table.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
-#include "rotid.h"
 
-/* A line of text that a deck takes for text. */
-static void put_text(struct deck_writer *w, const char *text)
+#define ATTEMPTS 6 /* each difference is of one of five kinds */
+
+struct writing {
+    struct pool *pool;
+    const struct states *given;
+    struct states meant;
+    const struct deck_write_options *options;
+    struct message_list *notes;
+    struct deck_edit edit;
+    unsigned *todo; /* [meant.nstate] of enum deck_difference */
+    int *of;        /* [meant.nstate] which *STATE of the text it is, -1: that of a deck without */
+};
+
+/* ------------------------------------------------------------------------------------------------ what is meant */
+
+/* A start has to lie between the bounds and must not be zero, being the scale of the parameter. */
+static double start_of(const rotid_parameter *bounds, double x)
 {
-    char line[DECK_LINE_LENGTH + 1];
-    size_t length = 0, taken;
-    text += strspn(text, "* \t\r\n");
-    for (; *text; text += taken) {
-        size_t bytes = text_visible(text);
-        taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
-        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
-                            : bytes                                                        ? text
-                                                                                           : TEXT_REPLACEMENT;
-        size_t count = shown == text ? bytes : strlen(shown);
-        if (length + count > DECK_LINE_LENGTH)
-            break;
-        memcpy(line + length, shown, count);
-        length += count;
-    }
-    line[length] = 0;
-    if (length)
-        deck_put(w, "%s\n", line);
+    double margin = 1e-6 * (bounds->upper - bounds->lower);
+    if (!(x > bounds->lower))
+        x = bounds->lower + margin;
+    if (!(x < bounds->upper))
+        x = bounds->upper - margin;
+    return x != 0 ? x : bounds->start;
 }
 
-void deck_write_heading(struct deck_writer *w, const struct deck_write_options *options)
+static int is_new(const struct rotor *given, const struct effect *effect)
 {
-    const struct job *job = w->job;
-    int extra = options ? options->nextra : 0;
-    if (job->nheading + job->nreference + extra == 0)
-        return;
-    deck_put(w, "*HEADING\n");
-    for (int i = 0; i < job->nheading; i++)
-        put_text(w, job->heading[i]);
-    for (int i = 0; i < extra; i++)
-        put_text(w, options->extra[i]);
-    for (int i = 0; i < job->nreference; i++) {
-        size_t begin = w->length;
-        deck_put(w, "paper %s", job->reference[i].quantity);
-        for (int j = 0; j < job->reference[i].nvalues; j++)
-            deck_put_number(w, j ? ", " : " = ", job->reference[i].values[j]);
-        if (w->length - begin > DECK_LINE_LENGTH) /* numbers may have become longer: only printed beside results */
-            w->length = begin;
-        else
-            deck_put(w, "\n");
-    }
+    for (int i = 0; i < given->neffect; i++)
+        if (same_text(given->effect[i].name, effect->name))
+            return 0;
+    return 1;
 }
 
-static void *copy(struct deck_writer *w, const void *source, int count, size_t size)
+/* Physical bounds may move with the model, such as those of a joint with E beside it: what is written has to lie inside those of
+ * the deck it is written into. */
+static double inside_physical(const struct rotor *rotor, const struct effect *effect, int p, double value)
 {
-    void *target = pool_get(w->pool, (size_t)count, size);
-    if (target && count)
-        memcpy(target, source, (size_t)count * size);
-    w->status = target ? w->status : ROTID_ERROR_MEMORY;
-    return target;
-}
-
-/* A copy of what a parameter can be of, at x. */
-static void set_parameters(struct deck_writer *w)
-{
-    struct rotor *rotor = &w->rotor;
-    rotor->tierod = copy(w, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod);
-    rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
-    if (!w->status)
-        parameters_set(rotor, w->job->unknowns.nparameter, w->job->unknowns.parameter, w->x);
+    const struct cause_kind *kind = catalogue_of(effect);
+    double lower, upper;
+    if (!kind || !kind->bounds)
+        return value;
+    cause_reach(kind, rotor, effect, p, &lower, &upper);
+    return fmin(fmax(value, lower), upper);
 }
 
 /* A cause is said to act on a spring or a disk by its name: those without one get one. */
-static void name_targets(struct deck_writer *w, int count, const struct effect *effect)
+static int name_target(struct pool *pool, struct rotor *rotor, const struct effect *effect)
 {
-    for (int i = 0; i < count; i++) {
-        const struct cause_kind *kind = catalogue_of(&effect[i]);
-        const char **name = !kind || effect[i].target < 0   ? NULL
-                            : kind->target == TARGET_SPRING ? &w->rotor.spring[effect[i].target].name
-                            : kind->target == TARGET_DISK   ? &w->rotor.disk[effect[i].target].name
-                                                            : NULL;
-        if (!name || *name)
+    const struct cause_kind *kind = catalogue_of(effect);
+    const char **name = !kind || effect->target < 0     ? NULL
+                        : kind->target == TARGET_SPRING ? &rotor->spring[effect->target].name
+                        : kind->target == TARGET_DISK   ? &rotor->disk[effect->target].name
+                                                        : NULL;
+    if (name && !*name)
+        *name = scan_free_name(pool, rotor, kind->target == TARGET_SPRING ? "spring" : "disk");
+    return name && !*name ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+static int prepare_state(struct writing *w, int s)
+{
+    struct state *state = &w->meant.state[s];
+    struct job *job = &state->job;
+    const struct rotor *given = &w->given->state[s].job.rotor;
+    int n = job->unknowns.nparameter, status = ROTID_OK;
+    rotid_parameter *bounds = POOL_ARRAY(w->pool, rotid_parameter, n);
+    double *x = POOL_ARRAY(w->pool, double, n);
+    struct rotor rotor;
+    if (!bounds || !x || deck_copy_rotor(w->pool, &job->rotor, &rotor))
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++) {
+        const struct parameter *parameter = &job->unknowns.parameter[p];
+        bounds[p] = job->unknowns.bounds[p];
+        if (parameter->kind == PARAMETER_EFFECT && is_new(given, &rotor.effect[parameter->index])) {
+            const struct effect *effect = &rotor.effect[parameter->index];
+            bounds[p].lower = inside_physical(given, effect, parameter->component, bounds[p].lower);
+            bounds[p].upper = inside_physical(given, effect, parameter->component, bounds[p].upper);
+        }
+        double start = w->options->x ? w->options->x[state_unknown(state, p)] : bounds[p].start;
+        x[p] = bounds[p].start = start_of(&bounds[p], start);
+    }
+    parameters_set(&rotor, n, job->unknowns.parameter, x);
+    for (int i = 0; i < rotor.neffect && !status; i++) {
+        struct effect *effect = &rotor.effect[i];
+        const struct cause_kind *kind = catalogue_of(effect);
+        for (int p = 0; p < effect_parameters(effect) && kind && is_new(given, effect); p++)
+            if (effect->value[p] != kind->parameter[p].neutral)
+                effect->value[p] = inside_physical(given, effect, p, effect->value[p]);
+        status = name_target(w->pool, &rotor, effect);
+    }
+    job->rotor = rotor;
+    job->unknowns.bounds = bounds;
+    job->units = w->given->state->job.units;
+    return status;
+}
+
+/* One mesh for what is common to states: the finest of theirs. */
+static void share_mesh(struct states *meant)
+{
+    for (int s = 0; s < meant->nstate; s++)
+        for (int t = 0; t < meant->nstate; t++) {
+            struct rotor *a = &meant->state[s].job.rotor;
+            const struct rotor *b = &meant->state[t].job.rotor;
+            for (int i = 0; i < a->nsegment && i < b->nsegment; i++)
+                if (b->segment[i].elements > a->segment[i].elements)
+                    a->segment[i].elements = b->segment[i].elements;
+        }
+}
+
+/* ------------------------------------------------------------------------------------------------ where things stand */
+
+/* The text state of a part that says something of state s: its own one, or -1 of what is common. */
+static int is_in(const struct writing *w, const struct deck_part *part, int s)
+{
+    return part->state < 0 || part->state == w->of[s];
+}
+
+static int is_card(const struct deck_part *part, const char *name)
+{
+    return part->card && !strcmp(part->card->name, name);
+}
+
+static const char *option_text(struct writing *w, const struct deck_part *part, const char *name)
+{
+    size_t length = 0;
+    const char *value = deck_edit_option(part, name, &length),
+               *copy = value ? pool_format(w->pool, "%.*s", (int)length, value) : NULL;
+    if (value && !copy)
+        w->edit.status = ROTID_ERROR_MEMORY;
+    return copy;
+}
+
+static void find_states(struct writing *w)
+{
+    for (int s = 0; s < w->meant.nstate; s++) {
+        w->of[s] = -1;
+        for (int i = 0; i < w->edit.npart && w->meant.state[s].name; i++) {
+            const char *name = is_card(&w->edit.part[i], "STATE") ? option_text(w, &w->edit.part[i], "NAME") : NULL;
+            if (name && same_text(name, w->meant.state[s].name))
+                w->of[s] = w->edit.part[i].state;
+        }
+    }
+}
+
+/* Behind the last card of a text state, or of those that are common (-1). */
+static int end_of(const struct writing *w, int state)
+{
+    int at = 0;
+    for (int i = 0; i < w->edit.npart; i++)
+        if (w->edit.part[i].state == state)
+            at = i + 1;
+        else if (state < 0)
+            break;
+    return at;
+}
+
+static struct deck_writer writer_of(const struct writing *w, int s)
+{
+    return (struct deck_writer){.pool = w->pool, .job = &w->meant.state[s].job};
+}
+
+static void insert(struct writing *w, int state, const struct deck_writer *cards)
+{
+    if (cards->status)
+        w->edit.status = w->edit.status ? w->edit.status : cards->status;
+    else if (cards->length)
+        deck_edit_insert(&w->edit, end_of(w, state), cards->text);
+}
+
+/* ------------------------------------------------------------------------------------------------ what is searched */
+
+/* "front.k" of "bearings:front.k" */
+static const char *own_name(const struct state *state, int p)
+{
+    const char *name = state->job.unknowns.bounds[p].name;
+    size_t length = state->name ? strlen(state->name) : 0;
+    return length && !strncasecmp(name, state->name, length) && name[length] == ':' ? name + length + 1 : name;
+}
+
+static int find_unknown(const struct state *state, const char *name, size_t length)
+{
+    for (int p = 0; p < state->job.unknowns.nparameter; p++) {
+        const char *own = own_name(state, p);
+        if (strlen(own) == length && !strncasecmp(own, name, length))
+            return p;
+    }
+    return -1;
+}
+
+struct in_part {
+    struct writing *w;
+    const struct deck_part *part;
+    int s, first; /* first: of a list, the number of the part's first line in it */
+};
+
+/* A line of *IDENTIFY: what differs of bounds and start, in the unit of the deck. */
+static void put_unknown(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+{
+    const struct in_part *in = context;
+    const struct writing *w = in->w;
+    int count, at = deck_edit_field(line, length, 0, &count);
+    (void)number;
+    for (int s = 0; s < w->meant.nstate; s++) {
+        const struct state *meant = &w->meant.state[s], *given = &w->given->state[s];
+        int p = is_in(w, in->part, s) ? find_unknown(meant, line + at, (size_t)count) : -1,
+            q = is_in(w, in->part, s) ? find_unknown(given, line + at, (size_t)count) : -1;
+        if (p < 0 || q < 0 || (in->part->state < 0 && own_name(given, q) != given->job.unknowns.bounds[q].name))
             continue;
-        *name = scan_free_name(w->pool, &w->rotor, kind->target == TARGET_SPRING ? "spring" : "disk");
-        w->status = *name ? w->status : ROTID_ERROR_MEMORY;
+        const rotid_parameter *to = &meant->job.unknowns.bounds[p], *from = &given->job.unknowns.bounds[q];
+        const double value[] = {to->lower, to->upper, to->start}, was[] = {from->lower, from->upper, from->start};
+        struct deck_writer edited = {.pool = w->pool};
+        deck_put(&edited, "%.*s", (int)length, line);
+        for (int k = 0; k < 3; k++) {
+            struct deck_writer number_of = writer_of(w, s), next = {.pool = w->pool};
+            if (value[k] == was[k] || edited.status)
+                continue;
+            deck_put_number(&number_of, "", value[k], to->unit ? to->unit : "");
+            next.status = number_of.status;
+            deck_edit_put_field(&next, edited.text, edited.length, k + 1, number_of.text ? number_of.text : "");
+            edited = next;
+        }
+        out->status = out->status ? out->status : edited.status;
+        deck_put(out, "%s", edited.text ? edited.text : "");
+        return;
+    }
+    deck_put(out, "%.*s", (int)length, line);
+}
+
+/* A suspect that was named: it stands among the causes of the model, which come last. */
+static int is_named_suspect(struct writing *w, const struct deck_part *part)
+{
+    const char *name = is_card(part, "CAUSE") ? option_text(w, part, "NAME") : NULL;
+    for (int s = 0; s < w->given->nstate && name; s++) {
+        int was = 0, is = 0;
+        for (int i = 0; i < w->given->state[s].job.unknowns.nsuspect; i++)
+            was |= is_in(w, part, s) && same_text(w->given->state[s].job.unknowns.suspect[i].effect.name, name);
+        for (int i = 0; i < w->meant.state[s].job.unknowns.nsuspect; i++)
+            is |= same_text(w->meant.state[s].job.unknowns.suspect[i].effect.name, name);
+        if (was && !is)
+            return 1;
+    }
+    return 0;
+}
+
+static void edit_searched(struct writing *w)
+{
+    for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+        struct in_part in = {.w = w, .part = &w->edit.part[i]};
+        if (is_card(in.part, "IDENTIFY"))
+            deck_edit_lines(&w->edit, i, put_unknown, &in);
+        else if (is_named_suspect(w, in.part))
+            deck_edit_clear(&w->edit, i);
     }
 }
 
-int deck_writer_open(struct deck_writer *w, struct pool *pool, const struct job *job, const double *x)
+/* ------------------------------------------------------------------------------------------------ *FIT and what is held out */
+
+static int find_card(const struct writing *w, const char *name, int state)
 {
-    *w = (struct deck_writer){.pool = pool, .job = job, .rotor = job->rotor, .x = x};
-    w->rotor.disk = copy(w, w->rotor.disk, w->rotor.ndisk, sizeof *w->rotor.disk);
-    w->rotor.spring = copy(w, w->rotor.spring, w->rotor.nspring, sizeof *w->rotor.spring);
-    w->rotor.group = copy(w, w->rotor.group, w->rotor.ngroup, sizeof *w->rotor.group);
-    if (w->x && !w->status)
-        set_parameters(w);
-    if (!w->status)
-        name_targets(w, w->rotor.neffect, w->rotor.effect);
-    for (int i = 0; i < job->unknowns.nsuspect && !w->status; i++)
-        name_targets(w, 1, &job->unknowns.suspect[i].effect);
-    return w->status;
+    for (int i = 0; i < w->edit.npart; i++)
+        if (is_card(&w->edit.part[i], name) && w->edit.part[i].state == state)
+            return i;
+    return -1;
 }
 
-/* Lines and cards within the limits of a reader. */
-static int is_readable(const char *text, size_t length)
+/* *FIT, which is made where there is none. */
+static int fit_card(struct writing *w)
 {
-    int cards = 0;
-    const char *line = text;
-    while (*line) {
-        size_t count = strcspn(line, "\n");
-        cards += *line == '*';
-        if (count > DECK_LINE_LENGTH)
-            return 0;
-        line += count + (line[count] == '\n');
+    int at = find_card(w, "FIT", -1);
+    if (at < 0 && !w->edit.status) {
+        at = end_of(w, -1);
+        deck_edit_insert(&w->edit, at, "*FIT\n");
+        w->edit.part[at].card = deck_card_find("FIT");
     }
-    return cards <= DECK_MOST_CARDS && (long)length <= DECK_MOST_BYTES;
+    return at;
 }
 
-int deck_writer_end(struct deck_writer *w, char **text)
+static void edit_fit(struct writing *w)
 {
-    *text = NULL;
-    if (w->status)
-        return w->status;
-    if (!is_readable(w->text, w->length))
-        return ROTID_ERROR_ARGUMENT;
-    *text = w->text;
-    return ROTID_OK;
+    const struct job_options *options = &w->meant.state->job.options;
+    int at = fit_card(w);
+    size_t length;
+    if (w->edit.status)
+        return;
+    if (options->fit.functional >= 0)
+        deck_edit_set(&w->edit, at, "FUNCTIONAL", functional_words[options->fit.functional]);
+    deck_edit_set(&w->edit, at, "REDUCTION", reduction_words[options->fit.reduction]);
+    if (options->fit.derivative != ROTID_NELSON || deck_edit_option(&w->edit.part[at], "DERIVATIVE", &length))
+        deck_edit_set(&w->edit, at, "DERIVATIVE", derivative_words[options->fit.derivative]);
+    if (options->solid || deck_edit_option(&w->edit.part[at], "MODEL", &length))
+        deck_edit_set(&w->edit, at, "MODEL", options->solid ? "SOLID" : "BEAM");
 }
 
-int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text)
+static void set_or_drop(struct writing *w, int at, const char *option, const char *value)
 {
-    struct deck_writer w;
+    size_t length;
+    if ((value && *value) || deck_edit_option(&w->edit.part[at], option, &length))
+        deck_edit_set(&w->edit, at, option, value && *value ? value : NULL);
+}
+
+static int is_held_out(const struct job *job)
+{
+    int fitted = 0;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        fitted += !job->measurement.holdout[k];
+    return job->measurement.nmode && !fitted;
+}
+
+/* The modes that are held out: on *FIT, of states on the card of each, *FIT has those that are held out as a whole. */
+static void edit_holdout(struct writing *w)
+{
+    int fit = fit_card(w);
+    struct deck_writer whole = {.pool = w->pool};
+    for (int s = 0; s < w->meant.nstate && !w->edit.status; s++) {
+        struct deck_writer modes = writer_of(w, s);
+        int all = w->meant.nstate > 1 && is_held_out(&w->meant.state[s].job);
+        if (all)
+            deck_put(&whole, "%sSTATE:%s", whole.length ? ", " : "", w->meant.state[s].name);
+        else
+            deck_put_holdout(&modes);
+        int at = w->of[s] < 0 ? fit : find_card(w, "STATE", w->of[s]);
+        set_or_drop(w, at, "MODES", NULL);
+        set_or_drop(w, at, "HOLDOUT", modes.text);
+    }
+    if (w->of[0] < 0 || w->edit.status)
+        return;
+    set_or_drop(w, fit, "MODES", NULL);
+    set_or_drop(w, fit, "HOLDOUT", whole.text);
+    w->edit.status = whole.status;
+}
+
+/* ------------------------------------------------------------------------------------------------ elements */
+
+static int group_of(const struct rotor *rotor, const char *name)
+{
+    for (int g = 0; g < rotor_axis_groups(rotor) && name; g++)
+        if (same_text(rotor->group[g].name, name))
+            return g;
+    return -1;
+}
+
+static const struct segment *segment_of(const struct rotor *rotor, int group, int number)
+{
+    for (int s = 0; s < rotor->nsegment; s++)
+        if (rotor->segment[s].group == group && !number--)
+            return &rotor->segment[s];
+    return NULL;
+}
+
+static void put_elements(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+{
+    const struct in_part *in = context;
+    const struct segment *to = segment_of(&in->w->meant.state[in->s].job.rotor, in->first, number),
+                         *from = segment_of(&in->w->given->state[in->s].job.rotor, in->first, number);
+    char text[16];
+    int count, has = deck_edit_field(line, length, 3, &count) >= 0 && count > 0;
+    (void)snprintf(text, sizeof text, "%d", to ? to->elements : 0);
+    if (to && (!has || !from || to->elements != from->elements))
+        deck_edit_put_field(out, line, length, 3, text);
+    else
+        deck_put(out, "%.*s", (int)length, line);
+}
+
+/* The sections of a table become lines: a table is not ours to change. */
+static void write_sections(struct writing *w, int at, int s, int group)
+{
+    const struct rotor *rotor = &w->meant.state[s].job.rotor;
+    struct deck_writer lines = writer_of(w, s);
+    const struct segment *segment;
+    for (int i = 0; (segment = segment_of(rotor, group, i)); i++)
+        deck_put_values(&lines, segment->rectangular ? deck_beam_rows : deck_shaft_rows, segment);
+    deck_edit_set(&w->edit, at, "FILE", NULL);
+    deck_edit_append(&w->edit, at, lines.text);
+    w->edit.status = w->edit.status ? w->edit.status : lines.status;
+}
+
+static void edit_elements(struct writing *w)
+{
+    for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+        struct deck_part *part = &w->edit.part[i];
+        struct in_part in = {.w = w, .part = part};
+        size_t length;
+        if (!is_card(part, "SHAFT") && !is_card(part, "BEAM"))
+            continue;
+        while (in.s < w->meant.nstate && !is_in(w, part, in.s))
+            in.s++;
+        if (in.s == w->meant.nstate)
+            continue;
+        in.first = group_of(&w->meant.state[in.s].job.rotor, option_text(w, part, "NAME"));
+        if (in.first >= 0 && deck_edit_option(part, "FILE", &length))
+            write_sections(w, i, in.s, in.first);
+        else if (in.first >= 0)
+            deck_edit_lines(&w->edit, i, put_elements, &in);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------ noise, data */
+
+/* Whether all states need *NOISE, the same one, and none has a card of its own: it is common then. */
+static int shares_noise(const struct writing *w)
+{
+    double first[2], other[2];
+    int same = 1;
+    deck_noise_of_all(&w->meant.state->job, &first[0], &first[1]);
+    for (int s = 0; s < w->meant.nstate; s++) {
+        deck_noise_of_all(&w->meant.state[s].job, &other[0], &other[1]);
+        same &= (w->todo[s] & (DECK_OTHER_NOISE | DECK_OTHER_DATA)) == DECK_OTHER_NOISE && deck_is_near(first[0], other[0]) &&
+                deck_is_near(first[1], other[1]) && find_card(w, "NOISE", w->of[s]) < 0;
+    }
+    return same;
+}
+
+static void edit_noise(struct writing *w, int s)
+{
+    double frequency, shape;
+    deck_noise_of_all(&w->meant.state[s].job, &frequency, &shape);
+    int state = w->meant.nstate > 1 && shares_noise(w) ? -1 : w->of[s], at = find_card(w, "NOISE", state);
+    char text[DECK_NUMBER_LENGTH];
+    if (!isfinite(frequency) && !isfinite(shape))
+        return;
+    if (at < 0) {
+        at = end_of(w, state);
+        deck_edit_insert(&w->edit, at, "*NOISE\n");
+        w->edit.part[at].card = deck_card_find("NOISE");
+    }
+    if (isfinite(frequency) && !w->edit.status)
+        deck_edit_set(&w->edit, at, "FREQUENCY", deck_number_text(frequency, text));
+    if (isfinite(shape) && !w->edit.status)
+        deck_edit_set(&w->edit, at, "SHAPE", deck_number_text(shape, text));
+}
+
+static void edit_data(struct writing *w, int s)
+{
+    static const char *const names[] = {"MODES", "SHAPE", "FREQUENCIES", "MEASURED", "NOISE", "SENSORS"};
+    int first = -1, sensors = (w->todo[s] & DECK_OTHER_SENSORS) != 0, stated = 0, file = 0;
+    for (int i = 0; i < w->edit.npart; i++) {
+        stated |= is_card(&w->edit.part[i], "SENSORS") && is_in(w, &w->edit.part[i], s);
+        file |= is_card(&w->edit.part[i], "MEASURED") && is_in(w, &w->edit.part[i], s);
+    }
+    sensors |= file && !stated;
+    for (int i = w->edit.npart - 1; i >= 0; i--)
+        for (int k = 0; k < 5 + sensors; k++)
+            if (is_card(&w->edit.part[i], names[k]) && w->edit.part[i].state == w->of[s]) {
+                deck_edit_clear(&w->edit, i);
+                first = i;
+            }
+    struct deck_writer cards = writer_of(w, s);
+    int noise = find_card(w, "NOISE", -1);
+    double std = w->meant.state[s].job.measurement.nmode ? w->meant.state[s].job.measurement.frequency_std[0] : NAN;
+    deck_put_measured(&cards, sensors);
+    if (w->of[s] >= 0 && noise >= 0 && isfinite(std) && (!cards.text || !strstr(cards.text, "*NOISE"))) {
+        deck_put_card(&cards, "NOISE"); /* in place of a common one, whose floor would add to the deviations of the modes */
+        deck_put_option_number(&cards, "FREQUENCY", std, "");
+        deck_put(&cards, "\n");
+    }
+    if (first < 0)
+        insert(w, w->of[s], &cards);
+    else if (!cards.status && cards.length) {
+        deck_put(&cards, "%.*s", (int)w->edit.part[first].length, w->edit.part[first].text);
+        w->edit.part[first].text = cards.text;
+        w->edit.part[first].length = cards.length;
+    }
+    w->edit.status = w->edit.status ? w->edit.status : cards.status;
+}
+
+/* ------------------------------------------------------------------------------------------------ names */
+
+/* Line `number` of a list of springs or disks whose item has got a name stands under a card of its own. */
+static void put_named(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+{
+    const struct in_part *in = context;
+    const struct rotor *meant = &in->w->meant.state[in->s].job.rotor, *given = &in->w->given->state[in->s].job.rotor;
+    int spring = !strcmp(in->part->card->name, "SPRING"), at = in->first + number, count = spring ? given->nspring : given->ndisk;
+    const char *is = at >= count ? NULL
+                     : spring    ? meant->spring[at].name
+                                 : meant->disk[at].name,
+               *was = at >= count ? NULL
+                      : spring    ? given->spring[at].name
+                                  : given->disk[at].name,
+               *before = !number || at > count ? NULL
+                         : spring              ? meant->spring[at - 1].name
+                                               : meant->disk[at - 1].name;
+    if (number && is && !was)
+        deck_put(out, "*%s, NAME=%s\n", in->part->card->name, is);
+    else if (before)
+        deck_put(out, "*%s\n", in->part->card->name);
+    deck_put(out, "%.*s", (int)length, line);
+}
+
+static void count_line(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+{
+    *(int *)context = number + 1;
+    deck_put(out, "%.*s", (int)length, line);
+}
+
+/* Names of springs or disks on which a new cause acts. */
+static void edit_names(struct writing *w, int s, const char *card)
+{
+    int next = 0, spring = !strcmp(card, "SPRING");
+    const struct rotor *meant = &w->meant.state[s].job.rotor, *given = &w->given->state[s].job.rotor;
+    for (int own = 0; own < 2; own++)
+        for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+            struct in_part in = {.w = w, .part = &w->edit.part[i], .s = s, .first = next};
+            int lines = 0, count = spring ? given->nspring : given->ndisk, any = 0;
+            if (!is_card(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
+                continue;
+            deck_edit_lines(&w->edit, i, count_line, &lines);
+            for (int k = next; k < next + lines && k < count; k++)
+                any |= spring ? meant->spring[k].name && !given->spring[k].name : meant->disk[k].name && !given->disk[k].name;
+            const char *first = !any ? NULL : spring ? meant->spring[next].name : meant->disk[next].name;
+            next += lines;
+            if (any)
+                deck_edit_lines(&w->edit, i, put_named, &in);
+            if (any && first)
+                deck_edit_set(&w->edit, i, "NAME", first);
+        }
+}
+
+/* ------------------------------------------------------------------------------------------------ what is new */
+
+/* Whether all states have it, with the same values: a place may lie beyond the end of a shorter one. */
+static int is_in_all(const struct writing *w, const struct effect *effect)
+{
+    int all = 0;
+    for (int s = 0; s < w->meant.nstate; s++)
+        for (int i = 0; i < w->meant.state[s].job.rotor.neffect; i++) {
+            const struct effect *other = &w->meant.state[s].job.rotor.effect[i];
+            int same = same_text(other->name, effect->name);
+            for (int p = 0; p < effect_parameters(effect) && same; p++)
+                same = deck_is_near(other->value[p], effect->value[p]);
+            all += same;
+        }
+    return all == w->meant.nstate;
+}
+
+/* What state s has besides: of the causes and unknowns those that are common to all, or those of its own. */
+static void put_new(struct writing *w, int s, int common, struct deck_writer *out)
+{
+    const struct state *meant = &w->meant.state[s], *given = &w->given->state[s];
+    int any = 0, alone = w->of[s] < 0;
+    if (!common || alone)
+        deck_put_corrections(out, given->job.measurement.ncorrection);
+    for (int i = 0; i < meant->job.rotor.neffect; i++) {
+        const struct effect *effect = &meant->job.rotor.effect[i];
+        int in_all = alone || (w->meant.nstate > 1 && is_in_all(w, effect));
+        if (is_new(&given->job.rotor, effect) && in_all == common)
+            deck_put_cause(out, effect, NULL);
+    }
+    for (int p = 0; p < meant->job.unknowns.nparameter; p++) {
+        const char *name = own_name(meant, p);
+        int is_common = alone || (w->meant.nstate > 1 && name == meant->job.unknowns.bounds[p].name);
+        if (find_unknown(given, name, strlen(name)) >= 0 || is_common != common)
+            continue;
+        deck_put(out, "%s", any++ ? "" : "*IDENTIFY\n");
+        deck_put_unknown(out, p, name);
+    }
+}
+
+static void add_heading(struct writing *w)
+{
+    struct deck_writer lines = {.pool = w->pool};
+    int at = find_card(w, "HEADING", -1), first = 0;
+    for (int i = 0; i < w->options->nextra; i++)
+        deck_put_text(&lines, w->options->extra[i]);
+    if (!lines.length || lines.status) {
+        w->edit.status = w->edit.status ? w->edit.status : lines.status;
+    } else if (at >= 0) {
+        deck_edit_append(&w->edit, at, lines.text);
+    } else {
+        while (first < w->edit.npart && !w->edit.part[first].card && !w->edit.part[first].include)
+            first++;
+        deck_edit_insert(&w->edit, first, pool_format(w->pool, "*HEADING\n%s", lines.text));
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------ the text */
+
+/* Lines end as those of the deck do, and a byte that is no character and no letter of Latin-1 goes: a terminal may obey it. */
+static void finish(struct writing *w, const char *deck, struct deck_writer *text)
+{
+    const char *feed = strchr(deck, '\n');
+    int carriage = feed && feed > deck && feed[-1] == '\r';
+    struct deck_writer out = {.pool = w->pool};
+    for (const char *from = text->text, *c = from; c && *c && !text->status; from = c) {
+        size_t bytes;
+        while (*c && *c != '\n' && ((bytes = text_visible(c)) || *c == '\t' || *c == '\r' || (unsigned char)*c >= 0xa0))
+            c += bytes ? bytes : 1;
+        deck_put(&out, "%.*s%s", (int)(c - from), from,
+                 !*c                                              ? ""
+                 : *c != '\n'                                     ? TEXT_REPLACEMENT
+                 : carriage && !(c > text->text && c[-1] == '\r') ? "\r\n"
+                                                                  : "\n");
+        c += *c != 0;
+    }
+    text->status = text->status ? text->status : out.status;
+    text->text = out.text;
+}
+
+static int compose(struct writing *w, char **text)
+{
+    struct deck_writer out = {.pool = w->pool};
+    unsigned any = 0;
+    if (deck_edit_open(&w->edit, w->pool, w->given->state->job.origin))
+        return w->edit.status;
+    find_states(w);
+    for (int s = 0; s < w->meant.nstate; s++)
+        any |= w->todo[s];
+    edit_searched(w);
+    for (int s = 0; s < w->meant.nstate; s++) {
+        edit_names(w, s, "SPRING");
+        edit_names(w, s, "DISK");
+    }
+    if (any & DECK_OTHER_ELEMENTS)
+        edit_elements(w);
+    for (int s = 0; s < w->meant.nstate; s++) {
+        if (w->todo[s] & (DECK_OTHER_DATA | DECK_OTHER_SENSORS))
+            edit_data(w, s);
+        else if (w->todo[s] & DECK_OTHER_NOISE)
+            edit_noise(w, s);
+    }
+    for (int s = 0; s < w->meant.nstate; s++) {
+        struct deck_writer own = writer_of(w, s), common = writer_of(w, s);
+        if (!s) {
+            put_new(w, 0, 1, &common);
+            insert(w, -1, &common);
+        }
+        if (w->of[s] >= 0) {
+            put_new(w, s, 0, &own);
+            insert(w, w->of[s], &own);
+        }
+    }
+    if (any & DECK_OTHER_FIT)
+        edit_fit(w);
+    if (any & DECK_OTHER_HOLDOUT)
+        edit_holdout(w);
+    add_heading(w);
+    deck_edit_text(&w->edit, &out, NULL, 0);
+    if (!w->edit.status)
+        finish(w, w->given->state->job.origin->file[w->given->state->job.origin->nfile - 1].text, &out);
+    *text = out.text;
+    return w->edit.status ? w->edit.status : out.status;
+}
+
+int deck_read_back(struct pool *pool, const char *path, const char *text, struct message_list *notes, struct states *states)
+{
+    struct message_list messages;
+    message_open(&messages, pool);
+    const struct deck_memory memory = {.name = path, .length = strlen(text), .text = text, .directory = "."};
+    int status = deck_read_states(pool, path, &memory, 0, NULL, &messages, states);
+    for (size_t i = 0; i < messages.count && status; i++)
+        if (messages.item[i].severity == SEVERITY_ERROR) {
+            message_add(notes, SEVERITY_ERROR, path, 1, 1, "the deck that is to be written would not be read: line %d, %s",
+                        messages.item[i].line, messages.item[i].text);
+            break;
+        }
+    return status == ROTID_ERROR_MEMORY || !status ? status : ROTID_ERROR_ARGUMENT;
+}
+
+/* What differs of each state into todo: of noise that *NOISE did not give, the data. 0 where nothing does, 1 where there is more
+ * to be stated, -1 with the card at which there is not. */
+static int compare(struct writing *w, const struct states *read, const char **card)
+{
+    int more = 0, rest = 0;
+    if (read->nstate != w->meant.nstate) {
+        *card = "STATE";
+        return -1;
+    }
+    for (int s = 0; s < read->nstate; s++) {
+        const char *one = "";
+        unsigned bits = deck_compare(w->pool, &w->meant.state[s].job, &read->state[s].job, &one);
+        if (bits & w->todo[s] & DECK_OTHER_NOISE)
+            bits |= DECK_OTHER_DATA;
+        more |= (bits & ~w->todo[s] & ~(unsigned)DECK_OTHER_MODEL) != 0;
+        if (bits && !**card)
+            *card = one;
+        rest |= bits != 0;
+        w->todo[s] |= bits;
+    }
+    return more ? 1 : rest ? -1 : 0;
+}
+
+int deck_write(struct pool *pool, const struct states *given, const struct states *meant,
+               const struct deck_write_options *options, struct message_list *notes, char **text)
+{
+    static const struct deck_write_options none = {0};
+    struct writing w = {.pool = pool, .given = given, .options = options ? options : &none, .notes = notes};
+    int status = states_copy(pool, meant, &w.meant), left = 1;
+    w.todo = POOL_ARRAY(pool, unsigned, meant->nstate);
+    w.of = POOL_ARRAY(pool, int, meant->nstate);
     *text = NULL;
-    if (deck_writer_open(&w, pool, job, options ? options->x : NULL))
-        return w.status;
-    deck_write_heading(&w, options);
-    deck_write_model(&w);
-    deck_write_measured(&w);
-    deck_write_corrections(&w);
-    deck_write_causes(&w);
-    if (job->unknowns.nparameter)
-        deck_put(&w, "*IDENTIFY\n");
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        deck_write_unknown(&w, p, job->unknowns.bounds[p].name);
-    deck_write_fit(&w, 1);
-    deck_write_frf(&w);
-    return deck_writer_end(&w, text);
+    if (!w.todo || !w.of || given->nstate != meant->nstate)
+        return w.todo && w.of ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < meant->nstate && !status; s++)
+        status = prepare_state(&w, s);
+    if (!status)
+        share_mesh(&w.meant);
+    const char *path = given->state->job.deck, *card = "";
+    for (int attempt = 0; attempt < ATTEMPTS && !status && left > 0; attempt++) {
+        struct states read;
+        card = "";
+        status = compose(&w, text);
+        if (!status)
+            status = deck_read_back(pool, path, *text, notes, &read);
+        left = status ? 1 : compare(&w, &read, &card);
+    }
+    if (!status && left) {
+        message_add(notes, SEVERITY_ERROR, path, 1, 1,
+                    "no deck is written: *%s would be read as something else than what is meant", card);
+        status = ROTID_ERROR_ARGUMENT;
+    }
+    status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    *text = status ? NULL : *text;
+    return status;
 }

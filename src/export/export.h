@@ -22,6 +22,7 @@
 #include <stdio.h>
 
 #include "model/model.h"
+#include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"
 
@@ -149,7 +150,8 @@ int export_files_write(const struct export_files *files, const struct export_mod
 
 /* What was exported, as a table and as the struct of its JSON. */
 
-void table_export(FILE *out, const struct result_head *head, const struct export_files *files, const struct export_model *model);
+void screen_export(const struct screen *to, const struct result_head *head, const struct export_files *files,
+                   const struct export_model *model);
 /* The same as the struct of its JSON, on the pool; NULL where memory is out. */
 const struct export_result *export_result_of(struct pool *pool, const struct export_files *files,
                                              const struct export_model *model);

@@ -465,11 +465,14 @@ static const char *state_of(const struct export_model *model)
     return !fit ? NULL : !fit->converged ? "not_converged" : fit->any_at_bound ? "at_bound" : "converged";
 }
 
-void table_export(FILE *out, const struct result_head *head, const struct export_files *files, const struct export_model *model)
+void screen_export(const struct screen *to, const struct result_head *head, const struct export_files *files,
+                   const struct export_model *model)
 {
     const struct job *job = model->job;
     const struct spectrum *s = &model->spectrum;
-    table_heading(out, head);
+    struct table *table = table_open(to->pool, "");
+    FILE *out = to->out;
+    screen_heading(to, head);
     (void)fprintf(out,
                   model->identified ? "model           identified from %d measured modes\n"
                                     : "model           as the deck states it\n",
@@ -487,13 +490,13 @@ void table_export(FILE *out, const struct result_head *head, const struct export
     if (model->condensed.k)
         (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_words[model->condensed.kind], model->condensed.count,
                       job->rotor.nsensor ? "sensors" : "nodes");
-    (void)fputs("\nmode   full model       condensed\n           [Hz]            [Hz]\n", out);
     for (int j = 0; j < s->count; j++) {
-        (void)fprintf(out, "%3d ", j + 1);
-        number_cell(out, 13, 4, s->full_hz[j]);
-        number_cell(out, 16, 4, model->condensed.k ? s->reduced_hz[j] : NAN);
-        (void)fputc('\n', out);
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, j + 1);
+        number_column(table, "frequency", "Hz", SHOW_FIXED(4), s->full_hz[j]);
+        number_column(table, "condensed", "Hz", SHOW_FIXED(4), model->condensed.k ? s->reduced_hz[j] : (double)NAN);
     }
+    screen_table(to, table);
     (void)fputc('\n', out);
     for (int i = 0; i < files->count; i++)
         (void)fprintf(out, "%s\n", files->path[i]);

@@ -65,7 +65,7 @@ void arrow_take(struct arrow *a, struct arrow_matrix *matrix, const rotid_matrix
     for (int j = 0; j < n; j++) {
         int reach = kd < n - 1 - j ? kd : n - 1 - j;
         const double *column = from->band + (ptrdiff_t)j * (kd + 1);
-        if (row[j] < a->n && row[j + reach] == row[j] + reach) { /* none of them far */
+        if (row[j + reach] < a->n && row[j + reach] == row[j] + reach) { /* none of them far */
             memcpy(matrix->band + (ptrdiff_t)row[j] * (kd + 1), column, (size_t)(reach + 1) * sizeof *column);
             continue;
         }
@@ -75,7 +75,7 @@ void arrow_take(struct arrow *a, struct arrow_matrix *matrix, const rotid_matrix
     }
     for (int q = 0; q < from->nfar; q++)
         for (int p = q; p < from->nfar; p++)
-            arrow_add(a, matrix, row[from->far[p]], row[from->far[q]], from->block[p + q * from->nfar]);
+            arrow_add(a, matrix, row[from->far[p]], row[from->far[q]], from->block[p + (ptrdiff_t)q * from->nfar]);
 }
 
 static const four_signs all_but_sign = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};

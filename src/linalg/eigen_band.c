@@ -439,7 +439,7 @@ static int check(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
  * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
 static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
+    double shift = shift_above(e->value[e->count - 1], e->shift, e->largest);
     int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;

@@ -8,7 +8,6 @@
 #define TOLERANCE 2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
 #define ROUGH     1e-3  /* of it, where eigenvalues are sought for their size */
 #define NEAR      1e-4  /* of it, of a pair that is not wanted: its eigenvalue is off by the square of that */
-#define ROUNDING  2e-15 /* of the highest eigenvalue: what the entries of K leave of the lowest ones */
 #define GUARDS    5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
 #define REPAIRS   4     /* times that random vectors look for pairs that were missed */
 
@@ -99,7 +98,7 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
  * below the shift than pairs are kept: no search can prove those complete. */
 static int count_missed(struct eigen_wide *e)
 {
-    double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift) + ROUNDING * e->largest;
+    double shift = shift_above(e->value[e->count - 1], e->shift, e->largest);
     int known = e->count;
     while (known < e->block && e->value[known] <= shift)
         known++;

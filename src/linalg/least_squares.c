@@ -1,5 +1,6 @@
 #include "linalg/linalg.h"
 
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
@@ -13,29 +14,27 @@
 size_t least_squares_workspace(int m, int n)
 {
     size_t rows = (size_t)m + (size_t)n;
-    return rows * (size_t)n + rows + (size_t)n + rows * BLOCK;
+    return rows * (size_t)n + rows + 2 * (size_t)n + rows * BLOCK;
 }
 
-/* The power of two that brings the largest scale to 1: dgels scales matrices beyond 1e-292 ... 1e292 by a factor of its own and
- * leaves the R of the scaled one. */
-static double unit_of(int n, const double *scale)
+/* The power of two that brings a column of this scale to 1: of columns 1e300 apart, one unit would make zeros. It changes no
+ * digit of the QR, since its reflections see a column's own power of two in that column alone. */
+static double unit_of(double scale)
 {
-    double largest = 0;
     int exponent;
-    for (int j = 0; j < n; j++)
-        largest = fmax(largest, scale[j]);
-    (void)frexp(largest, &exponent);
+    (void)frexp(scale, &exponent);
     return ldexp(1, -(exponent > MOST ? MOST : exponent < -MOST ? -MOST : exponent));
 }
 
-/* For one mu, (unit J)(h / unit) = -r. unit R is left in the upper triangle of work, leading dimension m + n. */
+/* For one mu, J U y = -r with U = diag(unit_of(scale)), h = U y: y to the first n of `right`, R U to the upper triangle of work,
+ * leading dimension m + n. *length = |D h|. */
 static int solve_damped(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
-                        double unit, double mu, double *h, double *work)
+                        double mu, double *length, double *work)
 {
     int rows = m + n;
-    double *stack = work, *right = stack + (ptrdiff_t)rows * n, *lapack = right + rows, root = sqrt(mu);
+    double *stack = work, *right = stack + (ptrdiff_t)rows * n, *part = right + rows, *lapack = part + n, root = sqrt(mu);
     for (int j = 0; j < n; j++) {
-        double *column = stack + (ptrdiff_t)j * rows;
+        double *column = stack + (ptrdiff_t)j * rows, unit = unit_of(scale[j]);
         for (int i = 0; i < m; i++)
             column[i] = unit * jacobian[i + (ptrdiff_t)j * m];
         memset(column + m, 0, (size_t)n * sizeof(double));
@@ -44,15 +43,13 @@ static int solve_damped(int m, int n, const double *jacobian, const double *r, c
     for (int i = 0; i < m; i++)
         right[i] = -r[i];
     memset(right + m, 0, (size_t)n * sizeof(double));
-    int lwork = (int)(least_squares_workspace(m, n) - (size_t)rows * (size_t)n - (size_t)rows);
+    int lwork = (int)(least_squares_workspace(m, n) - (size_t)rows * (size_t)n - (size_t)rows - (size_t)n);
     if (LAPACKE_dgels_work(LAPACK_COL_MAJOR, 'N', rows, n, 1, stack, rows, right, rows, lapack, lwork))
         return 1;
-    for (int j = 0; j < n; j++) {
-        h[j] = unit * right[j];
-        if (!isfinite(h[j]))
-            return 1;
-    }
-    return 0;
+    for (int j = 0; j < n; j++)
+        part[j] = unit_of(scale[j]) * scale[j] * right[j];
+    *length = least_squares_length(n, NULL, part);
+    return !isfinite(*length);
 }
 
 double least_squares_length(int n, const double *scale, const double *h)
@@ -72,13 +69,13 @@ double least_squares_length(int n, const double *scale, const double *h)
     return largest * sqrt(sum);
 }
 
-/* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with unit R of the last solution */
-static double length_slope(int m, int n, const double *scale, double unit, const double *h, double *work)
+/* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with R U and D h = D U y of the last solution */
+static double length_slope(int m, int n, const double *scale, double *work)
 {
     int rows = m + n;
-    double *q = work + (ptrdiff_t)rows * n, sum = 0;
+    double *q = work + (ptrdiff_t)rows * n + rows, sum = 0;
     for (int j = 0; j < n; j++)
-        q[j] = unit * scale[j] * (scale[j] * h[j]);
+        q[j] *= unit_of(scale[j]) * scale[j];
     if (LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'U', 'T', 'N', n, 1, work, rows, q, n))
         return 0;
     for (int j = 0; j < n; j++)
@@ -89,18 +86,21 @@ static double length_slope(int m, int n, const double *scale, double unit, const
 int least_squares_damped_step(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
                               double radius, double *mu, double *h, double *length, double *work)
 {
-    const double unit = unit_of(n, scale);
+    const double *y = work + (ptrdiff_t)(m + n) * n;
     for (int turn = 0;; turn++) {
-        if (solve_damped(m, n, jacobian, r, scale, floor, unit, *mu, h, work))
+        if (solve_damped(m, n, jacobian, r, scale, floor, *mu, length, work))
             return 1;
-        *length = least_squares_length(n, scale, h);
         if (!(*length > LONGER * radius))
-            return 0;
-        double raise = *length * *length / length_slope(m, n, scale, unit, h, work) * (*length - radius) / radius;
+            break;
+        double raise = *length * *length / length_slope(m, n, scale, work) * (*length - radius) / radius;
         if (turn == TURNS)
             return 1;
         *mu += raise > 0 && isfinite(raise) ? raise : 99 * *mu; /* where the slope is lost below or above all numbers */
     }
+    for (int j = 0; j < n;
+         j++) /* |D h| has a double, and h need not: then x would go past all numbers, and the step is too long */
+        h[j] = fmax(-DBL_MAX, fmin(DBL_MAX, unit_of(scale[j]) * y[j]));
+    return 0;
 }
 
 size_t singular_values_workspace(int m, int n)

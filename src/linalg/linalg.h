@@ -6,7 +6,7 @@
  *
  *   storage           matrix.c; matrix_check.c checks matrices of a host; pencil.c: nonzero entries of wide K and M side by side
  *   K - s M = L L', L U or L S L'   factor.c (factor_new, factor_compute, factor_solve): the far block by a Schur complement
- *                     S = A_ff - A_fr A_rr^-1 A_rf; narrow inner part band.c, half band >= FACTOR_WIDE wide.c; factor_gather.c
+ *                     S = A_ff - A_fr A_rr^-1 A_rf; narrow inner part band.c, half band >= FACTOR_WIDE by panels
  *   full eigenpairs   eigen_full.c (eigen_full_solve) chooses: eigen_band.c, block Krylov on (K - s M)^-1 M with Rayleigh-Ritz
  *                     (ritz.c), near pairs by arrow.c; wide bands (eigen_wide_solve), block Lanczos (lanczos.c); nearly full
  *                     ones eigen_dense.c. A Sturm count (factor_negative_count, arrow_count) shows that no pair is missed
@@ -143,46 +143,6 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m);
 void pencil_multiply_stiffness(struct pencil *p, int columns, const double *x, double *y);
 void pencil_multiply_mass(struct pencil *p, int columns, const double *x, double *y);
 
-/* ------------------------------------------------------------------------------------------------------------------ wide */
-
-/* Factors of wide bands with a profile, A = L S L', S = diag(+-1): panels of WIDE_PANEL columns, each a dense matrix from its
- * first column down to its last row, on which BLAS does the work. The last row of a panel is found from the entries: where the
- * profile is narrower than the band, neither time nor memory goes into zeros. */
-
-#define WIDE_PANEL 48 /* columns: of 32, 48, 64 and 96 the fastest one for half bands of 150 to 300 */
-
-struct wide {
-    int n, kd, panels;
-    int *end;         /* [panels] one past the last row */
-    ptrdiff_t *place; /* [panels] where the panel begins in `value` */
-    double *value;    /* panel p: rows p WIDE_PANEL ... end - 1 */
-    double *sign;     /* [n] of S */
-    double *work;     /* [(kd + WIDE_PANEL) WIDE_PANEL] */
-};
-
-/* For at most n rows and a half band of at most kd. ROTID_OK or ROTID_ERROR_MEMORY. */
-int wide_new(struct pool *pool, int n, int kd, struct wide *w);
-
-/* Makes A [n, n] zero. last [n]: the last row below or on the diagonal where a column may get an entry. */
-void wide_clear(struct wide *w, int n, const int *last);
-
-/* A(i, j) = wide_column(w, j)[i], i >= j, i <= last[j] */
-static inline double *wide_column(const struct wide *w, int j)
-{
-    int p = j / WIDE_PANEL, top = p * WIDE_PANEL;
-    return w->value + w->place[p] - top + (ptrdiff_t)(j - top) * (w->end[p] - top);
-}
-
-/* A = L L'. Returns 0, or 1 where A is not positive definite. */
-int wide_cholesky(struct wide *w);
-
-/* A = L S L' without pivoting. Returns the number of negative signs, which is that of the negative eigenvalues of A. A pivot that
- * cancels is replaced by a tiny negative one of its scale, which moves A by rounding. */
-int wide_indefinite(struct wide *w);
-
-/* B [n * columns], leading dimension ld, is overwritten by A^-1 B. */
-void wide_solve(const struct wide *w, int columns, int ld, double *b);
-
 /* ---------------------------------------------------------------------------------------------------------------- factor */
 
 /* Factors of a banded matrix with a small block, bordered: the far degrees of freedom come last,
@@ -190,6 +150,18 @@ void wide_solve(const struct wide *w, int columns, int ld, double *b);
  * so the cost stays O(n kd^2 + n nfar kd). Restricted to the rows and columns in `kept`. */
 
 #define FACTOR_WIDE 12 /* half band from which panels and a block iteration on them take less time for eigenpairs */
+
+/* Factors of wide bands with a profile, A = L S L', S = diag(+-1): panels of 48 columns (WIDE_PANEL), each a dense matrix from its
+ * first column down to its last row, on which BLAS does the work. The last row of a panel is found from the entries: where the
+ * profile is narrower than the band, neither time nor memory goes into zeros. */
+struct wide {
+    int n, kd, panels;
+    int *end;         /* [panels] one past the last row */
+    ptrdiff_t *place; /* [panels] where the panel begins in `value` */
+    double *value;    /* panel p: from the row of its first column to end - 1 */
+    double *sign;     /* [n] of S */
+    double *work;     /* of a panel */
+};
 
 enum factor_kind {
     FACTOR_CHOLESKY, /* positive definite */
@@ -495,20 +467,6 @@ void eigen_guyan_expand(const struct eigen_guyan *e, int j, double *u);
  * independent. */
 int eigen_ritz_pairs(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m);
 
-/* --------------------------------------------------------------------------------------------------------- factor gather */
-
-/* From a matrix to the storage of its factor: which rows and columns are kept, which of them are far. */
-
-/* A, or of a pencil K - shift M (wide bands alone) */
-struct factor_source {
-    const rotid_matrix *a;
-    const struct pencil *pencil;
-    double shift;
-};
-
-/* band or wide, coupling and schur := the parts of A */
-void factor_gather(struct factor *f, const struct factor_source *source);
-
 /* --------------------------------------------------------------------------------------------------------- least squares */
 
 /* The two dense kernels of a least-squares fit. */
@@ -727,6 +685,10 @@ int polynomial_roots(int n, const double *c, double complex *root, double *work)
  * zero), or of the first above it that is not zero: the iteration then converges about as fast as with none. largest: the size of
  * the highest eigenvalue. Returns 0 where none of these is known (not finite, or zero). */
 double shift_of(int known, const double *value, double largest);
+
+/* The shift just above the eigenvalue `last` where a Sturm count tells whether a pair was missed: farther above than rounding may
+ * move that eigenvalue. below < 0: the shift of the iteration. */
+double shift_above(double last, double below, double largest);
 
 /* ------------------------------------------------------------------------------------------------------------- symmetric */
 

@@ -51,8 +51,8 @@ void matrix_add(rotid_matrix *a, int i, int j, double value)
         return;
     }
     int fi = far_position(a, i), fj = far_position(a, j);
-    a->block[fi + fj * a->nfar] += value;
-    a->block[fj + fi * a->nfar] += value;
+    a->block[fi + (ptrdiff_t)fj * a->nfar] += value;
+    a->block[fj + (ptrdiff_t)fi * a->nfar] += value;
 }
 
 void matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e)
@@ -165,7 +165,7 @@ static void add_block_product(const rotid_matrix *a, const double *x, double *y)
 {
     for (int g = 0; g < a->nfar; g++)
         for (int f = 0; f < a->nfar; f++)
-            y[a->far[f]] += a->block[f + g * a->nfar] * x[a->far[g]];
+            y[a->far[f]] += a->block[f + (ptrdiff_t)g * a->nfar] * x[a->far[g]];
 }
 
 EACH_MACHINE static void multiply_chain(const rotid_matrix *a, int columns, const double *x, double *y)

@@ -1,5 +1,6 @@
 #include "linalg/linalg.h"
 
+#include <limits.h>
 #include <string.h>
 
 #include "linalg/machine.h"
@@ -11,6 +12,8 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
 {
     size_t n = (size_t)structure->n, most = n * (size_t)(structure->kd + 1);
     *p = (struct pencil){.n = structure->n};
+    if (most > INT_MAX) /* places are counted in int; such bands take 50 GB */
+        return ROTID_ERROR_MEMORY;
     p->start = POOL_ARRAY(pool, int, n + 1);
     p->row = POOL_ARRAY(pool, int, most);
     p->k = POOL_ARRAY(pool, double, most);
@@ -58,7 +61,7 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
     p->start[p->n] = at;
     same &= p->digest == entries;
     p->digest = entries;
-    for (int i = 0; i < m->nfar * m->nfar; i++) {
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)m->nfar * m->nfar; i++) {
         same &= p->block[i] == m->block[i];
         p->block[i] = m->block[i];
     }
@@ -128,7 +131,8 @@ INLINE void multiply_together(struct pencil *p, const double *value, const rotid
     for (int g = 0; g < a->nfar; g++)
         for (int f = 0; f < a->nfar; f++)
             for (int c = 0; c < lanes; c++)
-                p->y[(ptrdiff_t)a->far[f] * lanes + c] += a->block[f + g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * lanes + c];
+                p->y[(ptrdiff_t)a->far[f] * lanes + c] +=
+                    a->block[f + (ptrdiff_t)g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * lanes + c];
     for (int c = 0; c < columns; c++)
         for (ptrdiff_t i = 0; i < n; i++)
             y[i + c * n] = p->y[i * lanes + c];

@@ -69,7 +69,7 @@ static void matrix_column(const rotid_matrix *a, int j, double *column)
         column[j - d] = a->band[d + (ptrdiff_t)(j - d) * (a->kd + 1)];
     for (int g = 0; g < a->nfar; g++)
         for (int f = 0; a->far[g] == j && f < a->nfar; f++)
-            column[a->far[f]] += a->block[f + g * a->nfar];
+            column[a->far[f]] += a->block[f + (ptrdiff_t)g * a->nfar];
 }
 
 /* Psi = [Phi; I] with Phi = -K_ii^-1 K_ic (12) */

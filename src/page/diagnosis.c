@@ -9,58 +9,8 @@
 #include "page/page.h"
 #include "report/report.h"
 
-#define COUNT_OF(list)            ((int)(sizeof(list) / sizeof *(list)))
-#define OPEN(pool, caption, list) open_table(pool, caption, COUNT_OF(list), list)
-#define MOST_REASONS              16
-
-static struct table *open_table(struct pool *pool, const char *caption, int count, const struct table_column column[])
-{
-    struct table *table = table_open(pool, caption);
-    table_add_columns(table, count, column);
-    return table;
-}
-
-#define TINY  1e-12 /* zero but for rounding, in SI units */
-#define SMALL 1e-3  /* shown with a power of ten */
-#define LARGE 1e5
-
-/* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
-static const char *with_interval(struct pool *pool, const rotid_cause_value *value)
-{
-    struct human_unit shown = human_unit(value->value, value->unit);
-    double f = shown.factor, number = fabs(value->value) < TINY ? 0 : f * value->value,
-           half = f * (value->ci95[1] - value->ci95[0]) / 2;
-    const char *text[3], *space = *shown.text ? "\xc2\xa0" : "";
-    if (value->fixed || !isfinite(half) || (number == 0 && half < TINY))
-        return human_value(pool, number == 0 ? 0 : value->value, value->unit);
-    int power = number != 0 && (fabs(number) < SMALL || fabs(number) >= LARGE),
-        decimals = human_decimals(number, fmin(10 * half, fabs(number) > 0 ? 10 * fabs(number) : INFINITY));
-    const double part[3] = {number, f * value->ci95[0], f * value->ci95[1]};
-    for (int i = 0; i < 3; i++)
-        text[i] = power ? human_digits(pool, part[i], 2) : human_fixed(pool, part[i], decimals);
-    return or_nothing(pool_format(pool, "%s%s%s (95\xc2\xa0%%: %s to %s)", text[0], space, shown.text, text[1], text[2]));
-}
-
-/* "mass 22.22 kg (95 %: 18.96 to 25.48), z 0.8983 m (95 %: 0.8886 to 0.9080)" */
-static const char *cause_values(struct pool *pool, const rotid_cause *cause)
-{
-    const char *text = "";
-    for (int p = 0; p < cause->nparameters && text; p++) {
-        const rotid_cause_value *value = &cause->parameters[p];
-        text = pool_format(pool, "%s%s%s %s%s", text, p ? ", " : "", value->name, with_interval(pool, value),
-                           value->fixed ? " (given)" : "");
-    }
-    return or_nothing(text);
-}
-
-/* What has no effect of a size, where that is not zero and sizes are told as they are: 90 degrees of a cone; NaN else. */
-static double cause_falls_from(const char *id)
-{
-    const struct cause_kind *kind = catalogue_find(id);
-    if (!kind || kind->size < 0 || kind->size >= EFFECT_MOST_PARAMETERS || kind->parameter[kind->size].one_sided >= 0)
-        return NAN;
-    return kind->parameter[kind->size].neutral;
-}
+#define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
+#define MOST_REASONS   16
 
 /* "in fewer than 1 of 1,000": how often chance does it; "" where p is not known. */
 static const char *words_chance(struct pool *pool, double p)
@@ -353,43 +303,6 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
 
 /* ---- parameters */
 
-/* "stiffness of right with added_mass": set of alternative i. */
-static const char *set_label(struct pool *pool, const rotid_diagnosis *d, int i)
-{
-    const rotid_verdict *v = &d->verdict;
-    const char *text = cause_label(pool, d, &v->alternative_causes[i]);
-    for (int k = i + 1; k < v->nalternative_causes && verdict_is_pair(v, k); k++)
-        text = pool_format(pool, "%s with %s", text ? text : "", cause_label(pool, d, &v->alternative_causes[k]));
-    return text ? text : "";
-}
-
-static struct table *values_of(struct pool *pool, const rotid_diagnosis *d)
-{
-    static const struct table_column columns[] = {{"parameter", NULL, TABLE_TEXT, 0},   {"if it is", NULL, TABLE_TEXT, 0},
-                                                  {"unit", NULL, TABLE_TEXT, 0},        {"value", NULL, TABLE_DIGITS, 4},
-                                                  {"95 % from", NULL, TABLE_DIGITS, 4}, {"to", NULL, TABLE_DIGITS, 4}};
-    const rotid_identification *fit = d->extended ? d->extended : d->base;
-    const rotid_verdict *v = &d->verdict;
-    struct table *table = OPEN(pool, "Parameters and their 95 % intervals", columns);
-    for (int p = 0; p < d->base->nparameters; p++) {
-        const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
-        if (value) {
-            cell_text(table, value->name);
-            cell_text(table, !v->nalternative_causes ? "" : d->extended ? "the extended model" : "the model as it is");
-            cell_interval(table, value->value, value->ci95, value->unit);
-        }
-        for (int i = 0; i < v->nalternative_causes; i++) {
-            const rotid_cause *cause = &v->alternative_causes[i];
-            if (verdict_is_pair(v, i) || p >= cause->nidentified)
-                continue;
-            cell_text(table, cause->identified[p].name);
-            cell_text(table, set_label(pool, d, i));
-            cell_interval(table, cause->identified[p].value, cause->identified[p].ci95, cause->identified[p].unit);
-        }
-    }
-    return table;
-}
-
 /* What the dispute is worth, in a paragraph. */
 static void say_spread(struct document *document, const rotid_verdict *v)
 {
@@ -404,31 +317,35 @@ static void say_spread(struct document *document, const rotid_verdict *v)
     }
 }
 
+/* Two digits: more is not known of a size that would have shown. */
+static const char *size_of(struct pool *pool, double size, const char *unit)
+{
+    struct human_unit shown = human_unit(size, unit);
+    const char *text =
+        pool_format(pool, "%s%s%s", human_digits(pool, size * shown.factor, 2), *shown.text ? "\xc2\xa0" : "", shown.text);
+    return text ? text : "";
+}
+
 void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden)
 {
-    static const struct table_column columns[] = {{"parameter", NULL, TABLE_TEXT, 0},
-                                                  {"moved by", NULL, TABLE_TEXT, 0},
-                                                  {"cause", NULL, TABLE_TEXT, 0},
-                                                  {"its size", NULL, TABLE_TEXT, 0},
-                                                  {"z", "m", TABLE_TRIMMED, 3}};
     struct pool *pool = document->pool;
-    struct table *table = OPEN(pool, "Causes below their detection limits that move the parameters most", columns);
+    struct table *table = table_open(pool, "Causes below their detection limits that move the parameters most");
     char figure[32];
     if (!count)
         return;
     for (int i = 0; i < count; i++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, hidden[i].parameter);
-        struct human_unit unit = human_unit(hidden[i].size, hidden[i].size_unit);
-        cell_text(table, hidden[i].parameter);
-        cell_text(table,
-                  value ? pool_copy_text(pool, linear_percent_text(100 * fabs(hidden[i].shift / value->value), figure)) : "");
-        cell_text(table, cause_name(pool, hidden[i].id, hidden[i].target));
-        cell_text(table, !strcmp(hidden[i].component, "presence")
-                             ? "there or not"
-                             : pool_format(pool, "%s %s%s%s", hidden[i].component,
-                                           human_digits(pool, fabs(hidden[i].size) * unit.factor, 2),
-                                           *unit.text ? "\xc2\xa0" : "", unit.text));
-        cell_number(table, hidden[i].z_m);
+        table_row(table);
+        text_column(table, "parameter", SHOW_TEXT, hidden[i].parameter);
+        text_column(table, "moved by", SHOW_TEXT,
+                    value ? pool_copy_text(pool, linear_percent_text(100 * fabs(hidden[i].shift / value->value), figure)) : "");
+        text_column(table, "cause", SHOW_TEXT, cause_name(pool, hidden[i].id, hidden[i].target));
+        text_column(
+            table, "its size", SHOW_TEXT,
+            !strcmp(hidden[i].component, "presence")
+                ? "there or not"
+                : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
+        number_column(table, "z", "m", SHOW_TRIMMED(3), hidden[i].z_m);
     }
     document_section(document, "hidden", "What may hide in the parameters");
     document_paragraph(
@@ -447,62 +364,12 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     document_section(document, "verdict-parameters", "Parameters of the verdict");
     say_spread(document, &d->verdict);
     document_figures(document, "correlation");
-    document_table(document, values_of(document->pool, d));
+    document_table(document, table_of_verdict_values(document->pool, d, 1));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
         section_hidden(document, fit, d->nhidden, d->hidden);
 }
 
 /* ---- causes */
-
-static struct table *candidates_of(struct pool *pool, const rotid_diagnosis *d, int round)
-{
-    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
-                                                  {"drop expected", NULL, TABLE_DIGITS, 4},
-                                                  {"drop reached", NULL, TABLE_DIGITS, 4},
-                                                  {"p-value", NULL, TABLE_CHANCE, 2},
-                                                  {"BIC", NULL, TABLE_DIGITS, 5},
-                                                  {"modes left out", "%", TABLE_DIGITS, 3},
-                                                  {"sensors left out", NULL, TABLE_DIGITS, 3},
-                                                  {"held out", "%", TABLE_DIGITS, 3},
-                                                  {"what became of it", NULL, TABLE_TEXT, 0}};
-    int count;
-    const rotid_candidate *c = diagnosis_candidates(d, round, &count);
-    struct table *table = OPEN(pool, pool_format(pool, "Candidates of round %d, those that stay first", round + 1), columns);
-    for (int i = 0; i < count; i++, c++) {
-        const double cell[] = {c->predicted_drop, c->chi2_drop,      c->p_value,    c->bic,
-                               c->mode_out_rms,   c->sensor_out_rms, c->holdout_rms};
-        cell_text(table, c->suspect ? pool_format(pool, "%s (your suspicion)", candidate_words(pool, d, c))
-                                    : candidate_words(pool, d, c));
-        for (int j = 0; j < COUNT_OF(cell); j++)
-            cell_number(table, cell[j]);
-        cell_text(table, candidate_fate(pool, d, c));
-    }
-    return table;
-}
-
-static struct table *sizes_of(struct pool *pool, const rotid_diagnosis *d, int round)
-{
-    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
-                                                  {"size and place, 95 % interval", NULL, TABLE_TEXT, 0},
-                                                  {"most similar", NULL, TABLE_TEXT, 0},
-                                                  {"cosine", NULL, TABLE_FIXED, 2}};
-    int count;
-    const rotid_candidate *c = diagnosis_candidates(d, round, &count);
-    struct table *table =
-        OPEN(pool, pool_format(pool, "Sizes and places of the fitted candidates of round %d", round + 1), columns);
-    for (int i = 0; i < count; i++, c++) {
-        const char *values = cause_values(pool, &c->cause), *both = c->with ? cause_values(pool, c->with) : "";
-        if (!c->refitted)
-            continue;
-        cell_text(table, candidate_words(pool, d, c));
-        cell_text(table, pool_format(pool, "%s%s%s%s", values, *both && *values ? "; with " : "", both,
-                                     c->at_bound ? ", at a bound" : ""));
-        cell_text(table,
-                  c->collinear_with ? cause_name(pool, c->collinear_with, c->collinear_target ? c->collinear_target : "") : "");
-        cell_number(table, c->collinear_with ? c->cosine : (double)NAN);
-    }
-    return table;
-}
 
 static void section_evidence(struct document *document, const rotid_diagnosis *d)
 {
@@ -528,43 +395,12 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
             document_paragraph(document, "Nothing promised enough to be fitted.");
             continue;
         }
-        document_table(document, candidates_of(pool, d, i));
-        document_table(document, sizes_of(pool, d, i));
+        struct table *table = table_of_candidates(pool, d, i, 1);
+        if (table)
+            table->caption =
+                or_nothing(pool_format(pool, "Candidates of round %d: sizes and places with 95 %% intervals", i + 1));
+        document_table(document, table);
     }
-}
-
-static struct table *quality_of(struct pool *pool, const rotid_diagnosis *d)
-{
-    const rotid_gain *gain = &d->gain;
-    const struct {
-        const rotid_pair *pair;
-        const char *text;
-        double factor;
-    } rows[] = {{&gain->frequency_rms_percent, "fitted frequencies, error, rms [%]", 1},
-                {&gain->frequency_max_percent, "fitted frequencies, largest error [%]", 1},
-                {&gain->shape_rms, "fitted shapes, rms [% of the largest component]", 100},
-                {&gain->chi2_per_dof, "misfit \xcf\x87\xc2\xb2 per degree of freedom", 1},
-                {&gain->nco_min, "smallest NCO", 1},
-                {&gain->holdout_frequency_rms_percent, "modes held out by the deck, frequency, rms [%]", 1},
-                {&gain->holdout_shape_rms, "modes held out by the deck, shape, rms [%]", 100},
-                {&gain->mode_out_frequency_rms_percent, "modes left out in turn, frequency, rms [%]", 1},
-                {&gain->mode_out_shape_rms, "modes left out in turn, shape, rms [%]", 100},
-                {&gain->sensor_out_shape_rms, "sensors left out in turn, shape, rms [%]", 100}};
-    int after = d->extended != NULL;
-    struct table *table = table_open(pool, after ? "Quality before and after" : "Quality of the model");
-    table_add_column(table, "quality", NULL, TABLE_TEXT, 0);
-    table_add_column(table, after ? "without the cause" : "of the model", NULL, TABLE_DIGITS, 3);
-    if (after)
-        table_add_column(table, "with it", NULL, TABLE_DIGITS, 3);
-    for (int i = 0; i < COUNT_OF(rows); i++) {
-        if (!isfinite(rows[i].pair->before) && !isfinite(rows[i].pair->after))
-            continue;
-        cell_text(table, rows[i].text);
-        cell_number(table, rows[i].factor * rows[i].pair->before);
-        if (after)
-            cell_number(table, rows[i].factor * rows[i].pair->after);
-    }
-    return table;
 }
 
 /* ---- the rest */
@@ -607,8 +443,6 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
 
 static void section_findings(struct document *document, const rotid_diagnosis *d)
 {
-    static const struct table_column columns[] = {{"mode", NULL, TABLE_FIXED, 0},
-                                                  {"error of the frequency", "%", TABLE_SIGNED, 3}};
     struct pool *pool = document->pool;
     if (!d->ndata_findings && !d->nnumerical_findings)
         return;
@@ -618,56 +452,29 @@ static void section_findings(struct document *document, const rotid_diagnosis *d
                            d->data_findings[i].text ? d->data_findings[i].text : "found", cause_check(d->data_findings[i].id));
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *finding = &d->numerical_findings[i];
-        struct table *table = OPEN(pool, pool_format(pool, "%s: its error in each mode", finding->id), columns);
+        struct table *table = table_open(pool, pool_format(pool, "%s: its error in each mode", finding->id));
         document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
         for (int k = 0; k < finding->nmodes; k++) {
-            cell_number(table, finding->modes[k]);
-            cell_number(table, finding->error_percent[k]);
+            table_row(table);
+            number_column(table, "mode", NULL, SHOW_COUNT, finding->modes[k]);
+            number_column(table, "error of the frequency", "%", SHOW_SIGNED(3), finding->error_percent[k]);
         }
         if (finding->nmodes)
             document_table(document, table);
     }
 }
 
-/* Two digits: more is not known of a size that would have shown. */
-static const char *size_of(struct pool *pool, double size, const char *unit)
-{
-    struct human_unit shown = human_unit(size, unit);
-    const char *text =
-        pool_format(pool, "%s%s%s", human_digits(pool, size * shown.factor, 2), *shown.text ? "\xc2\xa0" : "", shown.text);
-    return text ? text : "";
-}
-
 static void section_detection_limits(struct document *document, const rotid_diagnosis *d)
 {
-    static const struct table_column columns[] = {{"cause", NULL, TABLE_TEXT, 0},
-                                                  {"parameter", NULL, TABLE_TEXT, 0},
-                                                  {"smallest that would have shown", NULL, TABLE_TEXT, 0},
-                                                  {"where it shows best, z", "m", TABLE_DIGITS, 3},
-                                                  {"at the worst place", NULL, TABLE_TEXT, 0}};
-    struct pool *pool = document->pool;
-    struct table *table = OPEN(pool, "Detection limits: the smallest size of each cause that would have shown", columns);
     if (!d->ndetectable)
         return;
-    for (int i = 0; i < d->ndetectable; i++) {
-        const rotid_detectable *size = &d->detectable[i];
-        int none = size->beyond || !isfinite(size->smallest);
-        double neutral = cause_falls_from(size->id), shown = isfinite(neutral) ? neutral - size->smallest : size->smallest;
-        cell_text(table, cause_name(pool, size->id, size->target));
-        cell_text(table, size->parameter);
-        cell_text(table, none ? "no size within physical bounds"
-                              : pool_format(pool, "%s%s", size_of(pool, shown, size->unit), isfinite(neutral) ? " or less" : ""));
-        cell_number(table, none ? (double)NAN : size->z_m);
-        cell_text(table, isfinite(size->worst)          ? size_of(pool, size->worst, size->unit)
-                         : isfinite(size->z_m) && !none ? "no size"
-                                                        : "");
-    }
     document_section(document, "limits", "Detection limits");
     document_paragraph(document,
                        "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
                        "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
     document_figures(document, "limits");
-    document_table(document, table);
+    document_table(document, table_of_detectable(document->pool, d->ndetectable, d->detectable,
+                                                 "Detection limits: the smallest size of each cause that would have shown"));
 }
 
 void section_diagnose(struct document *document, const struct result *result)
@@ -682,7 +489,7 @@ void section_diagnose(struct document *document, const struct result *result)
     if (d->base && d->verdict.kind >= 0) {
         document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality of the model");
         document_figures(document, "gain");
-        document_table(document, quality_of(document->pool, d));
+        document_table(document, table_of_quality(document->pool, d));
     }
     section_evidence(document, d);
     section_why(document, d);
@@ -692,13 +499,11 @@ void section_diagnose(struct document *document, const struct result *result)
     if (d->base) {
         document_section(document, "modes-compared", "Mode by mode");
         document_figures(document, "matrices");
-        document_table(document,
-                       table_of_fitted_modes(document->pool, result, d->extended ? d->extended : d->base,
-                                             d->extended ? "Modes of the extended model"
-                                                         : "Modes: errors are predicted over measured frequency, less one"));
+        document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->extended ? d->extended : d->base,
+                                                         d->extended ? "Modes of the extended model" : NULL));
         if (d->extended)
-            document_table(document,
-                           table_of_fitted_modes(document->pool, result, d->base, "Modes of the model without the cause"));
+            document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->base,
+                                                             "Modes of the model without the cause"));
     }
     if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */
         document_section(document, "places", "Where on the rotor");

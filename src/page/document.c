@@ -139,6 +139,8 @@ void document_table(struct document *document, const struct table *table)
         document->failed = 1;
         return;
     }
+    if (!table_rows(table))
+        return;
     struct table own = *table;
     struct table_cell *cell = POOL_ARRAY(document->pool, struct table_cell, own.ncells);
     struct table_column *column = POOL_ARRAY(document->pool, struct table_column, own.ncolumns);
@@ -147,6 +149,7 @@ void document_table(struct document *document, const struct table *table)
     for (int i = 0; i < own.ncells && cell; i++) {
         cell[i] = own.cell[i];
         cell[i].text = cell[i].is_number ? cell[i].text : shown(document, cell[i].text);
+        cell[i].note = shown(document, cell[i].note);
     }
     for (int j = 0; j < own.ncolumns && column; j++) {
         column[j] = own.column[j];

@@ -107,9 +107,6 @@ const char *cause_check(const char *id);                     /* how to look for 
 const char *cause_name(struct pool *pool, const char *id, const char *target); /* "joint between core and right" */
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
 const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
-/* What became of a candidate: "named", "possible", "refused: ...". One list of rivals for table, figure and answer: those that
- * the verdict lists. */
-const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
                             int causes);
@@ -139,8 +136,6 @@ void section_ema(struct document *document, const struct result *result);
 void section_basis(struct document *document, int count, const struct result *result);
 void section_provenance(struct document *document, int count, const struct result *result);
 
-struct table *table_of_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit,
-                                    const char *caption);
 void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden);
 
 /* ---- the page */

@@ -1100,7 +1100,7 @@
     const thin = entry.thinned > 1 ? ` One run in ${entry.thinned} is shown.` : '';
     const first = cells.find((c) => c.parameters.length)?.parameters || [];
     /* starts and ends in the plane of two parameters */
-    const started = runs.filter((run) => run.iterates?.length && run.parameters?.length);
+    const started = runs.filter((run) => run.history?.length && run.parameters?.length);
     if (started.length && started[0].parameters.length) {
       const some = started.filter((run) => run.at === started[0].at).slice(0, 60);
       const [p, q] = [some[0].parameters[0], some[0].parameters[1]];
@@ -1108,7 +1108,7 @@
       const u = unitOf(p.value, p.unit);
       const v = q ? unitOf(q.value, q.unit) : null;
       const track = (run) => {
-        const flat = run.iterates.flat();
+        const flat = run.history.flatMap((h) => h.x);
         return Array.from({ length: Math.floor(flat.length / n) }, (_, i) => [flat[i * n] * u.factor, q ? flat[i * n + 1] * v.factor : i]);
       };
       const reached = cells[some[0].at];
@@ -1137,10 +1137,10 @@
       })));
     }
     /* errors of the runs beside the truth */
-    const judged = runs.filter((run) => run.parameters?.some((p) => known(p.truth)));
+    const judged = runs.filter((run) => run.parameters?.some((p) => known(run.truth?.[p.name])));
     if (judged.length) {
       const names = [...new Set(judged.flatMap((run) => run.parameters.map((p) => p.name)))].slice(0, 4);
-      const error = (run, name) => { const p = run.parameters.find((one) => one.name === name); return p && known(p.truth) ? 100 * (p.value / p.truth - 1) : NaN; };
+      const error = (run, name) => { const p = run.parameters.find((one) => one.name === name); const truth = run.truth?.[name]; return p && known(truth) ? 100 * (p.value / truth - 1) : NaN; };
       const worst = names.map((name) => [rms(judged.map((run) => error(run, name)).filter(known)), name]).sort((a, b) => b[0] - a[0])[0];
       list.push(panels({ id: 'errors', title: `Largest scatter: ${worst[1]} is off by ${short(worst[0])} % rms over ${judged.length} runs`, caption: `Value over truth, less one, by run.${thin}` }, names.map((name) => ({ title: name, height: 110, x: { label: 'run', domain: padded(judged.map((run) => run.run)) }, y: { label: 'error [%]', domain: padded(judged.map((run) => error(run, name)), 0.06, true) }, marks: [{ type: 'rule', y: 0, solid: true }, { type: 'dots', name, color: 'blue', r: 2, opacity: 0.7, points: judged.map((run) => [run.run, error(run, name)]) }] }))));
     }

@@ -150,52 +150,41 @@ static double above_rounding(double value, double rounding)
 
 static struct table *cells_of(struct pool *pool, const struct study_result *s, const char *const label[])
 {
-    static const struct table_column columns[] = {
-        {"cell", NULL, TABLE_TEXT, 0},           {"runs", NULL, TABLE_FIXED, 0},
-        {"failed", NULL, TABLE_FIXED, 0},        {"at a bound", NULL, TABLE_FIXED, 0},
-        {"not converged", NULL, TABLE_FIXED, 0}, {"at the best", NULL, TABLE_FIXED, 0},
-        {"error, fitted", "%", TABLE_DIGITS, 3}, {"error, held out", "%", TABLE_DIGITS, 3},
-        {"evaluations", NULL, TABLE_DIGITS, 3}};
     struct table *table = table_open(pool, "Cells: runs that differ in replicate and start alone");
-    table_add_columns(table, (int)(sizeof columns / sizeof *columns), columns);
     for (int i = 0; i < s->ncells; i++) {
         const struct study_cell_result *cell = &s->cells[i];
-        const double number[] = {cell->runs,
-                                 cell->failed,
-                                 cell->at_bound,
-                                 cell->not_converged,
-                                 cell->reached_best == ROTID_NONE ? (double)NAN : cell->reached_best,
-                                 above_rounding(cell->frequency_rms_percent, ROUNDING),
-                                 above_rounding(cell->holdout_frequency_rms_percent, ROUNDING),
-                                 cell->evaluations};
-        cell_text(table, label[i]);
-        for (int j = 0; j < (int)(sizeof number / sizeof *number); j++)
-            cell_number(table, number[j]);
+        table_row(table);
+        text_column(table, "cell", SHOW_TEXT, label[i]);
+        number_column(table, "runs", NULL, SHOW_COUNT, cell->runs);
+        number_column(table, "failed", NULL, SHOW_COUNT, cell->failed);
+        number_column(table, "at a bound", NULL, SHOW_COUNT, cell->at_bound);
+        number_column(table, "not converged", NULL, SHOW_COUNT, cell->not_converged);
+        number_column(table, "at the best", NULL, SHOW_COUNT,
+                      cell->reached_best == ROTID_NONE ? (double)NAN : cell->reached_best);
+        number_column(table, "error, fitted", "%", SHOW_DIGITS(3), above_rounding(cell->frequency_rms_percent, ROUNDING));
+        number_column(table, "error, held out", "%", SHOW_DIGITS(3),
+                      above_rounding(cell->holdout_frequency_rms_percent, ROUNDING));
+        number_column(table, "evaluations", NULL, SHOW_DIGITS(3), cell->evaluations);
     }
     return table;
 }
 
 static struct table *parameters_of(struct pool *pool, const struct study_result *s, const char *const label[])
 {
-    static const struct table_column columns[] = {
-        {"cell", NULL, TABLE_TEXT, 0},   {"parameter", NULL, TABLE_TEXT, 0},          {"unit", NULL, TABLE_TEXT, 0},
-        {"mean", NULL, TABLE_DIGITS, 5}, {"scatter", NULL, TABLE_DIGITS, 2},          {"stated deviation", NULL, TABLE_DIGITS, 2},
-        {"bias", NULL, TABLE_DIGITS, 2}, {"95 % hold the truth", "%", TABLE_FIXED, 1}};
     struct table *table = table_open(pool, "Parameters by cells");
-    table_add_columns(table, (int)(sizeof columns / sizeof *columns), columns);
     for (int i = 0; i < s->ncells; i++)
         for (int p = 0; p < s->cells[i].nparameters; p++) {
             const struct cell_parameter *q = &s->cells[i].parameters[p];
             double scatter = isfinite(q->std_error) ? q->std_error : q->std;
-            struct human_unit unit = human_unit(q->mean, q->unit);
-            cell_text(table, label[i]);
-            cell_text(table, q->name);
-            cell_text(table, pool_copy_text(pool, unit.text));
-            cell_number(table, unit.factor * q->mean);
-            cell_number(table, unit.factor * above_rounding(scatter, 1e3 * ROUNDING * fabs(q->mean)));
-            cell_number(table, unit.factor * q->mean_stated_std);
-            cell_number(table, unit.factor * q->bias);
-            cell_number(table, 100 * q->coverage95);
+            table_row(table);
+            text_column(table, "cell", SHOW_TEXT, label[i]);
+            text_column(table, "parameter", SHOW_TEXT, q->name);
+            unit_column(table, q->mean, NAN, q->unit);
+            number_column(table, "mean", ROW_UNIT, SHOW_DIGITS(5), q->mean);
+            number_column(table, "scatter", ROW_UNIT, SHOW_DIGITS(2), above_rounding(scatter, 1e3 * ROUNDING * fabs(q->mean)));
+            number_column(table, "stated deviation", ROW_UNIT, SHOW_DIGITS(2), q->mean_stated_std);
+            number_column(table, "bias", ROW_UNIT, SHOW_DIGITS(2), q->bias);
+            number_column(table, "95 % hold the truth", "%", SHOW_FIXED(1), 100 * q->coverage95);
         }
     return table;
 }

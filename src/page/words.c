@@ -125,38 +125,6 @@ const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const r
     return c->with ? or_nothing(pool_format(pool, "%s with %s", label, cause_label(pool, d, c->with))) : label;
 }
 
-static int same_or_none(const char *a, const char *b)
-{
-    return a == b || (a && b && !strcmp(a, b));
-}
-
-static int same_cause(const rotid_cause *a, const rotid_cause *b)
-{
-    return !strcmp(a->id, b->id) && !strcmp(a->target, b->target) && same_or_none(a->name, b->name) &&
-           same_or_none(a->state, b->state);
-}
-
-static int is_among(const rotid_candidate *c, int count, const rotid_cause cause[])
-{
-    int found = 0;
-    for (int i = 0; i < count; i++)
-        found |= same_cause(&c->cause, &cause[i]);
-    return found;
-}
-
-const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
-{
-    const rotid_verdict *v = &d->verdict;
-    const rotid_round *round = c->round >= 1 && c->round <= d->nrounds ? &d->rounds[c->round - 1] : NULL;
-    if (round && round->kind == ROTID_NAMED && is_among(c, v->ncauses, v->causes) && !c->rejected_because)
-        return "named";
-    if (round && round->kind != ROTID_NAMED && c->refitted && is_among(c, v->nalternative_causes, v->alternative_causes))
-        return c->rejected_because ? or_nothing(pool_format(pool, "possible, but %s", c->rejected_because)) : "possible";
-    if (c->rejected_because)
-        return or_nothing(pool_format(pool, "refused: %s", c->rejected_because));
-    return c->refitted ? "not needed" : "not fitted";
-}
-
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
 {
     const char *text = "";

@@ -118,6 +118,9 @@ extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
 extern const struct record suggestion_record;           /* rotid_suggestion */
 extern const struct record fitted_parameter_record;     /* rotid_fitted_parameter */
+extern const struct record compared_mode_record;        /* rotid_compared_mode */
+extern const struct record verdict_record;              /* rotid_verdict */
+extern const struct record data_finding_record;         /* rotid_data_finding */
 extern const struct record cause_record;                /* rotid_cause */
 extern const struct record detectable_record;           /* rotid_detectable */
 

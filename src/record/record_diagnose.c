@@ -76,7 +76,7 @@ static const struct record_field verdict_fields[] = {
     NUMBER(rotid_verdict, something_else, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     {0},
 };
-static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
+const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
 
 static const struct record_field data_finding_fields[] = {
     TEXT(rotid_data_finding, id, 0),
@@ -92,7 +92,7 @@ static const struct record_field data_finding_fields[] = {
     STRUCTS(rotid_data_finding, parameters, SINCE_LATER, value_record),
     {0},
 };
-static const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
+const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
 
 static const struct record_field numerical_finding_fields[] = {
     TEXT(rotid_numerical_finding, id, 0),

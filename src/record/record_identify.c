@@ -37,7 +37,7 @@ static const struct record_field mode_fields[] = {
     NUMBER(rotid_compared_mode, residual, 0),
     {0},
 };
-static const struct record mode_record = RECORD(rotid_compared_mode, mode_fields);
+const struct record compared_mode_record = RECORD(rotid_compared_mode, mode_fields);
 
 static const struct record_field member_fields[] = {
     TEXT(rotid_member_shape, name, MAY_BE_NULL),
@@ -112,7 +112,7 @@ static const struct record_field state_fields[] = {
     FLAG(rotid_identified_state, shapes_fitted, 0),
     NUMBER(rotid_identified_state, objective, FROM_0),
     NUMBER(rotid_identified_state, chi2, MAY_BE_NULL | FROM_0),
-    STRUCTS(rotid_identified_state, modes, NOT_EMPTY, mode_record),
+    STRUCTS(rotid_identified_state, modes, NOT_EMPTY, compared_mode_record),
     NUMBERS_BY(rotid_identified_state, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
     NUMBERS_BY(rotid_identified_state, mesh_error_percent, 0, nmodes, "modes"),
     NUMBER(rotid_identified_state, mass_kg, ABOVE_0),
@@ -151,7 +151,7 @@ static const struct record_field identification_fields[] = {
     NUMBER(rotid_identification, condition_number, MAY_BE_NULL | FROM_0),
     MAPS(rotid_identification, undetermined_directions, 0, nparameters),
     NUMBER(rotid_identification, intervals_widened_by, FROM_1),
-    STRUCTS(rotid_identification, modes, NOT_EMPTY, mode_record),
+    STRUCTS(rotid_identification, modes, NOT_EMPTY, compared_mode_record),
     NUMBERS_BY(rotid_identification, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
     NUMBERS_BY(rotid_identification, mesh_error_percent, 0, nmodes, "modes"),
     NUMBER(rotid_identification, mass_kg, ABOVE_0),

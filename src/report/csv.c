@@ -21,6 +21,14 @@ void csv_number(FILE *out, const char *before, double value)
     (void)fprintf(out, "%s%s", before, isfinite(value) ? deck_number_text(value, text) : "");
 }
 
+int csv_table(FILE *out, const struct table *table)
+{
+    if (!table || table->failed)
+        return ROTID_ERROR_MEMORY;
+    table_write_csv(out, table);
+    return ROTID_OK;
+}
+
 const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part)
 {
     return pool_format(pool, "%s.%s.csv", path, part->suffix);
@@ -40,7 +48,7 @@ int csv_write(struct pool *pool, const char *path, const struct csv_part part[CS
         status = output_open(&output[count], name[count]);
         if (status)
             break;
-        status = part[count].write(output[count].stream, from);
+        status = part[count].write(output[count].stream, pool, from);
         count++;
     }
     for (int i = 0; i < count && status; i++)

@@ -156,18 +156,18 @@ int csv_universal_read(struct pool *pool, const char *path, struct message_list 
     return status ? status : take_shapes(pool, u, &file);
 }
 
-static int write_modes(FILE *out, const void *from)
+static int write_modes(FILE *out, struct pool *pool, const void *from)
 {
     const struct csv_universal *u = from;
-    (void)fputs("mode,frequency [Hz],damping,std [Hz]\n", out);
+    struct table *table = table_open(pool, "");
     for (int k = 0; k < u->count; k++) {
-        (void)fprintf(out, "%d", u->number[k]);
-        csv_number(out, ",", uff_mode_frequency(u->mode[k]));
-        csv_number(out, ",", u->mode[k]->damping > 0 ? u->mode[k]->damping : NAN);
-        csv_number(out, ",", u->frequency_std[k]);
-        (void)fputc('\n', out);
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, u->number[k]);
+        number_column(table, "frequency", "Hz", SHOW_FIXED(3), uff_mode_frequency(u->mode[k]));
+        number_column(table, "damping", NULL, SHOW_DIGITS(4), u->mode[k]->damping > 0 ? u->mode[k]->damping : (double)NAN);
+        number_column(table, "std", "Hz", SHOW_DIGITS(2), u->frequency_std[k]);
     }
-    return ROTID_OK;
+    return csv_table(out, table);
 }
 
 /* The axis along which the nodes lie, whose coordinates are positions; -1: several, of which all are written; -2: no node has any
@@ -187,32 +187,29 @@ static int axis_of(const struct csv_universal *u)
     return !placed ? -2 : axes == 1 ? axis : -1;
 }
 
-static int write_shapes(FILE *out, const void *from)
+static int write_shapes(FILE *out, struct pool *pool, const void *from)
 {
+    static const char *const axes[] = {"x", "y", "z"};
     const struct csv_universal *u = from;
     int axis = axis_of(u), any_std = 0;
+    struct table *table = table_open(pool, "");
     for (ptrdiff_t i = 0; i < (ptrdiff_t)u->nnode * u->count; i++)
         any_std |= isfinite(u->std[i]);
-    (void)fputs(axis >= 0 ? "sensor,position" : axis == -1 ? "sensor,x,y,z" : "sensor", out);
-    for (int k = 0; k < u->count; k++) {
-        (void)fprintf(out, ",mode %d", u->number[k]);
-        if (any_std)
-            (void)fprintf(out, ",mode %d std", u->number[k]);
-    }
-    (void)fputc('\n', out);
     for (int n = 0; n < u->nnode; n++) {
-        (void)fprintf(out, "%d", u->node[n].id);
+        table_row(table);
+        number_column(table, "sensor", NULL, SHOW_COUNT, u->node[n].id);
         for (int a = 0; a < 3; a++)
             if (a == axis || axis == -1)
-                csv_number(out, ",", u->node[n].x[a]);
+                number_column(table, a == axis ? "position" : axes[a], NULL, SHOW_DIGITS(6), u->node[n].x[a]);
         for (int k = 0; k < u->count; k++) {
-            csv_number(out, ",", u->value[n + (ptrdiff_t)k * u->nnode]);
+            const char *name = n ? "" : pool_format(pool, "mode %d", u->number[k]);
+            number_column(table, name, NULL, SHOW_FIXED(5), u->value[n + (ptrdiff_t)k * u->nnode]);
             if (any_std)
-                csv_number(out, ",", u->std[n + (ptrdiff_t)k * u->nnode]);
+                number_column(table, n || !name ? name : pool_format(pool, "%s std", name), NULL, SHOW_DIGITS(2),
+                              u->std[n + (ptrdiff_t)k * u->nnode]);
         }
-        (void)fputc('\n', out);
     }
-    return ROTID_OK;
+    return csv_table(out, table);
 }
 
 const struct csv_part csv_universal_parts[CSV_MOST_FILES] = {{"modes", write_modes}, {"shapes", write_shapes}};

@@ -7,6 +7,7 @@
 #define DASH         "\xe2\x80\x93"
 #define MINUS        "\xe2\x88\x92"
 #define NARROW_SPACE "\xc2\xa0" /* that does not break */
+#define WIDEST       1e9        /* from here on in a column with a power of ten */
 #define SMALL        1e-3       /* below, more zeros than a reader counts */
 
 static const char *or_nothing(const char *text)
@@ -76,6 +77,18 @@ static const char *fixed(struct pool *pool, double value, int decimals, const ch
     (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     int zero = strspn(digits, "0.") == strlen(digits); /* -0.00 is no negative number to people */
     return or_nothing(pool_format(pool, "%s%s", zero ? "" : value < 0 ? MINUS : plus, digits));
+}
+
+const char *human_column(struct pool *pool, double value, int decimals, const char *plus)
+{
+    char digits[64];
+    if (!isfinite(value))
+        return DASH;
+    if (fabs(value) >= WIDEST)
+        return human_digits(pool, value, 2);
+    (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
+    int zero = strspn(digits, "0.") == strlen(digits);
+    return or_nothing(pool_format(pool, "%s%s", value < 0 && !zero ? MINUS : zero ? "" : plus, digits));
 }
 
 const char *human_fixed(struct pool *pool, double value, int decimals)

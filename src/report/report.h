@@ -5,13 +5,14 @@
  *
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
- *   table_COMMAND.c   the table of a command: check, modes, sensitivity, identify, diagnose (and table_gain.c), suggest, ema,
- *                     frf, uff; table.c: heading, notes, state. Strips along the axis (strip_*): table_diagnose.c
+ *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
+ *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*), and
+ *                     what the command shows on the screen (screen_*); chart.c: bars, strips along the axis
+ *   screen.c          heading, notes, name of a state, a table on the screen
  *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
- *   struct_table.c    struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
  *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
  *   layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped
- *   csv.c, csv_modes.c, csv_uff.c   --csv: cells, quoting, formulas made harmless; tables of modes, of universal files
+ *   csv.c, csv_uff.c  --csv: the files of a command, all or none; quoting, formulas made harmless; universal files
  *   frf_file.c        frf_write_file: synthesised functions as sets 58
  *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
  *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
@@ -43,9 +44,20 @@ struct strip {
     const char *letter[STRIP_MOST]; /* of columns that no char holds, in the labels, which are the caller's */
 };
 
+/* A bar of 2 half + 1 columns around '|' that reaches the end at +-scale; '>' or '<' at the end beyond that. */
+void chart_bar(char *bar, int half, double scale, double value);
+
 void strip_open(struct strip *strip, double length, int columns);
+/* One digit a column, the largest value there rounded to the nearest; '+' from 9.5; values that are not finite leave no trace. */
+void strip_digits(struct strip *strip, int count, const double *z, const double *value);
+/* From 0 (' ') to 1 ('@'), between the points [count] with increasing z by straight lines. */
+void strip_density(struct strip *strip, int count, const rotid_localisation *point);
+/* "^", or "^---^" where it spans more than a column, with a label behind or before it. */
+void strip_mark(struct strip *strip, double from, double to, const char *label);
 /* "|name   ", cut to what lies between from and to. */
 void strip_name(struct strip *strip, double from, double to, const char *name);
+/* Round numbers of z. */
+void strip_ticks(struct strip *strip);
 /* label in the width given, then the strip without the blanks at its end. */
 void strip_print(const struct strip *strip, FILE *out, int width, const char *label);
 
@@ -55,10 +67,12 @@ void strip_print(const struct strip *strip, FILE *out, int width, const char *la
 
 #define CSV_MOST_FILES 2
 
+struct table;
+
 /* A file NAME.suffix; `from` is handed to `write`. */
 struct csv_part {
     const char *suffix;
-    int (*write)(FILE *out, const void *from); /* a status */
+    int (*write)(FILE *out, struct pool *pool, const void *from); /* a status */
 };
 
 /* The modes of the model, and their shapes at the sensors. */
@@ -91,6 +105,9 @@ int csv_write(struct pool *pool, const char *path, const struct csv_part part[CS
               const char **failed);
 /* The name of a file of them; NULL where memory is out. */
 const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part);
+
+/* A table as a part. ROTID_OK or ROTID_ERROR_MEMORY. */
+int csv_table(FILE *out, const struct table *table);
 
 /* Cells. A text is quoted where it has to be, and one that a spreadsheet would take for a formula gets an apostrophe in front; a
  * number has the digits that give it back, and is blank where it is not finite. `before`: "" or ",". */
@@ -130,6 +147,8 @@ int human_decimals(double value, double spread);
  * with the digits that the decimals show. Signed: a plus in front too. */
 const char *human_fixed(struct pool *pool, double value, int decimals);
 const char *human_signed(struct pool *pool, double value, int decimals);
+/* The same in a column of numbers, where zeros count: 0.0002 among 0.0100. plus: "", or "+" in front too. */
+const char *human_column(struct pool *pool, double value, int decimals, const char *plus);
 /* With a number of significant digits; very large and small ones as 1.2e-7, as decks have them. */
 const char *human_digits(struct pool *pool, double value, int digits);
 
@@ -237,12 +256,8 @@ struct ema_report {
     double seconds;
 };
 
-/* Modes, quality flags, stabilisation table as a picture, MAC of the result with itself, worst channels. all: every pole, every
- * channel.
- */
-void table_ema(FILE *out, const struct ema_report *report, int all);
-/* On the pool; NULL where memory is out. */
-const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *report);
+/* On the pool; NULL where memory is out. functions: with curves, and the rms over all functions. */
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *report, int functions);
 
 /* ------------------------------------------------------------------------------------------------------------ report frf */
 
@@ -256,11 +271,7 @@ struct frf_view {
     const struct identification *identified; /* NULL: the model as the deck states it */
     const struct frf_set *set;               /* NULL: nothing measured beside */
     const struct frf_result *result;
-    int verbose; /* every function a row */
 };
-
-/* Behind a heading. ROTID_OK or ROTID_ERROR_MEMORY. */
-int table_frf(FILE *out, const struct frf_view *view);
 
 /* The functions of JSON carry their curves up to this many lines of all of them together; more belong in a universal file. */
 #define JSON_FRF_MOST_LINES 250000
@@ -273,11 +284,7 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
 
 /* ------------------------------------------------------------------------------------------------------------ report uff */
 
-/* What a universal file holds: as tables, and as the struct of their JSON. */
-
-/* The summary, the sets, the doubtful places. all: each set a row; else those that are alike share one, at most about forty. */
-void table_uff(FILE *out, const char *path, const struct listing *listing, int summary_count, const char *const *summary,
-               int all);
+/* What a universal file holds, as the struct of its JSON. */
 
 /* all: with every node and every shape. messages: their errors. On the pool; NULL where memory is out. */
 const struct uff_result *uff_result_of(struct pool *pool, const char *path, const struct listing *listing, int summary_count,
@@ -285,27 +292,41 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
 
 /* ---------------------------------------------------------------------------------------------------------- struct table */
 
-/* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. Cells are added
- * row by row, from the left. What was added when memory was out is lost and marks the table. Texts are not copied. */
+/* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. A row is begun by
+ * table_row; each call of *_column adds its next cell, and in the first row the column: every row names the same columns. Values
+ * come in SI; people read them in the unit of human_unit, CSV has SI. What was added when memory was out is lost and marks the
+ * table. Texts are not copied. */
 
-enum table_format {
-    TABLE_TEXT,
-    TABLE_FIXED,   /* `digits` decimals */
-    TABLE_SIGNED,  /* the same with a sign */
-    TABLE_DIGITS,  /* `digits` significant digits */
-    TABLE_TRIMMED, /* the same without zeros at the end */
-    TABLE_CHANCE   /* a probability: "<0.001" below that, else significant digits */
+/* How a column is shown: a format with its digits, and bits. */
+enum {
+    SHOW_FORMAT = 7,
+    SHOW_TEXT = 0,
+    SHOW_ROW = 1, /* decimals of the row's interval, unit_column */
+    SHOW_DIGITS_FROM = 3,
+    SHOW_DIGITS_MOST = 31,
+    IN_CSV_ONLY = 1024,
+    NOT_IN_CSV = 2048,
+    DETAIL = 4096,     /* on a screen only where the width allows it */
+    MAY_BE_CUT = 8192, /* a text that a screen cuts where the width asks for it */
 };
+#define SHOW_FIXED(decimals)  (2U | (unsigned)(decimals) << SHOW_DIGITS_FROM)
+#define SHOW_SIGNED(decimals) (3U | (unsigned)(decimals) << SHOW_DIGITS_FROM)
+#define SHOW_DIGITS(digits)   (4U | (unsigned)(digits) << SHOW_DIGITS_FROM) /* significant ones */
+#define SHOW_TRIMMED(digits)  (5U | (unsigned)(digits) << SHOW_DIGITS_FROM) /* the same without zeros at the end */
+#define SHOW_CHANCE(digits)   (6U | (unsigned)(digits) << SHOW_DIGITS_FROM) /* a probability: "<0.001" below that */
+#define SHOW_COUNT            SHOW_FIXED(0)
+#define ROW_UNIT              "" /* unit of a column: the one that stands in the row */
 
 struct table_column {
-    const char *name, *unit; /* unit: NULL of a text, a count and a pure number */
-    enum table_format format;
-    int digits;
+    const char *name, *unit, *shown; /* unit of the values, NULL of a text and a pure number; unit that is shown */
+    unsigned show;
+    double factor; /* from the one to the other */
 };
 
 struct table_cell {
-    const char *text; /* as it is shown; "" of a cell that stays blank */
-    double value;     /* of a number, in the unit of its column, or of its row where a column of the table holds the unit */
+    const char *text, *csv; /* as it is shown, "" where it stays blank; csv: NULL: the same */
+    const char *note;       /* of the first one: of its row; NULL: none */
+    double value;           /* of a number, in the unit of its column or row */
     int is_number;
 };
 
@@ -313,77 +334,108 @@ struct table {
     struct pool *pool;
     int failed;                 /* memory was out */
     const char *caption, *note; /* note: what a reader has to know of it, under the table; NULL: nothing */
-    int ncolumns, ncells;
+    int ncolumns, nrows, ncells;
     size_t column_room, cell_room;
     struct table_column *column;
-    struct table_cell *cell; /* by rows; a row that is not full ends in blanks */
+    struct table_cell *cell; /* by rows */
+    double row_factor;       /* of the unit of the row */
+    int row_decimals;
 };
 
 /* A table without columns; NULL where memory is out, which all that adds takes. */
 struct table *table_open(struct pool *pool, const char *caption);
-/* Columns, before the first cell. */
-void table_add_column(struct table *table, const char *name, const char *unit, enum table_format format, int digits);
-void table_add_columns(struct table *table, int count, const struct table_column column[]);
 int table_rows(const struct table *table);
+void table_row(struct table *table);
 
-/* The next cell. A number that is not finite is shown as a dash. */
-void cell_text(struct table *table, const char *text);
-void cell_number(struct table *table, double value);
-/* A number with its own count of decimals in place of that of its column. */
-void cell_decimals(struct table *table, double value, int decimals);
-/* Four cells: the unit that suits the value, the value, both ends of its 95 % interval. */
-void cell_interval(struct table *table, double value, const double ci95[2], const char *unit);
+void text_column(struct table *table, const char *name, unsigned show, const char *text);
+/* A number that is not finite is shown as a dash. */
+void number_column(struct table *table, const char *name, const char *unit, unsigned show, double value);
+/* The same in the unit that suits a typical value of the column. */
+void scaled_column(struct table *table, const char *name, const char *unit, unsigned show, double typical, double value);
+/* What is said of the row that ends here: a line under it; "" for nothing. CSV does not have it. */
+void row_note(struct table *table, const char *text);
+/* The unit of this row, which suits the value; half: half its interval, for the decimals of SHOW_ROW. */
+void unit_column(struct table *table, double value, double half, const char *unit);
 
-/* Whether a column holds anything: one of dashes and blanks alone is shown in no form but CSV. The first one always does. */
+/* Whether a column holds anything: one of dashes and blanks alone is shown in no form but CSV. */
 int table_column_is_shown(const struct table *table, int column);
-/* Lines with a head, columns two blanks apart, numbers to the right; the caption in front and the note behind, both wrapped to
- * `width` columns. */
+/* Lines with a head, columns two blanks apart, numbers to the right, signs of people's numbers as ASCII; the caption in front and
+ * the note behind, both wrapped to `width` columns. */
 void table_write_text(FILE *out, const struct table *table, int width);
-/* A head and a line a row; numbers with the digits that give them back, blank where there is none. */
+/* A head and a line a row; numbers in SI with the digits that give them back, blank where there is none. */
 void table_write_csv(FILE *out, const struct table *table);
 /* <table> with caption; number: of the table on its page, for the id of the caption. */
 void table_write_html(FILE *out, const struct table *table, int number);
 
-/* ----------------------------------------------------------------------------------------------------------------- table */
+/* ------------------------------------------------------------------------------------------------------ tables of results */
 
-/* Results as tables for a person. */
+/* The tables of results, each for screen, CSV and page. */
 
-void table_heading(FILE *out, const struct result_head *head);
-/* The warnings that have no place in a file: the others have been said on standard error. */
-void table_notes(FILE *out, const struct message_list *notes);
-/* Before what is said of state i, where there are several: a line with its name. */
-void table_state(FILE *out, int i, const char *name);
-/* job: one for each state, whose CAUSE cards are told. */
-void table_check(FILE *out, const struct result *result, const struct job *const *job);
-/* shapes: with the shape of every mode at every sensor. */
-void table_modes(FILE *out, const struct result *result, int shapes);
-/* all: every pair of rivals of every test. */
-void table_suggest(FILE *out, const struct result *result, int all);
-void table_sensitivity(FILE *out, const struct result *result);
-/* baseline: NLopt was asked for; history: with the iterations. */
-void table_identify(FILE *out, const struct result *result, int baseline, int history);
+/* A caption NULL: that of the table. head: for the references of the deck; first: number of the first mode among them. */
+struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, int first,
+                                      const rotid_identification *fit, const char *caption);
+struct table *table_of_parameters(struct pool *pool, const rotid_identification *fit);
+struct table *table_of_states(struct pool *pool, const rotid_identification *fit);
+struct table *table_of_minimisers(struct pool *pool, const rotid_identification *fit);
+struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spectrum);
+struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside);
+struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);
+struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);
+struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of);
+struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema);
+struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s);
+struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
+struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);
+struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s);
+struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d);
+/* all: every cause of a set that cannot be told apart, and every candidate; else the first ones, and how many there are more */
+struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *d, int all);
+/* round: from 0; a note of each candidate says its size and place and what became of it */
+struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, int round, int all);
+struct table *table_of_detectable(struct pool *pool, int count, const rotid_detectable *list, const char *caption);
+/* What became of a candidate: "named", "possible", "refused: ...". */
+const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
+/* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
+const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
 
-/* -------------------------------------------------------------------------------------------------------- table diagnose */
+/* ---------------------------------------------------------------------------------------------------------------- screen */
 
-/* The diagnosis on one screen for a test engineer, in plain ASCII. */
+/* Results on the screen of a person: lines and tables. Where memory is out the pool says so, and what was written is cut. */
 
-struct diagnosis_view {
+struct screen {
     FILE *out;
-    const struct result_head *head;
-    const rotid_diagnosis *diagnosis;
-    int verbose; /* all candidates, times of the steps */
-    int width;   /* columns of texts and charts, 100 to 120; tables take no more than 100 */
+    struct pool *pool; /* of the tables */
+    int verbose;       /* iterations, shapes, every pair of rivals, all candidates, times of the steps, every pole and function */
+    int width;         /* columns of texts and charts; of tables where they have columns that may be left away */
 };
+#define SCREEN_WIDTH 100 /* fits a terminal beside an editor, and a page of a log */
 
-void table_diagnose(const struct diagnosis_view *view);
+void screen_heading(const struct screen *to, const struct result_head *head);
+/* The warnings that have no place in a file: the others have been said on standard error. */
+void screen_notes(const struct screen *to, const struct message_list *notes);
+/* Before what is said of state i, where there are several: a line with its name. */
+void screen_state(const struct screen *to, int i, const char *name);
+/* A sentence. */
+void screen_say(const struct screen *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A table behind an empty line; nothing of one without rows. */
+void screen_table(const struct screen *to, const struct table *table);
 
-/* "1.157 (1.150 ... 1.164) e+11 Pa": one power of ten for all three; "-" where p is NULL. Returns text. */
-#define PARAMETER_TEXT 128
-const char *parameter_text(const rotid_fitted_parameter *p, char text[PARAMETER_TEXT]);
+/* job: one for each state, whose CAUSE cards are told. */
+void screen_check(const struct screen *to, const struct result *result, const struct job *const *job);
+void screen_modes(const struct screen *to, const struct result *result);
+void screen_suggest(const struct screen *to, const struct result *result);
+void screen_sensitivity(const struct screen *to, const struct result *result);
+/* baseline: NLopt was asked for */
+void screen_identify(const struct screen *to, const struct result *result, int baseline);
+/* The summary, the sets, the doubtful places; sets that are alike share a row, at most about forty. */
+void screen_uff(const struct screen *to, const char *path, const struct listing *listing, int summary_count,
+                const char *const *summary);
+/* Modes, what is doubtful, stabilisation table as a picture, MAC of the result with itself, worst channels. */
+void screen_ema(const struct screen *to, const struct ema_report *report);
+/* Behind a heading. */
+void screen_frf(const struct screen *to, const struct frf_view *view, const struct transfer_result *of);
 
-/* Its parts. */
-void table_gain(const struct diagnosis_view *view);             /* before and after: quality and parameters */
-void table_detection_limits(const struct diagnosis_view *view); /* smallest sizes that would show */
+void screen_diagnose(const struct screen *to, const struct result *result);
 
 /* -------------------------------------------------------------------------------------------------------------- terminal */
 

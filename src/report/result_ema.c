@@ -177,7 +177,7 @@ static int add_functions(struct pool *pool, const struct ema_report *r, struct e
     return out->curves && add_rms(pool, r, count, order, h, out);
 }
 
-const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *r)
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *r, int functions)
 {
     struct ema_result *out = POOL_NEW(pool, struct ema_result);
     if (!out)
@@ -198,5 +198,5 @@ const struct ema_result *ema_result_of(struct pool *pool, const struct ema_repor
         .channels = channels(pool, r),
         .seconds = r->seconds,
     };
-    return out->modes && out->stabilisation && out->channels && add_functions(pool, r, out) ? out : NULL;
+    return out->modes && out->stabilisation && out->channels && (!functions || add_functions(pool, r, out)) ? out : NULL;
 }

@@ -1,26 +1,307 @@
+/* One table for all ways to show it: the cells are made once, here, in the units people read; three renderers write them. */
 #include "report/report.h"
 
-void table_heading(FILE *out, const struct result_head *head)
+#include <math.h>
+#include <string.h>
+
+#define DASH "\xe2\x80\x93" /* of human_fixed */
+
+struct table *table_open(struct pool *pool, const char *caption)
 {
-    for (int i = 0; i < head->nheading; i++)
-        (void)fprintf(out, "%s\n", head->heading[i]);
-    if (!head->nheading)
-        (void)fprintf(out, "%s\n", head->deck);
+    struct table *table = POOL_NEW(pool, struct table);
+    if (table)
+        *table = (struct table){.pool = pool, .caption = caption ? caption : "", .failed = !caption, .row_factor = 1};
+    return table;
+}
+
+int table_rows(const struct table *table)
+{
+    return table->ncolumns ? table->ncells / table->ncolumns : 0;
+}
+
+/* The column of the next cell: of the first row a new one. NULL where memory is out, or was. */
+static struct table_column *next_column(struct table *table, const char *name, const char *unit, unsigned show)
+{
+    if (!table || table->failed)
+        return NULL;
+    if (table->nrows > 1)
+        return &table->column[table->ncells % table->ncolumns];
+    struct table_column *column =
+        pool_grow(table->pool, table->column, (size_t)table->ncolumns, &table->column_room, sizeof *table->column);
+    if (!column || !name) {
+        table->failed = 1;
+        return NULL;
+    }
+    table->column = column;
+    column[table->ncolumns] = (struct table_column){name, unit, unit, show, 1};
+    return &column[table->ncolumns++];
+}
+
+void row_note(struct table *table, const char *text)
+{
+    if (!table || table->failed)
+        return;
+    table->failed |= !text;
+    if (text && *text)
+        table->cell[table->ncells - table->ncolumns].note = text;
+}
+
+static void add_cell(struct table *table, struct table_cell is)
+{
+    struct table_cell *cell = pool_grow(table->pool, table->cell, (size_t)table->ncells, &table->cell_room, sizeof *table->cell);
+    if (!cell || !is.text) {
+        table->failed = 1;
+        return;
+    }
+    table->cell = cell;
+    cell[table->ncells++] = is;
+}
+
+void table_row(struct table *table)
+{
+    if (table)
+        table->nrows++;
+}
+
+void text_column(struct table *table, const char *name, unsigned show, const char *text)
+{
+    if (next_column(table, name, NULL, show))
+        add_cell(table, (struct table_cell){.text = text ? text : "", .value = NAN});
+}
+
+void unit_column(struct table *table, double value, double half, const char *unit)
+{
+    if (!next_column(table, "unit", NULL, SHOW_TEXT))
+        return;
+    struct human_unit shown = human_unit(value, unit);
+    table->row_factor = shown.factor;
+    table->row_decimals = human_decimals(value * shown.factor, half * shown.factor);
+    add_cell(table, (struct table_cell){.text = *shown.text ? pool_copy_text(table->pool, shown.text) : "1",
+                                        .csv = unit ? unit : "1",
+                                        .value = NAN});
+}
+
+/* value: in the unit that is shown */
+static const char *number_text(const struct table *table, unsigned show, double value)
+{
+    int digits = (int)(show >> SHOW_DIGITS_FROM) & SHOW_DIGITS_MOST;
+    switch (show & SHOW_FORMAT) {
+    case SHOW_SIGNED(0):
+        return human_column(table->pool, value, digits, "+");
+    case SHOW_DIGITS(0):
+        return human_digits(table->pool, value, digits);
+    case SHOW_TRIMMED(0):
+        return human_trimmed(table->pool, value, digits);
+    case SHOW_CHANCE(0):
+        return value < 0.001 ? "<0.001" : human_digits(table->pool, value, digits);
+    case SHOW_ROW:
+        return human_fixed(table->pool, value, table->row_decimals);
+    default:
+        return human_column(table->pool, value, digits, "");
+    }
+}
+
+static void put_number(struct table *table, const struct table_column *column, double value)
+{
+    int of_row = column->unit && !*column->unit;
+    const char *text = number_text(table, column->show, value * (of_row ? table->row_factor : column->factor));
+    add_cell(table, (struct table_cell){.text = text, .value = value, .is_number = 1});
+}
+
+void number_column(struct table *table, const char *name, const char *unit, unsigned show, double value)
+{
+    const struct table_column *column = next_column(table, name, unit, show);
+    if (column)
+        put_number(table, column, value);
+}
+
+void scaled_column(struct table *table, const char *name, const char *unit, unsigned show, double typical, double value)
+{
+    struct table_column *column = next_column(table, name, unit && strcmp(unit, "1") != 0 ? unit : NULL, show);
+    if (column && table->nrows == 1) {
+        struct human_unit shown = human_unit(typical, unit);
+        column->factor = shown.factor;
+        column->shown = *shown.text ? pool_copy_text(table->pool, shown.text) : NULL;
+    }
+    if (column)
+        put_number(table, column, value);
+}
+
+static const struct table_cell *cell_at(const struct table *table, int row, int column)
+{
+    return &table->cell[row * table->ncolumns + column];
+}
+
+int table_column_is_shown(const struct table *table, int column)
+{
+    int filled = 0;
+    for (int i = 0; i < table_rows(table) && !filled; i++) {
+        const char *text = cell_at(table, i, column)->text;
+        filled = *text && strcmp(text, DASH) != 0;
+    }
+    return filled && !(table->column[column].show & IN_CSV_ONLY);
+}
+
+/* "frequency [Hz]" */
+static const char *head_of(const struct table *table, int column, const char *unit)
+{
+    const char *name = table->column[column].name;
+    const char *text = unit && *unit ? pool_format(table->pool, "%s [%s]", name, unit) : name;
+    return text ? text : "";
+}
+
+void table_write_csv(FILE *out, const struct table *table)
+{
+    for (int i = -1; i < table_rows(table); i++) {
+        const char *before = "";
+        for (int j = 0; j < table->ncolumns; j++) {
+            if (table->column[j].show & NOT_IN_CSV)
+                continue;
+            const struct table_cell *cell = i < 0 ? NULL : cell_at(table, i, j);
+            if (!cell)
+                csv_text(out, before, head_of(table, j, table->column[j].unit));
+            else if (cell->is_number)
+                csv_number(out, before, cell->value);
+            else
+                csv_text(out, before, cell->csv ? cell->csv : cell->text);
+            before = ",";
+        }
+        (void)fputc('\n', out);
+    }
+}
+
+/* What a terminal of any kind shows: the signs of people's numbers and units as ASCII; other letters stay. */
+static const char *ascii(struct pool *pool, const char *text)
+{
+    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "},
+                                           {"\xc2\xb7", "."}, {"\xc2\xb2", "2"},     {"\xc2\xb3", "3"}};
+    char *copy = pool_copy_text(pool, text), *to = copy;
+    for (const char *from = copy; from && *from;) {
+        size_t s = 0, count = sizeof signs / sizeof *signs;
+        while (s < count && strncmp(from, signs[s][0], strlen(signs[s][0])) != 0)
+            s++;
+        *to++ = s < count ? *signs[s][1] : *from;
+        from += s < count ? strlen(signs[s][0]) : 1;
+    }
+    if (copy)
+        *to = 0;
+    return copy ? copy : "";
+}
+
+static const char *shown_text(const struct table *table, int row, int column)
+{
+    return row < 0 ? head_of(table, column, table->column[column].shown) : cell_at(table, row, column)->text;
+}
+
+#define GAP   2 /* blanks between columns */
+#define LEAST 8 /* columns that are left of a text */
+
+/* Columns that are wide enough for head and cells, -1 of those that are not shown; their sum. */
+static int column_widths(const struct table *table, int with_details, int width[])
+{
+    int sum = -GAP;
+    for (int j = 0; j < table->ncolumns; j++) {
+        int shown = table_column_is_shown(table, j) && (with_details || !(table->column[j].show & DETAIL));
+        width[j] = -1;
+        for (int i = -1; i < table_rows(table) && shown; i++) {
+            int own = text_columns(shown_text(table, i, j));
+            width[j] = own > width[j] ? own : width[j];
+        }
+        sum += shown ? width[j] + GAP : 0;
+    }
+    return sum;
+}
+
+static void write_line(FILE *out, const struct table *table, int row, const int width[])
+{
+    int before = -GAP; /* blanks that are owed; none at the end of a line */
+    for (int j = 0; j < table->ncolumns; j++) {
+        if (width[j] < 0)
+            continue;
+        const char *text = ascii(table->pool, shown_text(table, row, j));
+        int gap = width[j] - text_columns(text); /* below 0: it is cut */
+        int right = (table->column[j].show & SHOW_FORMAT) != SHOW_TEXT;
+        if (*text) {
+            before += GAP + (right ? gap : 0);
+            (void)fprintf(out, "%*s", before > 0 ? before : 0, "");
+            if (gap < 0)
+                text_cell(out, width[j], text);
+            else
+                name_cell(out, 0, text);
+            before = right || gap < 0 ? 0 : gap;
+        } else {
+            before += GAP + width[j];
+        }
+    }
     (void)fputc('\n', out);
 }
 
-void table_state(FILE *out, int i, const char *name)
+/* Takes from the widest of those that may be cut. */
+static void cut_columns(const struct table *table, int excess, int width[])
 {
-    (void)fprintf(out, "%sstate %s\n", i ? "\n" : "", name);
+    while (excess-- > 0) {
+        int widest = -1;
+        for (int j = 0; j < table->ncolumns; j++)
+            if (table->column[j].show & MAY_BE_CUT && width[j] > LEAST && (widest < 0 || width[j] > width[widest]))
+                widest = j;
+        if (widest < 0)
+            return;
+        width[widest]--;
+    }
 }
 
-void table_notes(FILE *out, const struct message_list *notes)
+void table_write_text(FILE *out, const struct table *table, int width)
 {
-    int any = 0;
-    for (size_t i = 0; i < notes->count; i++)
-        if (notes->item[i].severity == SEVERITY_WARNING &&
-            !notes->item[i].file) { /* with a place: said on standard error already */
-            (void)fprintf(out, "%snote: %s\n", any ? "" : "\n", notes->item[i].text);
-            any = 1;
-        }
+    int *columns = table && !table->failed ? POOL_ARRAY(table->pool, int, table->ncolumns + 1) : NULL;
+    if (!columns)
+        return;
+    if (*table->caption)
+        wrap_text(out, 2, width, "", ascii(table->pool, table->caption));
+    if (column_widths(table, 1, columns) > width)
+        cut_columns(table, column_widths(table, 0, columns) - width, columns);
+    for (int i = -1; i < table_rows(table) && table->ncells; i++) {
+        write_line(out, table, i, columns);
+        if (i >= 0 && cell_at(table, i, 0)->note)
+            wrap_text(out, 6, width, "    ", ascii(table->pool, cell_at(table, i, 0)->note));
+    }
+    if (table->note)
+        wrap_text(out, 2, width, "", ascii(table->pool, table->note));
+}
+
+static void html_row(FILE *out, const struct table *table, int row)
+{
+    int first = 1;
+    (void)fputs("<tr>", out);
+    for (int j = 0; j < table->ncolumns; j++) {
+        if (!table_column_is_shown(table, j))
+            continue;
+        const char *element = row < 0 ? "th scope=\"col\"" : first ? "th scope=\"row\"" : "td";
+        first = 0;
+        (void)fprintf(out, "<%s%s>", element, (table->column[j].show & SHOW_FORMAT) != SHOW_TEXT ? " class=\"n\"" : "");
+        html_text(out, shown_text(table, row, j));
+        (void)fprintf(out, "</%.2s>", element);
+    }
+    (void)fputs("</tr>\n", out);
+    if (row >= 0 && cell_at(table, row, 0)->note) {
+        (void)fprintf(out, "<tr class=\"under\"><td colspan=\"%d\">", table->ncolumns);
+        html_text(out, cell_at(table, row, 0)->note);
+        (void)fputs("</td></tr>\n", out);
+    }
+}
+
+void table_write_html(FILE *out, const struct table *table, int number)
+{
+    (void)fprintf(out,
+                  "<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-labelledby=\"table-%d\">\n<table>\n<caption "
+                  "id=\"table-%d\"><span>",
+                  number, number);
+    html_text(out, table->caption);
+    (void)fputs("</span></caption>\n<thead>", out);
+    html_row(out, table, -1);
+    (void)fputs("</thead>\n<tbody>\n", out);
+    for (int i = 0; i < table_rows(table); i++)
+        html_row(out, table, i);
+    (void)fputs("</tbody></table></div>\n", out);
+    if (table->note)
+        html_element(out, "p class=\"note\"", table->note);
 }

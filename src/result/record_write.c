@@ -128,7 +128,7 @@ static int is_known(const struct record_field *field, const void *from)
     const void *value = target_of(field, from);
     if (field->kind == FIELD_INLINE && !(field->bits & BEHIND_POINTER))
         return is_known(field->record->field, value);
-    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD || field->bits & BEHIND_POINTER)
+    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD || field->kind == FIELD_MAP || field->bits & BEHIND_POINTER)
         return value != NULL;
     if (field->kind == FIELD_NUMBER)
         return isfinite(*(const double *)value);

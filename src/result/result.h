@@ -505,30 +505,6 @@ struct study_axes {
     const char *hide;       /* NAME of the *HIDE, or its type and target */
 };
 
-/* value, start, std, ci95 and truth in its unit */
-struct run_parameter {
-    const char *name; /* such as core.E */
-    const char *unit; /* 1 for a pure number */
-    double value;     /* identified */
-    double start;     /* of the iteration */
-    double std;       /* standard deviation; NaN where it cannot be stated */
-    double ci95[2];   /* 95 % interval; NaN where it cannot be stated */
-    int at_bound;     /* at a bound */
-    int identifiable; /* false: at a bound, or left open by the data */
-    double truth;     /* of the model that made the data; NaN where it is not known */
-};
-
-/* a measured mode */
-struct run_mode {
-    const char *state;    /* of a deck with several *STATE, which one; else without this key */
-    int mode;             /* of the model that it is paired with, from 1 */
-    double measured_hz;   /* of the data of this run [Hz] */
-    double predicted_hz;  /* of the fitted model [Hz] */
-    double error_percent; /* predicted over measured frequency, less one [%] */
-    double nco;           /* normalised cross orthogonality [1]; NaN without a shape, or where the masters are too few */
-    int holdout;          /* not fitted */
-};
-
 /* a parameter of an effect */
 struct run_value {
     const char *name; /* such as mass */
@@ -543,79 +519,9 @@ struct run_hidden {
     struct run_value *parameters; /* in the order of docs/deck.md */
 };
 
-struct run_fit {
-    const char *functional;  /* that was minimised */
-    const char *reduction;   /* of the model that was fitted */
-    double objective;        /* half the sum of squared residuals [1] */
-    double chi2_per_dof;     /* misfit over the stated noise [1]; NaN without noise or degrees of freedom */
-    int dof;                 /* degrees of freedom */
-    int iterations;          /* accepted steps */
-    int evaluations;         /* of the residual */
-    const char *stop_reason; /* text of a status ROTID_STOP_ of include/rotid.h */
-    int sensors;             /* of the fitted model */
-    int nparameters;
-    struct run_parameter *parameters; /* in the order of *IDENTIFY; of a diagnosis those of the extended model */
-    int nmodes;
-    struct run_mode *modes;    /* measured modes */
-    struct run_hidden *hidden; /* what acts in the data and not in the fitted model; NULL: nothing */
-};
-
-/* a minimiser */
-struct run_minimiser {
-    const char *algorithm; /* NLopt's name */
-    int usable;            /* converged, or stopped by rounding at a minimum */
-    double objective;      /* recomputed at x [1] */
-    int evaluations;       /* of the model */
-    int nx;
-    double *x; /* values of the parameters */
-};
-
-/* a parameter of a cause */
-struct run_cause_parameter {
-    const char *name; /* such as mass */
-    const char *unit; /* 1 for a pure number */
-    double value;     /* in its unit */
-    double std;       /* standard deviation; NaN where it cannot be stated */
-};
-
-/* a cause at one target */
-struct run_cause {
-    const char *id;     /* of the catalogue, docs/diagnosis.md */
-    const char *target; /* what it acts on; empty where that is the whole rotor */
-    const char *state;  /* the one in which it acts; NULL: in all */
-    int nparameters;
-    struct run_cause_parameter *parameters; /* in the order of docs/deck.md */
-};
-
-struct run_verdict {
-    int kind;           /* as in diagnose.schema.json */
-    int adequate_after; /* the model with the causes that were named is adequate */
-    double p_value;     /* of the base model */
-    int ncauses;
-    struct run_cause *causes; /* named */
-    int nalternatives;
-    struct run_cause *alternatives; /* that cannot be told apart, best first */
-};
-
-/* a fault of the measurement chain */
-struct run_finding {
-    const char *id;    /* of the catalogue */
-    const char *state; /* whose data; NULL of a deck that is one */
-    int nsensors;
-    int *sensors;      /* ids */
-    const char *block; /* of noise_level */
-    double value;      /* gain, shift [m] or factor */
-};
-
-struct run_diagnosis {
-    struct run_verdict verdict; /* on physical causes */
-    int ndata_findings;
-    struct run_finding *data_findings; /* faults of the measurement chain */
-    int score;          /* the verdict beside what was hidden, docs/study.md; below 0 where the data are measured */
-    int false_findings; /* faults of the data that were found and not hidden; ROTID_NONE where the data are measured */
-};
-
-/* the line of a run; the keys from functional on stand where it did not fail, those from verdict on in a diagnosis */
+/* the line of a run: what identify or diagnose say of it, by the keys of their JSON, without shapes, geometry, candidates and the
+ * spectrum of the model; these stand where it did not fail, those from verdict on in a diagnosis, of which the fit is that of the
+ * extended model */
 struct study_run {
     int run;                /* number of the run, from 0 */
     struct study_axes cell; /* what tells its cell from others */
@@ -623,14 +529,17 @@ struct study_run {
     int start;              /* from 0 */
     int status;             /* of the fit; failed: the run has no result */
     const char *error;      /* why it failed; NULL: the run has a result */
-    struct run_fit *fit;    /* NULL: it failed */
-    int niterates;
-    double *iterates; /* only where the plan has *STARTS: all parameters at the start, then after each iteration; nine digits */
-    int nbaseline;
-    struct run_minimiser *baseline;  /* the same problem minimised by NLopt, with BASELINE=YES */
-    struct run_diagnosis *diagnosis; /* NULL of an identification */
+    int sensors;            /* of the fitted model */
+    int ntruth;
+    rotid_component *truth;     /* values of the parameters in the model that made the data, those that are known, by name */
+    struct run_hidden *hidden;  /* what acts in the data and not in the fitted model; NULL: nothing */
+    rotid_identification *fit;  /* NULL: it failed; history only where the plan has *STARTS, baseline with BASELINE=YES */
+    rotid_diagnosis *diagnosis; /* NULL of an identification */
+    int score;                  /* the verdict beside what was hidden, docs/study.md; below 0 where the data are measured */
+    int false_findings;         /* faults of the data that were found and not hidden; ROTID_NONE where the data are measured */
     int nwarnings;
     const char **warnings; /* what the pairing and the fit have to say; NULL: it failed */
+    const char *input;     /* digest of its deck with the data, docs/study.md; NULL where a plan was given */
     double seconds;        /* of the run [s] */
     const char *study;     /* digest of the study that the run is of, docs/study.md; NULL before the stamp is there */
     const char *digest;    /* of all bytes of the line before it; NULL before the stamp is there */

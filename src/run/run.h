@@ -122,9 +122,12 @@ struct job_place {
 };
 
 /* The units that the deck states numbers in, in SI; 0: SI. The job itself is in SI. */
+#define JOB_QUANTITIES 8
 struct job_units {
-    double length, mass, stiffness, frequency;
+    double si[JOB_QUANTITIES]; /* of each quantity of *UNITS, in the order of src/deck */
 };
+
+struct deck_origin;
 
 /* Four things that change for different reasons, each a struct of its own: the rotor (a cause is added to it), what was measured
  * (the measurement chain is corrected, a mode is left out), what is searched (a cause brings its parameters, a refit other
@@ -145,6 +148,7 @@ struct job {
     struct job_unknowns unknowns;
     struct job_options options;
     struct job_units units;
+    const struct deck_origin *origin; /* the texts that it was read from, of src/deck; NULL where nobody read it */
 };
 
 /* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line

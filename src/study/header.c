@@ -18,7 +18,8 @@ struct header header_of(const struct study *study, const char *version, const ch
                            .seed = study->seed,
                            .runs = study->runs,
                            .shard = shard,
-                           .shards = shards};
+                           .shards = shards,
+                           .input = study->input};
 }
 
 char *header_text(const struct header *header)
@@ -94,7 +95,9 @@ int header_difference(struct pool *pool, const struct header *file, const struct
     *text = NULL;
     int other_options = strcmp(file->options_digest, here->options_digest) != 0; /* they may change the data as well */
     for (size_t i = 0; i < sizeof parts / sizeof *parts && changed; i++)
-        if (strcmp(parts[i].file, parts[i].here) != 0 && !(other_options && parts[i].here == here->data_digest))
+        if (here->input && (parts[i].here == here->decks_digest || parts[i].here == here->data_digest))
+            continue; /* its run is computed again */
+        else if (strcmp(parts[i].file, parts[i].here) != 0 && !(other_options && parts[i].here == here->data_digest))
             changed = pool_format(pool, "%s%s%s", changed, *changed ? " and " : "", parts[i].what);
     if (!changed)
         return ROTID_ERROR_MEMORY;

@@ -149,11 +149,15 @@ static int read_lines(struct pool *pool, struct study_record *record, int retry_
 {
     struct results results;
     struct result_line line = {0};
+    long changed = 0;
     int status = results_open(pool, record->descriptor, record->path, messages, &results);
     if (!status)
         status = compare(pool, record, &results.header, messages);
     while (!status && !(status = results_next(&results, &line))) {
-        record->state[line.run] = line.failed ? RUN_FAILED : RUN_DONE;
+        const char *const *input = record->header.input;
+        int other = input && line.said->input && strcmp(line.said->input, input[line.run]) != 0; /* deck of another time */
+        record->state[line.run] = other ? RUN_MISSING : line.failed ? RUN_FAILED : RUN_DONE;
+        changed += other;
         record->in_order &= line.run > record->last;
         record->last = line.run;
     }
@@ -169,6 +173,9 @@ static int read_lines(struct pool *pool, struct study_record *record, int retry_
         }
     }
     results_close(&results);
+    if (changed)
+        message_add(messages, SEVERITY_WARNING, record->path, 1, 1,
+                    "lines of decks that have changed since: %ld; their runs are computed again", changed);
     for (long run = 0; run < record->header.runs && !status; run++) {
         if (record->state[run] == RUN_FAILED && retry_failed)
             record->state[run] = RUN_MISSING;

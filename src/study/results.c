@@ -94,7 +94,8 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
         return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
     stamp_study(&r->header, r->study);
     r->there = POOL_ARRAY(pool, char, r->header.runs);
-    return r->there ? ROTID_OK : ROTID_ERROR_MEMORY;
+    r->input = POOL_ARRAY(pool, uint64_t, r->header.runs);
+    return r->there && r->input ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* Nonzero after a message. */
@@ -119,7 +120,10 @@ static int refuse_stamp(struct results *r, const struct result_line *line)
 
 static int refuse_twice(struct results *r, const struct result_line *line)
 {
-    if (r->there[line->run] > 1) {
+    uint64_t input = line->said->input ? digest_name(line->said->input) : 0;
+    int again = r->there[line->run] && r->input[line->run] != input; /* its deck was mended in between */
+    r->input[line->run] = input;
+    if (r->there[line->run] > 1 && !again) {
         message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1,
                     "run %ld stands in a line above already, expected one line of each run that did not fail", line->run);
         return ROTID_ERROR_SYNTAX;

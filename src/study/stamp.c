@@ -18,8 +18,10 @@ void stamp_study(const struct header *header, char study[DIGEST_LETTERS + 1])
     digest_text(&digest, header->commit);
     digest_text(&digest, header->studies);
     digest_text(&digest, header->plan_digest);
-    digest_text(&digest, header->decks_digest);
-    digest_text(&digest, header->data_digest);
+    if (header->plan) {
+        digest_text(&digest, header->decks_digest);
+        digest_text(&digest, header->data_digest);
+    }
     digest_text(&digest, header->options_digest);
     digest_integer(&digest, (long long)header->seed);
     digest_integer(&digest, header->runs);

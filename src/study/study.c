@@ -8,6 +8,7 @@ struct checker {
     struct study *study;
     struct message_list *messages;
     struct check *check;
+    struct digest own; /* of the deck that is read */
 };
 
 /* The same words at the same place say nothing new: a plan with many decks would say them for each. */
@@ -206,6 +207,8 @@ static int check_variants(struct checker *c, int d)
                 check_sensors(c, &cell, &states.state[s].job);
                 if (!cell.modes)
                     digest_measured(&c->check->data, &states.state[s].job);
+                if (!cell.modes)
+                    digest_measured(&c->own, &states.state[s].job);
             }
             c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = states.nparameter;
         }
@@ -231,11 +234,14 @@ static int check_deck(struct checker *c, int d)
     struct deck_text text;
     struct states states;
     message_open(&found, &c->scratch);
+    digest_open(&c->own);
     digest_text(&c->check->decks, plan->deck[d].name);
+    digest_text(&c->own, plan->deck[d].name);
     int status = deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
     if (status == ROTID_ERROR_MEMORY)
         return status;
     digest_cards(&c->check->decks, &text);
+    digest_cards(&c->own, &text);
     status = read_plain(c, d, &found, &states);
     if (!status)
         status = keep_files(c, &states);
@@ -265,6 +271,7 @@ static int check_decks(struct pool *pool, struct study *study, struct message_li
     for (int d = 0; d < plan->ndeck && !status; d++) {
         pool_open(&c.scratch, pool->allocator);
         status = check_deck(&c, d);
+        digest_letters(&c.own, study->deck[d].digest);
         pool_close(&c.scratch);
         bad += study->deck[d].error != NULL;
     }
@@ -382,5 +389,10 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
     digest_plan(study);
     digest_letters(&check.decks, study->decks_digest);
     digest_letters(&check.data, study->data_digest);
+    study->input = plan->path ? NULL : POOL_ARRAY(pool, const char *, study->runs); /* a run a deck */
+    for (long i = 0; i < study->runs && study->input; i++)
+        study->input[i] = study->deck[i].digest;
+    if (!plan->path && !study->input)
+        return ROTID_ERROR_MEMORY;
     return messages->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

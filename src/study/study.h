@@ -157,9 +157,10 @@ struct study_point {
 };
 
 struct study_deck {
-    const char *error; /* why every run of it fails, or NULL */
-    long *first;       /* [nvariant + 1] runs of its variants */
-    long *starts;      /* [nvariant] */
+    const char *error;               /* why every run of it fails, or NULL */
+    char digest[DIGEST_LETTERS + 1]; /* of its name, cards and data */
+    long *first;                     /* [nvariant + 1] runs of its variants */
+    long *starts;                    /* [nvariant] */
 };
 
 struct study {
@@ -168,6 +169,7 @@ struct study {
     const struct override *override;
     unsigned long seed;
     struct study_deck *deck; /* [plan->ndeck] */
+    const char **input;      /* [runs] digests of the decks of a study of decks, which may change between two starts; else NULL */
     long runs;
     int nfile;
     size_t file_room;
@@ -271,6 +273,8 @@ struct header {
     unsigned long seed;
     long runs;         /* of the whole study */
     int shard, shards; /* runs with run % shards == shard - 1; 1 of 1: all */
+    const char *const
+        *input; /* [runs] digests of decks of which each may change, whose run is computed again then; NULL: none may */
 };
 
 struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards);
@@ -300,7 +304,7 @@ struct line {
  * memory is out. */
 char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
                       const rotid_fit_result *fit, const struct message_list *notes);
-char *line_diagnosed(const struct line *line, const struct experiment *experiment, const struct diagnosis *result,
+char *line_diagnosed(const struct line *line, const struct experiment *experiment, struct diagnosis *result,
                      const struct message_list *notes);
 char *line_failed(const struct line *line, const char *error, double seconds);
 
@@ -394,7 +398,8 @@ void record_close(struct study_record *record);
  * and a digest of everything before. One byte that is changed always changes the digest, more of them but once in 2^64. Against
  * accidents: whoever wants to forge a line can compute its digest. */
 
-/* Of version and commit of the program, plan, decks, data, options, seed and number of runs: of all that the runs depend on. */
+/* Of version and commit of the program, plan, decks, data, options, seed and number of runs: of all that the runs depend on. In a
+ * study of decks each line carries the digest of its deck with the data, and that of the study knows nothing of them. */
 void stamp_study(const struct header *header, char study[DIGEST_LETTERS + 1]);
 
 /* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
@@ -416,6 +421,7 @@ struct results {
     struct header header;
     char study[DIGEST_LETTERS + 1]; /* what its lines are stamped with */
     char *there;                    /* [header.runs] 1: a line of the run failed, 2: one did not */
+    uint64_t *input;                /* [header.runs] of its last line: what tells the digest of its deck */
     int number;                     /* of the line read last, from 1 */
     off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
     off_t size;                     /* of the file, beyond `next` where the last line is cut */

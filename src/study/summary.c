@@ -124,7 +124,7 @@ static void add_error(struct sums *s, const struct study_run *run)
     out->errors[out->nerrors++] = (struct study_error){keep(s, text), 1, run->run};
 }
 
-static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const struct run_parameter *parameter)
+static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter)
 {
     for (int p = 0; p < cell->nparameter; p++)
         if (!strcmp(cell->parameter[p].said.name, parameter->name))
@@ -138,10 +138,10 @@ static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *c
     return s->failed ? NULL : &cell->parameter[cell->nparameter++];
 }
 
-static void add_value(struct parameter_sums *p, const struct run_parameter *parameter)
+static void add_value(struct parameter_sums *p, const rotid_fitted_parameter *parameter, double truth)
 {
     struct cell_parameter *said = &p->said;
-    double value = parameter->value, truth = parameter->truth;
+    double value = parameter->value;
     if (!isfinite(value))
         return;
     double from_mean = value - said->mean; /* Welford */
@@ -164,7 +164,15 @@ static void add_value(struct parameter_sums *p, const struct run_parameter *para
     }
 }
 
-static void add_modes(struct cell_sums *cell, const struct run_fit *fit)
+static double truth_of(const struct study_run *run, const char *name)
+{
+    for (int i = 0; i < run->ntruth; i++)
+        if (!strcmp(run->truth[i].name, name))
+            return run->truth[i].value;
+    return NAN;
+}
+
+static void add_modes(struct cell_sums *cell, const rotid_identification *fit)
 {
     for (int k = 0; k < fit->nmodes; k++) {
         double error = fit->modes[k].error_percent;
@@ -200,15 +208,16 @@ static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
     grown[d->nnamed++] = (rotid_component){.name = keep(s, id), .value = 1};
 }
 
-static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct run_diagnosis *diagnosis)
+static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct study_run *run)
 {
+    const rotid_diagnosis *diagnosis = run->diagnosis;
     struct cell_diagnoses *d = &cell->diagnoses;
     d->count++;
     d->verdicts[diagnosis->verdict.kind]++;
-    d->false_findings += diagnosis->false_findings != ROTID_NONE ? diagnosis->false_findings : 0;
-    if (diagnosis->score >= 0) {
+    d->false_findings += run->false_findings != ROTID_NONE ? run->false_findings : 0;
+    if (run->score >= 0) {
         cell->scored++;
-        d->scores[diagnosis->score]++;
+        d->scores[run->score]++;
     }
     for (int i = 0; i < diagnosis->verdict.ncauses; i++)
         add_named(s, cell, diagnosis->verdict.causes[i].id);
@@ -237,7 +246,7 @@ static void add_run(struct sums *s, const struct study_run *run)
         add_error(s, run);
         return;
     }
-    const struct run_fit *fit = run->fit;
+    const rotid_identification *fit = run->fit;
     cell->evaluations += fit->evaluations;
     add_objective(s, cell, run, usable);
     if (!usable)
@@ -251,10 +260,10 @@ static void add_run(struct sums *s, const struct study_run *run)
     for (int p = 0; p < fit->nparameters; p++) {
         struct parameter_sums *parameter = find_parameter(s, cell, &fit->parameters[p]);
         if (parameter)
-            add_value(parameter, &fit->parameters[p]);
+            add_value(parameter, &fit->parameters[p], truth_of(run, fit->parameters[p].name));
     }
     if (run->diagnosis)
-        add_diagnosis(s, cell, run->diagnosis);
+        add_diagnosis(s, cell, run);
 }
 
 static int compare(const void *left, const void *right)

@@ -113,7 +113,9 @@ static int judge(struct promises *run, const char *deck, const char *state, cons
     char *text = NULL;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = deck_add_state(&pool, "", deck, NULL, NULL, state, &text);
+    const struct deck_file file = {"case", deck};
+    const struct deck_origin origin = {.path = "case", .memory = 1, .nfile = 1, .file = &file};
+    int status = deck_add_state(&pool, &origin, NULL, state, &text);
     if (!status)
         status = read_states(&pool, text, &states);
     if (!status)

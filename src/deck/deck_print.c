@@ -1,6 +1,11 @@
-/* The cards of the measured data, of causes, and of the identification. */
+/* Cards as text, in the units of the deck that they are written into. */
+#include "deck/deck.h"
+
+#include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/base.h"
@@ -8,10 +13,139 @@
 #include "diagnose/causes/causes.h"
 #include "rotid.h"
 
+#define LINE 100 /* a card longer than this goes on in the next line */
+
+void deck_put(struct deck_writer *w, const char *format, ...)
+{
+    va_list values, again;
+    va_start(values, format);
+    va_copy(again, values);
+    int count = vsnprintf(NULL, 0, format, values);
+    va_end(values);
+    while (!w->status && count >= 0 && w->length + (size_t)count + 1 > w->room) {
+        char *grown = pool_grow(w->pool, w->text, w->room, &w->room, 1);
+        if (grown)
+            w->text = grown;
+        else
+            w->status = ROTID_ERROR_MEMORY;
+    }
+    if (!w->status && count >= 0) {
+        (void)vsnprintf(w->text + w->length, (size_t)count + 1, format, again);
+        w->length += (size_t)count;
+    }
+    va_end(again);
+}
+
+/* 2.1e11 for 2.1e+11 */
+static void shorten_exponent(char *text)
+{
+    char *e = strchr(text, 'e');
+    if (!e)
+        return;
+    int exponent = atoi(e + 1);
+    (void)sprintf(e + 1, "%d", exponent); /* never longer than it was */
+}
+
+const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH])
+{
+    char plain[DECK_NUMBER_LENGTH];
+    int digits = -1;
+    do
+        (void)snprintf(text, DECK_NUMBER_LENGTH, "%.*e", ++digits, value);
+    while (digits < 16 && strtod(text, NULL) != value);
+    shorten_exponent(text);
+    (void)snprintf(plain, sizeof plain, "%.*g", digits + 1 < 15 ? 15 : digits + 1, value);
+    shorten_exponent(plain);
+    return strlen(plain) > strlen(text) + 3 ? text : strcpy(text, plain);
+}
+
 static void refuse_writing(struct deck_writer *w)
 {
     w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
 }
+
+/* The value in the deck's unit of `what`. */
+static double in_unit(const struct deck_writer *w, double value, const char *what)
+{
+    double unit = w->job ? deck_unit_of(&w->job->units, what) : 1;
+    char text[DECK_NUMBER_LENGTH];
+    if (unit == 1)
+        return value;
+    (void)snprintf(text, sizeof text, "%.14e", value / unit);
+    return strtod(text, NULL);
+}
+
+void deck_put_number(struct deck_writer *w, const char *separator, double value, const char *what)
+{
+    char text[DECK_NUMBER_LENGTH];
+    if (!isfinite(value))
+        refuse_writing(w);
+    deck_put(w, "%s%s", separator, deck_number_text(in_unit(w, value, what), text));
+}
+
+/* What the value of an option can be: no comma, no comment, no control character, nothing that trimming takes away. */
+static int is_value(const char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    if (!length || isspace((unsigned char)text[0]) || isspace((unsigned char)text[length - 1]) || strstr(text, "**"))
+        return 0;
+    for (size_t i = 0, bytes; i < length; i += bytes ? bytes : 1) {
+        unsigned char c = (unsigned char)text[i];
+        bytes = text_visible(text + i);
+        if (c == ',' || (!bytes && c != '\t' && c < 0xa0)) /* names in Latin-1 stay as they are: they may be those of files */
+            return 0;
+        if (!bytes && text_utf8(text + i) > 1)
+            return 0;
+    }
+    return 1;
+}
+
+void deck_put_card(struct deck_writer *w, const char *name)
+{
+    deck_put(w, "*%s", name);
+}
+
+void deck_put_option(struct deck_writer *w, const char *name, const char *value)
+{
+    size_t column = 0;
+    if (!is_value(value)) {
+        refuse_writing(w);
+        return;
+    }
+    while (column < w->length && w->text[w->length - column - 1] != '\n')
+        column++;
+    deck_put(w, ",%s%s=%s", column + strlen(name) + strlen(value) + 3 > LINE ? "\n    " : " ", name, value);
+}
+
+void deck_put_option_number(struct deck_writer *w, const char *name, double value, const char *what)
+{
+    char text[DECK_NUMBER_LENGTH];
+    deck_put_option(w, name, deck_number_text(in_unit(w, value, what), text));
+}
+
+void deck_put_text(struct deck_writer *w, const char *text)
+{
+    char line[DECK_LINE_LENGTH + 1];
+    size_t length = 0, taken;
+    text += strspn(text, "* \t\r\n");
+    for (; *text; text += taken) {
+        size_t bytes = text_visible(text);
+        taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
+        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
+                            : bytes                                                        ? text
+                                                                                           : TEXT_REPLACEMENT;
+        size_t count = shown == text ? bytes : strlen(shown);
+        if (length + count > DECK_LINE_LENGTH)
+            break;
+        memcpy(line + length, shown, count);
+        length += count;
+    }
+    line[length] = 0;
+    if (length)
+        deck_put(w, "%s\n", line);
+}
+
+/* ------------------------------------------------------------------------------------------------ measured data */
 
 /* As they were read. */
 struct data {
@@ -62,7 +196,7 @@ static void write_sensors(struct deck_writer *w, const struct data *data)
         if (data->sensor[s].id < 1 || data->sensor[s].id > 1000000000)
             refuse_writing(w);
         deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", data->sensor[s].position);
+        deck_put_number(w, ", ", data->sensor[s].position, "m");
         deck_put(w, "\n");
     }
 }
@@ -94,13 +228,13 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
             hz = nextafter(hz, INFINITY);
         last = hz;
         deck_put(w, "%d", job->measurement.number[k]);
-        deck_put_number(w, ", ", hz);
+        deck_put_number(w, ", ", hz, "Hz");
         if (damped)
-            deck_put_number(w, ", ", job->measurement.damping[k]);
+            deck_put_number(w, ", ", job->measurement.damping[k], "");
         else if (isfinite(std))
             deck_put(w, ", ");
         if (isfinite(std))
-            deck_put_number(w, ", ", std_hz(std, hz));
+            deck_put_number(w, ", ", std_hz(std, hz), "Hz");
         deck_put(w, "\n");
     }
 }
@@ -114,9 +248,9 @@ static void write_shape(struct deck_writer *w, const struct data *data, int k, i
         if (lines++ % DECK_MOST_LINES == 0)
             deck_put(w, "*SHAPE, MODE=%d\n", w->job->measurement.number[k]);
         deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", shape[s]);
+        deck_put_number(w, ", ", shape[s], "");
         if (with_std && isfinite(std[s]))
-            deck_put_number(w, ", ", std[s]);
+            deck_put_number(w, ", ", std[s], "");
         deck_put(w, "\n");
     }
 }
@@ -131,28 +265,36 @@ static void write_frequencies(struct deck_writer *w, const struct data *data, in
         if (lines++ % DECK_MOST_LINES == 0)
             deck_put(w, "*FREQUENCIES, MODE=%d, MEAN=NO\n", w->job->measurement.number[k]);
         deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", hz[s]);
+        deck_put_number(w, ", ", hz[s], "Hz");
         if (isfinite(std[s]))
-            deck_put_number(w, ", ", std[s]);
+            deck_put_number(w, ", ", std[s], "Hz");
         deck_put(w, "\n");
     }
 }
 
-void deck_write_measured(struct deck_writer *w)
+void deck_noise_of_all(const struct job *job, double *frequency, double *shape)
+{
+    const struct data data = data_of(job);
+    int nmode = job->measurement.nmode;
+    *frequency = data.point_hz ? NAN : uniform(nmode, NULL, data.frequency_std); /* *MODES states it: it is not settled anew */
+    *shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
+}
+
+void deck_put_measured(struct deck_writer *w, int with_sensors)
 {
     const struct data data = data_of(w->job);
     int nmode = w->job->measurement.nmode;
-    double frequency =
-               data.point_hz ? NAN : uniform(nmode, NULL, data.frequency_std), /* *MODES states it: it is not settled anew */
-        shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
-    write_sensors(w, &data);
+    double frequency, shape;
+    deck_noise_of_all(w->job, &frequency, &shape);
+    if (with_sensors)
+        write_sensors(w, &data);
     write_modes(w, &data, !isfinite(frequency));
     if (isfinite(frequency) || isfinite(shape)) {
         deck_put_card(w, "NOISE");
         if (isfinite(frequency))
-            deck_put_option_number(w, "FREQUENCY", frequency);
+            deck_put_option_number(w, "FREQUENCY", frequency, "");
         if (isfinite(shape))
-            deck_put_option_number(w, "SHAPE", shape);
+            deck_put_option_number(w, "SHAPE", shape, "");
         deck_put(w, "\n");
     }
     for (int k = 0; k < nmode && data.shape; k++)
@@ -174,14 +316,14 @@ static int is_list_item(const char *name)
 
 static void write_interface(struct deck_writer *w, int left)
 {
-    const struct group *group = &w->rotor.group[left];
+    const struct group *group = &w->job->rotor.group[left];
     double from, to;
-    rotor_group_span(&w->job->rotor, left, &from, &to); /* with the lengths of its state */
+    rotor_group_span(&w->job->rotor, left, &from, &to);
     if (is_list_item(group[1].name)) {
         deck_put_option(w, "BETWEEN", group[0].name);
         deck_put(w, ",%s", group[1].name);
     } else
-        deck_put_option_number(w, "AT", to);
+        deck_put_option_number(w, "AT", to, "m");
 }
 
 static void write_target(struct deck_writer *w, const struct cause_kind *kind, int target)
@@ -189,22 +331,22 @@ static void write_target(struct deck_writer *w, const struct cause_kind *kind, i
     char id[16];
     switch (kind->target) {
     case TARGET_GROUP:
-        deck_put_option(w, "GROUP", w->rotor.group[target].name);
+        deck_put_option(w, "GROUP", w->job->rotor.group[target].name);
         break;
     case TARGET_INTERFACE:
         write_interface(w, target);
         break;
     case TARGET_SPRING:
-        deck_put_option(w, "AT", w->rotor.spring[target].name);
+        deck_put_option(w, "AT", w->job->rotor.spring[target].name);
         break;
     case TARGET_DISK:
-        deck_put_option(w, "AT", w->rotor.disk[target].name);
+        deck_put_option(w, "AT", w->job->rotor.disk[target].name);
         break;
     case TARGET_TIEROD:
-        deck_put_option(w, "AT", w->rotor.tierod[target].name);
+        deck_put_option(w, "AT", w->job->rotor.tierod[target].name);
         break;
     case TARGET_SENSOR:
-        (void)snprintf(id, sizeof id, "%d", w->rotor.sensor[target].id);
+        (void)snprintf(id, sizeof id, "%d", w->job->rotor.sensor[target].id);
         deck_put_option(w, "SENSOR", id);
         break;
     default:
@@ -212,20 +354,7 @@ static void write_target(struct deck_writer *w, const struct cause_kind *kind, i
     }
 }
 
-/* Physical bounds may move with the model, such as those of a joint with E beside it: what is written has to lie inside those of
- * the deck it is written into. */
-static double inside_physical(const struct deck_writer *w, const struct effect *effect, int p, double value)
-{
-    const struct cause_kind *kind = catalogue_of(effect);
-    double lower, upper;
-    if (!kind || !kind->bounds)
-        return value;
-    cause_reach(kind, &w->rotor, effect, p, &lower, &upper);
-    return fmin(fmax(value, lower), upper);
-}
-
-/* fixed: parameters of a suspect that are given, NULL for a cause of the model */
-static void write_effect(struct deck_writer *w, const struct effect *effect, const int *fixed)
+void deck_put_cause(struct deck_writer *w, const struct effect *effect, const int *fixed)
 {
     const struct cause_kind *kind = catalogue_of(effect);
     if (!kind) {
@@ -248,13 +377,12 @@ static void write_effect(struct deck_writer *w, const struct effect *effect, con
             continue;
         deck_put(w, "%s", effect->kind->parameter[p].name);
         if (bounds) {
-            deck_put_number(w, ", ", effect->bound[0]);
-            deck_put_number(w, ", ", effect->bound[1]);
+            deck_put_number(w, ", ", effect->bound[0], effect->kind->parameter[p].unit);
+            deck_put_number(w, ", ", effect->bound[1], effect->kind->parameter[p].unit);
             deck_put(w, "\n");
             continue;
         }
-        double value = effect->value[p];
-        deck_put_number(w, ", ", value == kind->parameter[p].neutral ? value : inside_physical(w, effect, p, value));
+        deck_put_number(w, ", ", effect->value[p], effect->kind->parameter[p].unit);
         deck_put(w, "\n");
     }
 }
@@ -280,49 +408,22 @@ static void write_correction(struct deck_writer *w, const struct correction *cor
     const struct effect_parameter_name *name;
     for (int p = 0; (name = correction_parameter(kind, p)); p++) {
         deck_put(w, "%s", name->name);
-        deck_put_number(w, ", ", *correction_value(&copy, p));
+        deck_put_number(w, ", ", *correction_value(&copy, p), name->unit);
         deck_put(w, "\n");
     }
 }
 
-void deck_write_corrections(struct deck_writer *w)
+void deck_put_corrections(struct deck_writer *w, int first)
 {
-    for (int i = 0; i < w->job->measurement.ncorrection; i++)
+    for (int i = first; i < w->job->measurement.ncorrection; i++)
         write_correction(w, &w->job->measurement.correction[i]);
-}
-
-void deck_write_causes(struct deck_writer *w)
-{
-    for (int i = 0; i < w->rotor.neffect; i++)
-        write_effect(w, &w->rotor.effect[i], NULL);
-    for (int i = 0; i < w->job->unknowns.nsuspect; i++)
-        write_effect(w, &w->job->unknowns.suspect[i].effect, w->job->unknowns.suspect[i].fixed);
 }
 
 /* ------------------------------------------------------------------------------------------------ identification */
 
-/* A start has to lie between the bounds and must not be zero, being the scale of the parameter. */
-static double start_of(const rotid_parameter *bounds, double x)
+void deck_put_holdout(struct deck_writer *w)
 {
-    double margin = 1e-6 * (bounds->upper - bounds->lower);
-    if (!(x > bounds->lower))
-        x = bounds->lower + margin;
-    if (!(x < bounds->upper))
-        x = bounds->upper - margin;
-    return x != 0 ? x : bounds->start;
-}
-
-static int holds_out(const struct job *job)
-{
-    int any = 0;
-    for (int k = 0; k < job->measurement.nmode && job->measurement.holdout; k++)
-        any |= job->measurement.holdout[k];
-    return any;
-}
-
-void deck_write_holdout(struct deck_writer *w)
-{
-    const char *separator = ", HOLDOUT=";
+    const char *separator = "";
     for (int k = 0, count = 0; k < w->job->measurement.nmode && w->job->measurement.holdout; k++)
         if (w->job->measurement.holdout[k]) {
             deck_put(w, "%s%d", separator, w->job->measurement.number[k]);
@@ -330,36 +431,15 @@ void deck_write_holdout(struct deck_writer *w)
         }
 }
 
-void deck_write_unknown(struct deck_writer *w, int p, const char *name)
+void deck_put_unknown(struct deck_writer *w, int p, const char *name)
 {
-    rotid_parameter bounds = w->job->unknowns.bounds[p];
-    struct parameter parameter = w->job->unknowns.parameter[p];
+    const rotid_parameter *bounds = &w->job->unknowns.bounds[p];
+    const char *unit = bounds->unit ? bounds->unit : "";
     if (!name || !*name || *name == '*' || strchr(name, ','))
         refuse_writing(w);
-    if (parameter.kind == PARAMETER_EFFECT) {
-        const struct effect *effect = &w->rotor.effect[parameter.index];
-        bounds.lower = inside_physical(w, effect, parameter.component, bounds.lower);
-        bounds.upper = inside_physical(w, effect, parameter.component, bounds.upper);
-    }
     deck_put(w, "%s", name ? name : "");
-    deck_put_number(w, ", ", bounds.lower);
-    deck_put_number(w, ", ", bounds.upper);
-    deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
-    deck_put(w, "\n");
-}
-
-void deck_write_fit(struct deck_writer *w, int with_holdout)
-{
-    const struct job_options *options = &w->job->options;
-    int holdout = with_holdout && holds_out(w->job);
-    if (!options->has_fit && !holdout && !options->solid && options->fit.reduction == ROTID_REDUCTION_NONE &&
-        options->fit.derivative == ROTID_NELSON)
-        return;
-    deck_put_card(w, "FIT");
-    deck_write_options(w, options->has_fit ? deck_fit_rows : deck_fit_rows + 1, &options->fit); /* the first one: FUNCTIONAL */
-    if (options->solid)
-        deck_put_option(w, "MODEL", "SOLID");
-    if (holdout)
-        deck_write_holdout(w);
+    deck_put_number(w, ", ", bounds->lower, unit);
+    deck_put_number(w, ", ", bounds->upper, unit);
+    deck_put_number(w, ", ", bounds->start, unit);
     deck_put(w, "\n");
 }

@@ -1,0 +1,235 @@
+/* Two jobs field by field: what a deck was meant to say, and what it is read as. Fields are those of the rows of the cards
+ * (card_rows.c), so a field that is read is compared. */
+#include "deck/card_table.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "diagnose/causes/causes.h"
+
+struct comparing {
+    unsigned bits;
+    const char *card;
+};
+
+/* The first difference that nothing can be done about keeps its card. */
+static void differ(struct comparing *c, unsigned bit, const char *card)
+{
+    if (!(c->bits & DECK_OTHER_MODEL))
+        c->card = card;
+    c->bits |= bit;
+}
+
+static void require(struct comparing *c, int same, const char *card)
+{
+    if (!same)
+        differ(c, DECK_OTHER_MODEL, card);
+}
+
+static void compare_segments(struct comparing *c, const struct rotor *a, const struct rotor *b)
+{
+    for (int s = 0; s < a->nsegment; s++) {
+        struct segment p = a->segment[s], q = b->segment[s];
+        int same = p.group == q.group && p.rectangular == q.rectangular;
+        if (p.elements != q.elements)
+            differ(c, DECK_OTHER_ELEMENTS, "SHAFT");
+        q.elements = p.elements;
+        require(c, same && deck_is_same(p.rectangular ? deck_beam_rows : deck_shaft_rows, &p, &q),
+                p.rectangular ? "BEAM" : "SHAFT");
+    }
+}
+
+/* By name: common causes come before those of a state. */
+static int has_effect(const struct rotor *rotor, const struct effect *effect)
+{
+    for (int i = 0; i < rotor->neffect; i++) {
+        const struct effect *e = &rotor->effect[i];
+        int same = same_text(e->name, effect->name) && e->kind == effect->kind && e->target == effect->target &&
+                   e->variant == effect->variant;
+        for (int p = 0; p < effect_parameters(effect) && same; p++)
+            same = deck_is_near(e->value[p], effect->value[p]);
+        if (same)
+            return 1;
+    }
+    return 0;
+}
+
+unsigned deck_compare_rotors(const struct rotor *a, const struct rotor *b, const char **card)
+{
+    struct comparing c = {0};
+    if (a->ngroup != b->ngroup || a->nsegment != b->nsegment || a->nring != b->nring)
+        differ(&c, DECK_OTHER_MODEL, "SHAFT");
+    for (int g = 0; g < a->ngroup && !c.bits; g++) {
+        const struct group *p = &a->group[g], *q = &b->group[g];
+        require(&c, same_text(p->name, q->name) && p->layer_of == q->layer_of, p->layer_of > 0 ? "LAYER" : "SHAFT");
+        require(&c, deck_is_same_material(&p->material, &q->material), "ELASTIC");
+        require(&c, p->holes == q->holes && (!p->holes || deck_is_same(deck_perforation_rows, p, q)), "PERFORATION");
+        require(&c, deck_is_near(p->preload, q->preload), "PRELOAD");
+    }
+    if (!(c.bits & DECK_OTHER_MODEL))
+        compare_segments(&c, a, b);
+    for (int i = 0; i < a->nring && a->nring == b->nring; i++)
+        require(&c, a->ring[i].group == b->ring[i].group && deck_is_same(deck_layer_rows, &a->ring[i], &b->ring[i]), "LAYER");
+    require(&c, a->ntierod == b->ntierod, "TIEROD");
+    for (int i = 0; i < a->ntierod && a->ntierod == b->ntierod; i++)
+        require(&c, deck_is_same(deck_tierod_rows, &a->tierod[i], &b->tierod[i]), "TIEROD");
+    require(&c, a->nbars == b->nbars, "BARS");
+    for (int i = 0; i < a->nbars && a->nbars == b->nbars; i++)
+        require(&c, deck_is_same(deck_bars_rows, &a->bars[i], &b->bars[i]), "BARS");
+    for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
+        require(&c, kind->read || deck_is_same_list(kind, a, b), kind->name);
+    require(&c, deck_is_near(a->sling, b->sling), "SLING");
+    require(&c, a->neffect == b->neffect, "CAUSE");
+    for (int i = 0; i < a->neffect; i++)
+        require(&c, has_effect(b, &a->effect[i]), "CAUSE");
+    *card = c.card;
+    return c.bits;
+}
+
+/* ------------------------------------------------------------------------------------------------ measured data */
+
+static int are_near(ptrdiff_t count, const double *a, const double *b)
+{
+    int same = !a == !b;
+    for (ptrdiff_t i = 0; i < count && a && same; i++)
+        same = deck_is_near(a[i], b[i]);
+    return same;
+}
+
+/* Where something was measured. */
+static int are_near_where(ptrdiff_t count, const double *there, const double *a, const double *b)
+{
+    int same = !there || !a == !b;
+    for (ptrdiff_t i = 0; i < count && there && a && same; i++)
+        same = !isfinite(there[i]) || deck_is_near(a[i], b[i]);
+    return same;
+}
+
+/* The data as they were read: the faults in them are compared with the causes. */
+static struct job_raw as_read(const struct job *job)
+{
+    const struct job_measurement *m = &job->measurement;
+    return m->raw ? *m->raw
+                  : (struct job_raw){job->rotor.nsensor,    job->rotor.sensor,     m->shape, m->shape_std, m->frequency_std,
+                                     m->point_frequency_hz, m->point_frequency_std};
+}
+
+static void compare_faults(struct comparing *c, const struct job_measurement *a, const struct job_measurement *b)
+{
+    require(c, a->ncorrection == b->ncorrection, "CAUSE");
+    for (int i = 0; i < a->ncorrection && a->ncorrection == b->ncorrection; i++) {
+        const struct correction *p = &a->correction[i], *q = &b->correction[i];
+        int same = !strcmp(p->id, q->id) && same_text(p->name, q->name) && deck_is_near(p->value, q->value) &&
+                   are_near(2, p->more, q->more) && (!p->block || !strcmp(p->block, q->block));
+        const struct cause_kind *kind = catalogue_find(p->id);
+        int sensors = !kind || kind->target == TARGET_BLOCK ? 0
+                      : kind->target == TARGET_SENSORS      ? 2
+                                                            : kind->target == TARGET_SENSOR;
+        for (int s = 0; s < sensors; s++)
+            same &= p->sensor[s] == q->sensor[s];
+        require(c, same, "CAUSE");
+    }
+}
+
+static void compare_data(struct comparing *c, const struct job *meant, const struct job *read)
+{
+    const struct job_measurement *a = &meant->measurement, *b = &read->measurement;
+    const struct job_raw p = as_read(meant), q = as_read(read);
+    ptrdiff_t count = (ptrdiff_t)p.nsensor * a->nmode;
+    int sensors = p.nsensor == q.nsensor;
+    for (int s = 0; s < p.nsensor && sensors; s++)
+        sensors = p.sensor[s].id == q.sensor[s].id && deck_is_near(p.sensor[s].position, q.sensor[s].position);
+    if (!sensors)
+        differ(c, DECK_OTHER_SENSORS | DECK_OTHER_DATA, "SENSORS");
+    if (a->nmode != b->nmode) {
+        differ(c, DECK_OTHER_DATA, "MODES");
+        return;
+    }
+    int modes = 1, held = 1;
+    for (int k = 0; k < a->nmode; k++) {
+        modes &= a->number[k] == b->number[k] && deck_is_near(a->damping[k], b->damping[k]);
+        held &= a->holdout[k] == b->holdout[k];
+    }
+    if (!modes || !are_near(a->nmode, a->frequency_hz, b->frequency_hz))
+        differ(c, DECK_OTHER_DATA, "MODES");
+    if (!held)
+        differ(c, DECK_OTHER_HOLDOUT, "FIT");
+    if (!sensors)
+        return;
+    if (!are_near(count, p.shape, q.shape))
+        differ(c, DECK_OTHER_DATA, "SHAPE");
+    if (!are_near(count, p.point_frequency_hz, q.point_frequency_hz))
+        differ(c, DECK_OTHER_DATA, "FREQUENCIES");
+    if (!are_near(a->nmode, p.frequency_std, q.frequency_std) || !are_near_where(count, p.shape, p.shape_std, q.shape_std) ||
+        !are_near_where(count, p.point_frequency_hz, p.point_frequency_std, q.point_frequency_std))
+        differ(c, DECK_OTHER_NOISE, "NOISE");
+}
+
+/* ------------------------------------------------------------------------------------------------ what is searched */
+
+static void compare_unknowns(struct comparing *c, const struct job_unknowns *a, const struct job_unknowns *b)
+{
+    require(c, a->nparameter == b->nparameter, "IDENTIFY");
+    for (int i = 0; i < a->nparameter; i++) {
+        int found = 0;
+        for (int k = 0; k < b->nparameter; k++) {
+            const rotid_parameter *p = &a->bounds[i], *q = &b->bounds[k];
+            found |= same_text(p->name, q->name) && deck_is_near(p->lower, q->lower) && deck_is_near(p->upper, q->upper) &&
+                     deck_is_near(p->start, q->start);
+        }
+        require(c, found, "IDENTIFY");
+    }
+    require(c, a->nsuspect == b->nsuspect, "CAUSE");
+    for (int i = 0; i < a->nsuspect && a->nsuspect == b->nsuspect; i++)
+        require(c,
+                same_text(a->suspect[i].effect.name, b->suspect[i].effect.name) &&
+                    a->suspect[i].effect.kind == b->suspect[i].effect.kind,
+                "CAUSE");
+}
+
+static void compare_options(struct comparing *c, const struct job_options *a, const struct job_options *b)
+{
+    if (a->fit.functional != b->fit.functional || a->fit.reduction != b->fit.reduction ||
+        a->fit.derivative != b->fit.derivative || a->solid != b->solid)
+        differ(c, DECK_OTHER_FIT, "FIT");
+    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && deck_is_same(deck_frf_rows, &a->frf, &b->frf);
+    require(c, same && !a->frf.file == !b->frf.file, "FRF");
+}
+
+int deck_copy_rotor(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
+{
+    struct rotor without = *rotor;
+    without.sling = 0;
+    int status = rotor_copy(pool, &without, copy);
+    copy->sling = rotor->sling;
+    return status;
+}
+
+/* The rotor with its parameters at the starts. */
+static int at_start(struct pool *pool, const struct job *job, struct rotor *rotor)
+{
+    int n = job->unknowns.nparameter;
+    double *x = POOL_ARRAY(pool, double, n);
+    if (!x || deck_copy_rotor(pool, &job->rotor, rotor))
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++)
+        x[p] = job->unknowns.bounds[p].start;
+    parameters_set(rotor, n, job->unknowns.parameter, x);
+    return ROTID_OK;
+}
+
+unsigned deck_compare(struct pool *pool, const struct job *meant, const struct job *read, const char **card)
+{
+    struct comparing c = {0};
+    struct rotor a, b;
+    if (at_start(pool, meant, &a) || at_start(pool, read, &b))
+        return DECK_OTHER_MODEL;
+    c.bits = deck_compare_rotors(&a, &b, &c.card);
+    compare_faults(&c, &meant->measurement, &read->measurement);
+    compare_unknowns(&c, &meant->unknowns, &read->unknowns);
+    compare_options(&c, &meant->options, &read->options);
+    compare_data(&c, meant, read);
+    *card = c.card ? c.card : "";
+    return c.bits;
+}

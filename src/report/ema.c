@@ -1,0 +1,223 @@
+/* `rotid ema` on the screen, and its tables. */
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "report/report.h"
+#include "result/result.h"
+
+#define COLUMNS     96 /* of the stabilisation picture */
+#define LISTED_ROWS 16
+#define MOST_MAC    20
+#define WORST       5
+
+static void print_source(const struct screen *to, const struct ema_report *r, const struct ema_result *ema)
+{
+    static const char *const quantity[] = {"receptance", "mobility", "accelerance"};
+    const struct measurement *m = r->measurement;
+    FILE *out = to->out;
+    (void)fprintf(out, "\n%s: %d transfer %s (%s), %d points, %d lines from %.6g to %.6g Hz\n", ema->source.file, ema->nchannels,
+                  human_plural(ema->nchannels, "function", "functions"), quantity[m->set.quantity], r->ema->npoint, m->set.nline,
+                  ema->source.low_hz, ema->source.high_hz);
+    if (m->from_records) {
+        int twice = 0, cut = 0, clipped = 0;
+        for (int i = 0; i < m->transfer.nimpact; i++) {
+            twice += m->transfer.impact[i].is_double;
+            cut += m->transfer.impact[i].is_cut;
+            clipped += m->transfer.impact[i].is_clipped;
+        }
+        (void)fprintf(out, "from %d time records at %.6g Hz: %d impacts, %d used (%d double, %d cut off, %d clipped)\n",
+                      m->record_count, m->rate, ema->source.impacts, ema->source.impacts_used, twice, cut, clipped);
+        if (m->set.window_decay > 0)
+            (void)fprintf(out, "exponential window: its decay of %.4g 1/s is taken off every pole\n", m->set.window_decay);
+    }
+    if (r->options->method == EMA_LSCF)
+        (void)fprintf(out, "least-squares complex frequency to order %d%s; standard deviations from %s\n", ema->order,
+                      ema->refined ? ", poles refined together" : "",
+                      r->ema->std_from_impacts ? "the scatter of the impacts" : "what the modes leave over");
+    else
+        (void)fprintf(out, "quadrature picking, damping from the half-power points\n");
+}
+
+struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema)
+{
+    struct table *table = table_open(pool, "Modes, with standard deviations");
+    for (int k = 0; k < ema->nmodes; k++) {
+        const struct ema_mode_result *m = &ema->modes[k];
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, m->mode);
+        number_column(table, "frequency", "Hz", SHOW_DIGITS(8), m->frequency_hz);
+        number_column(table, "std", "Hz", SHOW_DIGITS(2), m->frequency_std_hz);
+        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * m->damping);
+        number_column(table, "std", "%", SHOW_DIGITS(2), 100 * m->damping_std);
+        number_column(table, "MPC", NULL, SHOW_FIXED(3), m->mpc);
+        number_column(table, "MPD", "deg", SHOW_FIXED(1), m->mpd_degrees);
+        number_column(table, "peak/noise", NULL, SHOW_DIGITS(3), m->peak_signal_to_noise);
+        number_column(table, "modal mass", "kg", SHOW_DIGITS(4), m->modal_mass_kg);
+        text_column(table, "remark", SHOW_TEXT, m->doubts ? "doubtful" : "");
+    }
+    return table;
+}
+
+static const char *doubts_in_words(struct pool *pool, int doubts, const char *const words[])
+{
+    const char *text = "";
+    for (int b = 0; words[b] && text; b++)
+        if (doubts >> b & 1)
+            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", words[b]);
+    return text ? text : "";
+}
+
+const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count)
+{
+    const char **text = POOL_ARRAY(pool, const char *, ema->nmodes + ema->nchannels + 1);
+    *count = 0;
+    for (int k = 0; k < ema->nmodes && text; k++) {
+        const struct ema_mode_result *m = &ema->modes[k];
+        int close = m->doubts & EMA_CLOSE && isfinite(m->nearest_hz);
+        if (m->doubts)
+            text[(*count)++] = pool_format(pool, "mode %d, %.6g Hz: %s%s", m->mode, m->frequency_hz,
+                                           doubts_in_words(pool, m->doubts, ema_mode_doubts),
+                                           close ? pool_format(pool, " (the nearest at %.6g Hz)", m->nearest_hz) : "");
+    }
+    for (int c = 0; c < ema->nchannels && text; c++) {
+        const struct ema_channel_result *of = &ema->channels[c];
+        if (of->doubts)
+            text[(*count)++] = pool_format(pool, "node %d over node %d: %s; FRAC %s", of->response_node, of->reference_node,
+                                           doubts_in_words(pool, of->doubts, ema_channel_doubts), human_fixed(pool, of->frac, 3));
+    }
+    if (text && !*count && ema->nmodes)
+        text[(*count)++] = "Nothing about the modes and the channels looks doubtful.";
+    for (int i = 0; i < *count; i++)
+        text[i] = text[i] ? text[i] : "";
+    return text;
+}
+
+static void print_doubts(const struct screen *to, const struct ema_result *ema)
+{
+    int count;
+    const char **text = ema_doubts(to->pool, ema, &count);
+    for (int i = 0; i < count && text; i++) {
+        (void)fputs(i ? "" : "\n", to->out);
+        wrap_text(to->out, 4, to->width, "", text[i]);
+    }
+}
+
+/* Orders upwards, frequencies to the right: 's' stable, 'f' only its frequency, '.' neither; the modes stand below. */
+static void print_stabilisation(FILE *out, const struct ema_result *ema)
+{
+    double low = ema->source.low_hz, high = ema->source.high_hz;
+    char row[COLUMNS + 1];
+    int highest = 0, step;
+    for (int i = 0; i < ema->nstabilisation; i++)
+        highest = ema->stabilisation[i].order > highest ? ema->stabilisation[i].order : highest;
+    if (!highest || !(high > low))
+        return;
+    step = (highest + LISTED_ROWS - 1) / LISTED_ROWS;
+    (void)fprintf(out, "\nStabilisation (s stable, f frequency only, . neither; every %dth order)\n", step);
+    for (int order = highest; order > 0; order -= step) {
+        memset(row, ' ', COLUMNS);
+        row[COLUMNS] = 0;
+        for (int i = 0; i < ema->nstabilisation; i++) {
+            const struct ema_pole_result *p = &ema->stabilisation[i];
+            int column = (int)((p->frequency_hz - low) / (high - low) * COLUMNS);
+            if (p->order != order || p->frequency_hz < low || column >= COLUMNS)
+                continue;
+            char mark = '.';
+            if (p->stable_frequency)
+                mark = p->stable_damping ? 's' : 'f';
+            if (p->part &&
+                (mark != 's' || p->mode == ROTID_NONE)) /* tables of parts are dense: what counts of them are the modes */
+                continue;
+            if (row[column] == ' ' || mark == 's' || (mark == 'f' && row[column] == '.'))
+                row[column] = mark;
+        }
+        (void)fprintf(out, "%5d |%s|\n", order, row);
+    }
+    memset(row, ' ', COLUMNS);
+    for (int k = 0; k < ema->nmodes; k++) {
+        int column = (int)((ema->modes[k].frequency_hz - low) / (high - low) * COLUMNS);
+        if (column >= 0 && column < COLUMNS)
+            row[column] = '^';
+    }
+    (void)fprintf(out, " Hz   |%s|\n", row);
+    (void)fprintf(out, "      %-*.6g%*.6g\n", COLUMNS / 2, low, COLUMNS / 2 + 2, high);
+}
+
+static struct table *table_of_mac(struct pool *pool, const struct ema_result *ema)
+{
+    int count = ema->nmodes < MOST_MAC ? ema->nmodes : MOST_MAC;
+    struct table *table =
+        table_open(pool, ema->nmodes > MOST_MAC ? "MAC of the shapes with each other [%], the first twenty (all in the JSON)"
+                                                : "MAC of the shapes with each other [%]");
+    for (int i = 0; i < count && count > 1; i++) {
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, i + 1);
+        for (int j = 0; j < count; j++)
+            number_column(table, i ? "" : pool_format(pool, "%d", j + 1), NULL, SHOW_COUNT,
+                          100 * ema->mac[i + (ptrdiff_t)j * ema->nmodes]);
+    }
+    return table;
+}
+
+static struct table *table_of_poles(struct pool *pool, const struct ema_result *ema)
+{
+    struct table *table = table_open(pool, "Poles");
+    for (int i = 0; i < ema->nstabilisation; i++) {
+        const struct ema_pole_result *p = &ema->stabilisation[i];
+        table_row(table);
+        number_column(table, "order", NULL, SHOW_COUNT, p->order);
+        number_column(table, "frequency", "Hz", SHOW_DIGITS(8), p->frequency_hz);
+        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * p->damping);
+        text_column(table, "stable", SHOW_TEXT, p->stable_frequency && p->stable_damping ? "fd" : p->stable_frequency ? "f" : "");
+        number_column(table, "mode", NULL, SHOW_COUNT, p->mode == ROTID_NONE ? (double)NAN : p->mode);
+    }
+    return table;
+}
+
+/* The channels with the lowest FRAC, or all. */
+static struct table *table_of_channels(struct pool *pool, const struct ema_result *ema, int all)
+{
+    int *order = POOL_ARRAY(pool, int, ema->nchannels), known = 0;
+    for (int c = 0; c < ema->nchannels && order; c++) { /* insertion by rising FRAC; the channels of a test are hundreds */
+        int i = known;
+        if (isnan(ema->channels[c].frac))
+            continue;
+        for (; i > 0 && ema->channels[order[i - 1]].frac > ema->channels[c].frac; i--)
+            order[i] = order[i - 1];
+        order[i] = c;
+        known++;
+    }
+    int shown = all || known < WORST ? known : WORST;
+    struct table *table =
+        table_open(pool, pool_format(pool, "FRAC of measured and synthesised transfer functions: median %.4f; %s",
+                                     known ? ema->channels[order[known / 2]].frac : 0, shown < known ? "the worst" : "all"));
+    for (int i = 0; i < shown && ema->nmodes; i++) {
+        const struct ema_channel_result *of = &ema->channels[order[i]];
+        table_row(table);
+        number_column(table, "node", NULL, SHOW_COUNT, of->response_node);
+        number_column(table, "over node", NULL, SHOW_COUNT, of->reference_node);
+        number_column(table, "FRAC", NULL, SHOW_FIXED(4), of->frac);
+        number_column(table, "noise over rms", NULL, SHOW_DIGITS(2), of->noise);
+    }
+    return table;
+}
+
+void screen_ema(const struct screen *to, const struct ema_report *r)
+{
+    const struct ema_result *ema = ema_result_of(to->pool, r, 0);
+    if (!ema)
+        return;
+    print_source(to, r, ema);
+    screen_table(to, table_of_test_modes(to->pool, ema));
+    if (!ema->nmodes)
+        (void)fprintf(to->out, "\nno mode was found\n");
+    print_doubts(to, ema);
+    print_stabilisation(to->out, ema);
+    if (to->verbose)
+        screen_table(to, table_of_poles(to->pool, ema));
+    screen_table(to, table_of_mac(to->pool, ema));
+    screen_table(to, table_of_channels(to->pool, ema, to->verbose));
+    if (r->output)
+        (void)fprintf(to->out, "\n%d %s written to %s\n", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"), r->output);
+}

@@ -1,0 +1,316 @@
+/* `rotid frf` on the screen, and its tables. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "report/report.h"
+#include "result/result.h"
+
+/* ---- Bode plot in plain ASCII */
+
+#define MOST_COLUMNS 120
+#define HEIGHT       16 /* rows of the magnitude */
+#define PHASE_HEIGHT 9  /* -180 to 180 in steps of 45 degrees */
+#define DECADES      5  /* at most: what lies deeper says nothing */
+#define MARGIN       11
+#define PI           3.14159265358979323846
+
+struct canvas {
+    int columns, rows;
+    char cell[HEIGHT][MOST_COLUMNS + 1];
+};
+
+static void open_canvas(struct canvas *canvas, int columns, int rows)
+{
+    canvas->columns = columns;
+    canvas->rows = rows;
+    for (int r = 0; r < rows; r++) {
+        memset(canvas->cell[r], ' ', (size_t)columns);
+        canvas->cell[r][columns] = 0;
+    }
+}
+
+/* height: 0 at the bottom, 1 at the top */
+static void put(struct canvas *canvas, int column, double height, char mark)
+{
+    if (!isfinite(height) || height < -0.5 / (canvas->rows - 1))
+        return;
+    int row = (int)lround((1 - fmin(fmax(height, 0), 1)) * (canvas->rows - 1));
+    char *cell = &canvas->cell[row][column];
+    *cell = *cell == ' ' || *cell == mark ? mark : '@';
+}
+
+static void frf_plot_print_row(FILE *out, const struct canvas *canvas, int row, const char *label)
+{
+    int last = canvas->columns;
+    while (last > 0 && canvas->cell[row][last - 1] == ' ')
+        last--;
+    (void)fprintf(out, "%*s |%.*s\n", MARGIN - 2, label, last, canvas->cell[row]);
+}
+
+/* The line of each column that is drawn: the one of largest magnitude, or the nearest where a column has none. */
+static void choose(int columns, int nline, const double *hz, const double complex *h, int *line)
+{
+    double from = hz[0], span = hz[nline - 1] - from;
+    int near = 0;
+    for (int c = 0; c < columns; c++)
+        line[c] = -1;
+    for (int l = 0; l < nline; l++) {
+        int c = span > 0 ? (int)((hz[l] - from) / span * (columns - 1) + 0.5) : 0;
+        if (isfinite(cabs(h[l])) && (line[c] < 0 || cabs(h[l]) > cabs(h[line[c]])))
+            line[c] = l;
+    }
+    for (int c = 0; c < columns; c++) {
+        double at = from + span * c / (columns - 1);
+        while (near + 1 < nline && fabs(hz[near + 1] - at) <= fabs(hz[near] - at))
+            near++;
+        if (line[c] < 0)
+            line[c] = near;
+    }
+}
+
+static void frame(FILE *out, int columns, double from, double to)
+{
+    (void)fprintf(out, "%*s +", MARGIN - 2, "");
+    for (int c = 0; c < columns; c++)
+        (void)fputc(c % 10 ? '-' : '+', out);
+    (void)fprintf(out, "\n%*s", MARGIN, "");
+    for (int c = 0; c + 10 <= columns; c += 20)
+        (void)fprintf(out, "%-*.5g", c + 30 <= columns ? 20 : 8, from + (to - from) * c / (columns - 1));
+    (void)fputs("Hz\n", out);
+}
+
+/* Log magnitude over frequency, and phase below, on `columns` columns: '*' synthesised, 'o' measured (NULL where there is none),
+ * '@' both. Of the lines that share a column the largest magnitude is drawn. */
+static void frf_plot(FILE *out, int columns, int nline, const double *hz, const double complex *synthesised,
+                     const double complex *measured)
+{
+    const double complex *curve[2] = {synthesised, measured};
+    struct canvas magnitude, phase;
+    double top = 0, bottom = INFINITY;
+    int line[2][MOST_COLUMNS] = {{0}};
+    char label[32];
+    columns = columns > MOST_COLUMNS ? MOST_COLUMNS : columns;
+    open_canvas(&magnitude, columns, HEIGHT);
+    open_canvas(&phase, columns, PHASE_HEIGHT);
+    for (int i = 0; i < 2 && curve[i]; i++) {
+        choose(columns, nline, hz, curve[i], line[i]);
+        for (int c = 0; c < columns; c++) {
+            double size = cabs(curve[i][line[i][c]]);
+            top = isfinite(size) ? fmax(top, size) : top;
+            bottom = size > 0 ? fmin(bottom, size) : bottom;
+        }
+    }
+    if (!(top > 0))
+        return;
+    double high = log10(top), low = fmax(fmin(log10(bottom), high - 1), high - DECADES);
+    for (int i = 0; i < 2 && curve[i]; i++)
+        for (int c = 0; c < columns; c++) {
+            double complex h = curve[i][line[i][c]];
+            put(&magnitude, c, (log10(cabs(h)) - low) / (high - low), "*o"[i]);
+            put(&phase, c, 0.5 + carg(h) / (2 * PI), "*o"[i]);
+        }
+    for (int r = 0; r < HEIGHT; r++) {
+        (void)snprintf(label, sizeof label, "%.1e", pow(10, high - (high - low) * r / (HEIGHT - 1)));
+        frf_plot_print_row(out, &magnitude, r, r % 5 ? "" : label);
+    }
+    frame(out, columns, hz[0], hz[nline - 1]);
+    for (int r = 0; r < PHASE_HEIGHT; r++) {
+        (void)snprintf(label, sizeof label, "%d deg", 180 - 45 * r);
+        frf_plot_print_row(out, &phase, r, r % 2 ? "" : label);
+    }
+    frame(out, columns, hz[0], hz[nline - 1]);
+}
+
+#define MOST_ROWS 40 /* beyond it the worst ones and a count */
+#define WORST     10
+#define COLUMNS   88   /* of the plot */
+#define FLIPPED   0.05 /* gain of FRAC with the conjugate that is no accident */
+#define DEGREES   57.295779513082321
+
+/* ---- tables */
+
+static const char *words(struct pool *pool, const char *text)
+{
+    char *copy = pool_copy_text(pool, text);
+    for (char *c = copy; c && *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+    return copy;
+}
+
+struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of)
+{
+    struct table *table = table_open(pool, "Modes within the lines");
+    for (int m = 0; m < of->nmodes; m++) {
+        const struct transfer_mode *mode = &of->modes[m];
+        const struct transfer_mode_agreement *agrees = mode->agreement;
+        const struct transfer_function *f =
+            agrees && agrees->worst_function != ROTID_NONE ? &of->functions[agrees->worst_function] : NULL;
+        double worst = NAN;
+        if (!(mode->model_hz <= of->high_hz))
+            continue;
+        for (int k = 0; f && f->beside && k < f->beside->nat_modes; k++)
+            if (f->beside->at_modes[k].mode == mode->mode)
+                worst = f->beside->at_modes[k].deviation;
+        table_row(table);
+        text_column(table, "mode", SHOW_TEXT, mode->rigid ? "rigid" : pool_format(pool, "%d", mode->mode));
+        number_column(table, "model", "Hz", SHOW_FIXED(3), mode->model_hz);
+        number_column(table, "measured", "Hz", SHOW_FIXED(3), mode->measured_hz);
+        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * mode->damping);
+        text_column(table, "damping from", SHOW_TEXT, words(pool, mode->damping_from));
+        number_column(table, "FRAC", NULL, SHOW_FIXED(3), agrees ? agrees->frac : (double)NAN);
+        number_column(table, "at meas. Hz", NULL, SHOW_FIXED(3), agrees ? agrees->frac_at_measured_frequencies : (double)NAN);
+        number_column(table, "level", "dB", SHOW_SIGNED(2), agrees ? agrees->level_db : (double)NAN);
+        number_column(table, "phase", "deg", SHOW_SIGNED(1), agrees ? agrees->phase_deg : (double)NAN);
+        number_column(table, "deviation", NULL, SHOW_FIXED(2), worst);
+        text_column(table, "at", SHOW_TEXT, f ? pool_format(pool, "%d over %d", f->response, f->reference) : "");
+    }
+    return table;
+}
+
+static void function_row(struct table *table, const struct transfer_function *f, const struct transfer_agreement *agrees)
+{
+    struct pool *pool = table ? table->pool : NULL;
+    double gain = agrees->frac_of_conjugate;
+    table_row(table);
+    text_column(table, "response", SHOW_TEXT, f ? pool_format(pool, "%d", f->response) : "all");
+    text_column(table, "reference", SHOW_TEXT, f ? pool_format(pool, "%d", f->reference) : "");
+    number_column(table, "FRAC", NULL, SHOW_FIXED(3), agrees->frac);
+    number_column(table, "at meas. Hz", NULL, SHOW_FIXED(3), agrees->frac_at_measured_frequencies);
+    number_column(table, "scale", NULL, SHOW_DIGITS(4), agrees->scale);
+    number_column(table, "level", "dB", SHOW_SIGNED(2), agrees->level_db);
+    text_column(table, "remark", SHOW_TEXT,
+                !f                               ? ""
+                : agrees->scale < 0              ? "opposite sign: check the direction"
+                : gain > agrees->frac + FLIPPED  ? pool_format(pool, "FRAC %.3f with the conjugate: check the sign of time", gain)
+                : f->beside->measured_reciprocal ? "measured the other way round"
+                                                 : "");
+}
+
+struct ranked {
+    double frac;
+    int row;
+};
+
+static int by_frac(const void *left, const void *right)
+{
+    const struct ranked *a = left, *b = right;
+    return a->frac != b->frac ? (a->frac > b->frac) - (a->frac < b->frac) : a->row - b->row;
+}
+
+/* All functions, or the worst of many. */
+static struct table *table_of_functions(struct pool *pool, const struct transfer_result *of, int all)
+{
+    static const double border[] = {0.95, 0.8, 0.5, -1};
+    struct table *table =
+        table_open(pool, "Transfer functions; at meas. Hz: with the measured frequencies in place of the model's; "
+                         "what is below 1 there is shape, mass or damping");
+    struct ranked *rank = POOL_ARRAY(pool, struct ranked, of->nfunctions);
+    int count[4] = {0}, none = 0, many = of->nfunctions > MOST_ROWS && !all;
+    for (int i = 0; i < of->nfunctions && rank; i++) {
+        double frac = of->functions[i].beside->agreement.frac;
+        int c = 0;
+        while (c < 3 && frac < border[c])
+            c++;
+        *(isfinite(frac) ? &count[c] : &none) += 1;
+        rank[i] = (struct ranked){isfinite(frac) ? frac : -1, i};
+    }
+    if (many && rank)
+        qsort(rank, (size_t)of->nfunctions, sizeof *rank, by_frac);
+    for (int i = 0; i < (many ? WORST : of->nfunctions) && rank; i++)
+        function_row(table, &of->functions[rank[i].row], &of->functions[rank[i].row].beside->agreement);
+    function_row(table, NULL, of->agreement);
+    if (many && table)
+        table->note =
+            pool_format(pool,
+                        "The %d worst of %d; FRAC from 0.95: %d, from 0.8: %d, from 0.5: %d, below: %d, without values: "
+                        "%d (--verbose: all).",
+                        WORST, of->nfunctions, count[0], count[1], count[2], count[3], none);
+    return table;
+}
+
+/* h: the first function, measured NULL where there is none */
+static struct table *table_of_resonances(struct pool *pool, const struct frf_result *r, const double complex *h,
+                                         const double complex *measured)
+{
+    struct table *table = table_open(pool, "At the resonances");
+    for (int b = 0; b < r->nband; b++) {
+        const struct frf_band *band = &r->band[b];
+        double complex at = h[band->at_model], beside = measured ? measured[band->at_measured] : NAN;
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, band->mode);
+        number_column(table, "line", "Hz", SHOW_FIXED(2), r->frequency_hz[band->at_model]);
+        number_column(table, "synthesised", NULL, SHOW_DIGITS(5), cabs(at));
+        number_column(table, "phase", "deg", SHOW_FIXED(1), carg(at) * DEGREES);
+        number_column(table, "line", "Hz", SHOW_FIXED(2), measured ? r->frequency_hz[band->at_measured] : (double)NAN);
+        number_column(table, "measured", NULL, SHOW_DIGITS(5), cabs(beside));
+        number_column(table, "phase", "deg", SHOW_FIXED(1), measured ? carg(beside) * DEGREES : (double)NAN);
+    }
+    return table;
+}
+
+/* ---- screen */
+
+static void print_model(const struct screen *to, const struct transfer_result *of)
+{
+    FILE *out = to->out;
+    int rigid = 0;
+    const char *damping = "";
+    for (int m = 0; m < of->nmodes; m++)
+        rigid += of->modes[m].rigid;
+    (void)fprintf(out, "%s over force [%s], %d %s from %.6g to %.6g Hz\n", of->quantity, of->unit, of->lines,
+                  human_plural(of->lines, "line", "lines"), of->low_hz, of->high_hz);
+    (void)fprintf(out, "full model %s", of->nparameters ? "at the identified parameters" : "as the deck states it");
+    for (int p = 0; p < of->nparameters; p++)
+        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", of->parameters[p].name, of->parameters[p].value,
+                      of->parameters[p].unit);
+    (void)fprintf(out,
+                  "\nsum of %d %s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
+                  rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, of->modes_up_to_hz);
+    for (int m = 0; m < rigid; m++) {
+        (void)fprintf(out, "%s%.4f Hz", m ? ", " : "modes on the supports: ", of->modes[m].model_hz);
+        damping = of->modes[m].damping_from;
+    }
+    if (rigid)
+        (void)fprintf(out, ", damping %s %% (%s)\n", IN_DIGITS(4, 100 * of->modes[0].damping), words(to->pool, damping));
+    if (of->window_decay > 0)
+        (void)fprintf(out, "exponential window of the measurement: %.5g 1/s, synthesised with it\n", of->window_decay);
+}
+
+static void print_functions(const struct screen *to, const struct frf_view *view, const struct transfer_result *of)
+{
+    const struct frf_result *r = view->result;
+    if (of->agreement) {
+        screen_table(to, table_of_functions(to->pool, of, to->verbose));
+        return;
+    }
+    (void)fprintf(to->out, "\n%d transfer %s:", r->nrow, human_plural(r->nrow, "function", "functions"));
+    for (int i = 0; i < r->nrow && (to->verbose || i < MOST_ROWS); i++)
+        (void)fprintf(to->out, "%s %d over %d", i ? "," : "", r->row[i].response, r->row[i].reference);
+    (void)fprintf(to->out, "%s\n", !to->verbose && r->nrow > MOST_ROWS ? ", ..." : "");
+}
+
+static void print_first(const struct screen *to, const struct frf_view *view)
+{
+    const struct frf_result *r = view->result;
+    double complex *h = POOL_ARRAY(to->pool, double complex, r->nline), *work = POOL_ARRAY(to->pool, double complex, r->nline),
+                   *measured = r->is_measured ? POOL_ARRAY(to->pool, double complex, r->nline) : NULL;
+    if (!h || !work || (r->is_measured && !measured))
+        return;
+    frf_synthesised(r, 0, 1, h, work);
+    if (measured)
+        frf_measured_curve(r, view->set, 0, measured);
+    (void)fprintf(to->out, "\n%d over %d: %s [%s], * synthesised%s\n", r->row[0].response, r->row[0].reference,
+                  transfer_quantity_words[r->quantity], transfer_unit_words[r->quantity], measured ? ", o measured, @ both" : "");
+    frf_plot(to->out, COLUMNS, r->nline, r->frequency_hz, h, measured);
+    screen_table(to, table_of_resonances(to->pool, r, h, measured));
+}
+
+void screen_frf(const struct screen *to, const struct frf_view *view, const struct transfer_result *of)
+{
+    print_model(to, of);
+    screen_table(to, table_of_transfer_modes(to->pool, of));
+    print_functions(to, view, of);
+    if (view->result->ndone)
+        print_first(to, view);
+}

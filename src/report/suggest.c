@@ -1,0 +1,185 @@
+/* `rotid suggest` on the screen, and its tables. */
+#include <math.h>
+#include <string.h>
+
+#include "report/report.h"
+
+#define MOST_LISTED 24 /* sensors; more with --verbose */
+
+static double or_nan(int i, int count, const double *value)
+{
+    return i < count ? value[i] : (double)NAN;
+}
+
+struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table = table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters");
+    if (table)
+        table->note =
+            pool_format(pool,
+                        "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
+                        "frequencies alone (geometric mean).",
+                        s->plan_modes);
+    for (int i = 0; i < s->nplans; i++) {
+        const rotid_sensor_plan *p = &s->plans[i];
+        table_row(table);
+        text_column(table, "plan", SHOW_TEXT, strcmp(p->method, "effective_independence") ? p->method : "effective independence");
+        number_column(table, "sensors", NULL, SHOW_COUNT, p->nz_m);
+        number_column(table, "gain", "%", SHOW_FIXED(1), p->gain_percent);
+        for (int j = 0; j < s->nparameters; j++)
+            number_column(table, s->parameters[j].name, "%", SHOW_DIGITS(3),
+                          or_nan(j, p->nhalf_width_percent, p->half_width_percent));
+    }
+    return table;
+}
+
+struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table = table_open(pool, "Half-widths of the 95 % intervals that are expected, by the number of modes");
+    for (int i = 0; i < s->nmodes && s->nparameters; i++) {
+        const rotid_expected_modes *m = &s->modes[i];
+        table_row(table);
+        number_column(table, "modes", NULL, SHOW_COUNT, m->modes);
+        for (int p = 0; p < s->nparameters; p++) {
+            const char *name = s->parameters[p].name;
+            number_column(table, i ? "" : pool_format(pool, "%s by frequencies", name), "%", SHOW_DIGITS(3),
+                          or_nan(p, m->nfrequencies_percent, m->frequencies_percent));
+            number_column(table, i ? "" : pool_format(pool, "%s with shapes", name), "%", SHOW_DIGITS(3),
+                          or_nan(p, m->nshapes_percent, m->shapes_percent));
+        }
+    }
+    return table;
+}
+
+struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table = table_open(pool, "Rivals: what the diagnosis cannot tell apart");
+    for (int i = 0; i < s->nrivals; i++) {
+        table_row(table);
+        number_column(table, "number", NULL, SHOW_COUNT, i + 1);
+        text_column(table, "rival", SHOW_TEXT, s->rivals[i].label);
+        number_column(table, "chi2", NULL, SHOW_FIXED(2), s->rivals[i].chi2);
+        number_column(table, "score", NULL, SHOW_FIXED(2), s->rivals[i].score);
+        number_column(table, "share", NULL, SHOW_FIXED(2), s->rivals[i].share);
+    }
+    if (table)
+        table->note = pool_format(
+            pool, "The true one is among them with a chance of %.2f; the chances of the tests allow for that.", s->among);
+    return table;
+}
+
+/* Of the best rival, were it true: the other one that a test tells from it least, the model as it is where there is no other. */
+static const rotid_expected_margin *closest(const rotid_suggestion *s, const rotid_suggested_test *test)
+{
+    const rotid_expected_margin *least = NULL;
+    for (int i = 0; i < test->nmargins; i++) {
+        const rotid_expected_margin *m = &test->margins[i];
+        if (m->truth || (m->rival == s->nrivals - 1 && s->nrivals > 2))
+            continue;
+        if (!least || m->expected < least->expected)
+            least = m;
+    }
+    return least;
+}
+
+struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table = table_open(pool, "Tests: the chance that the true one of the rivals is named, what it takes");
+    if (table)
+        table->note =
+            pool_format(pool,
+                        "margin: lead of rival 1 that is expected, were it true, over the closest other one; a set-up costs "
+                        "as much as %g points.",
+                        s->set_up_cost);
+    for (int i = 0; i < s->ntests; i++) {
+        const rotid_suggested_test *t = &s->tests[i];
+        const rotid_expected_margin *m = closest(s, t);
+        table_row(table);
+        number_column(table, "chance", NULL, SHOW_FIXED(2), t->chance);
+        number_column(table, "wrong", NULL, SHOW_FIXED(2), t->wrong);
+        number_column(table, "cost", NULL, SHOW_TRIMMED(4), t->cost);
+        number_column(table, "set-ups", NULL, SHOW_COUNT, t->setups);
+        number_column(table, "points", NULL, SHOW_COUNT, t->points);
+        number_column(table, "modes", NULL, SHOW_COUNT, t->modes);
+        number_column(table, "margin", NULL, SHOW_FIXED(1), m ? m->expected : (double)NAN);
+        number_column(table, "over", NULL, SHOW_COUNT, m ? m->rival + 1 : (double)NAN);
+        text_column(table, "test", SHOW_TEXT, t->text);
+    }
+    return table;
+}
+
+static struct table *table_of_margins(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table = table_open(pool, "Leads of the true rival over another one by a test (number in the table above)");
+    for (int i = 0; i < s->ntests; i++)
+        for (int k = 0; k < s->tests[i].nmargins; k++) {
+            const rotid_expected_margin *m = &s->tests[i].margins[k];
+            table_row(table);
+            number_column(table, "test", NULL, SHOW_COUNT, i + 1);
+            number_column(table, "true", NULL, SHOW_COUNT, m->truth + 1);
+            number_column(table, "over", NULL, SHOW_COUNT, m->rival + 1);
+            number_column(table, "measured", NULL, SHOW_DIGITS(3), m->before);
+            number_column(table, "without noise", NULL, SHOW_DIGITS(3), m->before + m->distance);
+            number_column(table, "expected", NULL, SHOW_DIGITS(3), m->expected);
+            number_column(table, "refitted", NULL, SHOW_DIGITS(3), m->refitted);
+            number_column(table, "chance", NULL, SHOW_FIXED(2), m->chance);
+        }
+    return table;
+}
+
+static void print_places(const struct screen *to, const rotid_suggestion *s)
+{
+    for (int i = 0; i < s->nplans; i++) {
+        const rotid_sensor_plan *plan = &s->plans[i];
+        struct wrap wrap;
+        if (plan->nz_m > MOST_LISTED && !to->verbose)
+            continue;
+        if (!i)
+            screen_say(to, "Places z, and how far the deviations rise without the sensor there:");
+        wrap_open(&wrap, to->out, 4, to->width, "  ");
+        wrap_item(&wrap, "%s:", plan->method);
+        for (int k = 0; k < plan->nz_m; k++)
+            wrap_item(&wrap, "%.4g m (%.2g %%)%s", plan->z_m[k], plan->loss_percent[k], k + 1 < plan->nz_m ? "," : "");
+        wrap_close(&wrap);
+    }
+}
+
+static void print_wanted(const struct screen *to, const rotid_suggestion *s)
+{
+    if (!s->nmodes || !s->nparameters)
+        return;
+    if (s->modes_needed != ROTID_NONE)
+        screen_say(to, "wanted %g %%: frequencies of %d modes", s->wanted_percent, s->modes_needed);
+    else if (s->sensors_needed != ROTID_NONE)
+        screen_say(to, "wanted %g %%: shapes of %d modes at the %d best points", s->wanted_percent, s->plan_modes,
+                   s->sensors_needed);
+    else
+        screen_say(to, "wanted %g %%: not reached by 8 modes, nor by %d modes at %d points", s->wanted_percent, s->plan_modes,
+                   s->ncounts ? s->counts[s->ncounts - 1].sensors : 0);
+}
+
+void screen_suggest(const struct screen *to, const struct result *result)
+{
+    const rotid_suggestion *s = result->suggest;
+    screen_heading(to, &result->head);
+    (void)fputs("\nSUGGESTION\n", to->out);
+    wrap_text(to->out, 2, to->width, "  ", s->sentence);
+    if (s->verdict)
+        wrap_text(to->out, 2, to->width, "  diagnosis: ", s->verdict);
+    if (s->state)
+        (void)fprintf(to->out, "  state: plans and tests are made like %s\n", s->state);
+    (void)fprintf(to->out, "  noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
+                  s->noise.frequency_assumed ? " (assumed)" : "", 100 * s->noise.shape,
+                  s->noise.shape_assumed ? " (assumed)" : "");
+    screen_table(to, table_of_rivals(to->pool, s));
+    screen_table(to, table_of_tests(to->pool, s));
+    if (to->verbose)
+        screen_table(to, table_of_margins(to->pool, s));
+    screen_table(to, table_of_expected(to->pool, s));
+    print_wanted(to, s);
+    screen_table(to, table_of_plans(to->pool, s));
+    print_places(to, s);
+    screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable,
+                                         "Detection limits of the first plan: smallest size that shows 9 times in 10 at 3 % of "
+                                         "false alarms"));
+}
