@@ -196,8 +196,8 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
     if (fabs(drop - fitted) > 1 || fitted > 30)
         return;
     double columns = parent->evidence.log_exact + gain_of(states, scan, index, &best), more = columns - e->evidence.log_exact;
-    if (e->evidence.log_stated > e->evidence.log_exact + 1)
-        return; /* it leaves something, which columns do not know */
+    if (e->evidence.log_stated > e->evidence.log_exact + 1 || fabs(e->evidence.log_z - e->evidence.log_exact) > 3)
+        return; /* it leaves something, or the noise is another one: columns know neither */
     e->evidence.log_exact += more;
     e->evidence.log_stated += more;
     e->evidence.log_z += more;
