@@ -690,36 +690,31 @@ typedef struct rotid_cause {
                                       pair; none where it was not fitted, or was named */
 } rotid_cause;
 
-/* How far a parameter of *IDENTIFY lies apart between the causes that cannot be told apart. */
-typedef struct rotid_spread {
-    const char *name;       /* such as core.E */
-    const char *unit;       /* 1 for a pure number */
-    double lowest, highest; /* of its values with one of these causes in the model */
-    double ci95[2];         /* that hold the 95 % intervals of all of them; NaN where one of them has none */
-} rotid_spread;
-
 /* A set of causes, perhaps with something else that is not in the catalogue, and how probable it is (docs/method.md, section 11). */
 typedef struct rotid_explanation {
-    int ncauses; /* 0, and not something_else: nothing is wrong */
-    rotid_cause *causes;
-    int something_else;
-    double probability; /* after the data, among all explanations */
+    int ncauses;
+    rotid_cause *causes; /* none, and not something_else: nothing is wrong */
+    int something_else;  /* beside the causes, or without any, there is something that is not in the catalogue */
+    double probability;  /* after the data, among all explanations */
     int nidentified;
     rotid_cause_value *identified; /* the parameters of *IDENTIFY if this is what is there */
 } rotid_explanation;
 
 /* The probability that a cause is there, alone or with others. */
 typedef struct rotid_marginal {
-    const char *id, *target;
-    const char *state; /* the one state in which it acts; NULL: in all that have its target */
-    double probability;
+    const char *id;     /* of the catalogue */
+    const char *target; /* as that of a cause */
+    const char *state;  /* the one state in which it acts; NULL: in all that have its target */
+    double probability; /* of all explanations that have it */
 } rotid_marginal;
 
 /* A parameter of *IDENTIFY, averaged over all explanations by their probabilities. */
 typedef struct rotid_averaged_parameter {
-    const char *name, *unit;
-    double value, std; /* mean and standard deviation */
-    double ci95[2];    /* between the quantiles 0.025 and 0.975 */
+    const char *name; /* such as core.E */
+    const char *unit; /* 1 for a pure number */
+    double value;     /* mean */
+    double std;       /* standard deviation */
+    double ci95[2];   /* between the quantiles 0.025 and 0.975 */
 } rotid_averaged_parameter;
 
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
@@ -739,13 +734,12 @@ typedef struct rotid_verdict {
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
     int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
-    int nspread;
-    rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
     int nexplanations;
     rotid_explanation *explanations; /* most probable first, together 0.99 */
     int nmarginals;
     rotid_marginal *marginals;     /* of each cause above 0.001, most probable first */
-    double nothing, nothing_prior; /* probability that nothing is wrong, after the data and before; NaN before a verdict */
+    double nothing;                /* probability that nothing is wrong; NaN before a verdict */
+    double nothing_prior;          /* the same before the data were seen */
     double something_else;         /* probability that something outside of the catalogue is */
 } rotid_verdict;
 

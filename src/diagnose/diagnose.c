@@ -495,7 +495,6 @@ static int settle_states(struct engine *engine)
 static int run_posterior(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
-    struct posterior posterior;
     out->round = POOL_ARRAY(engine->pool, struct diagnosis_round, DIAGNOSE_MOST_CAUSES + 1);
     if (!out->round)
         return ROTID_ERROR_MEMORY;
@@ -507,14 +506,13 @@ static int run_posterior(struct engine *engine, struct round_result *last)
         out->round->candidate[i].result.round = 1;
     status = localise(engine, &last->scan);
     if (!status)
-        status = posterior_run(engine, last, &posterior);
+        status = posterior_run(engine, last, &out->posterior);
     engine_step(engine, "posterior");
     if (status)
         return status;
-    out->posterior = posterior;
     const struct diagnosis_round *first = &out->round[0];
     out->result.verdict.p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
-    return posterior_verdict(engine, &posterior);
+    return posterior_verdict(engine, &out->posterior);
 }
 
 static int run_rounds(struct engine *engine, struct round_result *last)
@@ -635,6 +633,7 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
     if (!status)
         status = run_with_models(&engine, states, &last);
     round_free(&last);
+    posterior_free(&out->posterior);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
     if (out->judged.nstate)

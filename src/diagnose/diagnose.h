@@ -62,7 +62,8 @@ struct candidate {
     const double *residual;         /* of its fit, while that is there; NULL */
     int nresidual;
     struct candidate *with; /* the second cause, NULL where this one is alone; the numbers of the fit are here */
-    int set;                /* of an alternative, from 1: two of one number are the causes of a pair */
+    int set;                /* of an alternative, from 1: those of one number are the causes of one explanation */
+    double probability;     /* of that explanation */
     int nidentified;        /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
     rotid_cause_value *identified;
 };
@@ -73,7 +74,8 @@ struct diagnosis_round {
     struct candidate *candidate; /* best first; only those worth a line: refitted, or a visible share of the misfit */
 };
 
-#define MOST_MEMBERS 3
+#define MOST_MEMBERS  3
+#define SEARCH_PASSES 4
 
 struct evidence {
     double log_z;      /* over the noise's factors too */
@@ -109,6 +111,11 @@ struct posterior {
         struct candidate cause; /* as in the likeliest explanation that has it */
         double probability;
     } *marginal; /* above LEAST_MARGINAL, largest first */
+    int npass; /* of the search, each with its fits */
+    struct {
+        int count;
+        struct refit *refit;
+    } pass[SEARCH_PASSES];
     int naveraged;
     rotid_averaged_parameter *averaged; /* [naveraged] the deck's unknowns over all explanations */
 };
@@ -975,20 +982,6 @@ struct sensor_likelihood { /* one sensor at a time */
     double *vector;
 };
 
-/* ---------------------------------------------------------------------------------------------------------------- spread */
-
-/* What a verdict leaves open of the parameters that are identified. */
-
-/* verdict.spread of *engine->out: of each unknown of the deck the least and the largest value over the causes that cannot be told
- * apart, and what holds all their intervals. Without such causes, or where none of them was fitted, empty. ROTID_OK or
- * ROTID_ERROR_MEMORY. */
-int spread_of_alternatives(struct engine *engine);
-
-/* Sentences, each with a blank before it; "" where there is nothing to say, NULL where memory is out.
- * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
- * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
-const char *spread_sentence(struct engine *engine);
-
 /* --------------------------------------------------------------------------------------------------------------- laplace */
 
 /* The evidence of an explanation (laplace.c). */
@@ -1022,6 +1015,17 @@ int posterior_verdict(struct engine *engine, struct posterior *posterior);
 
 /* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
 int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result);
+/* A model that is possible, and what it is called. */
+struct possible {
+    const struct candidate *cause;
+    const struct states *states;
+    const double *x;
+};
+
+/* What to measure next: the mode in which two models differ most against the noise; count: 2, or fewer where there are none. NULL where
+ * memory is out. */
+const char *advise_between(struct engine *engine, int count, const struct possible *model);
+
 /* The verdict: adequate, named, ambiguous or unexplained, with what it rests on. last: the round that named nothing more. */
 int reach_verdict(struct engine *engine, struct round_result *last);
 

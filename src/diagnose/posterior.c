@@ -17,7 +17,6 @@
 #define DATA_KINDS     8 /* of faults of the measurement */
 #define BEAM           4 /* sets expanded in a pass */
 #define FITTED         8 /* fits of a pass, the first twice as many */
-#define MOST_PASSES    4
 #define WITHIN         7.0  /* of the best, in ln P */
 #define ELSE_WITHIN    60.0 /* likewise: with something else beside them */
 #define ELSE_MOST      5
@@ -145,8 +144,13 @@ static int score(struct engine *engine, struct posterior *p, int something_else,
 }
 
 /* The values of a fit in the members, found by the names of their effects. */
-static void take_values(const struct refit *refit, struct candidate *c)
+static void take_values(const struct engine *engine, const struct refit *refit, struct candidate *c)
 {
+    c->result.refitted = 1;
+    c->result.chi2 = refit->chi2;
+    c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
+    c->other_chi2 = refit->other_chi2;
+    c->other_place = refit->other_place;
     const struct state *home = &refit->states.state[c->home];
     for (int e = 0; e < home->job.rotor.neffect && c->effect.name; e++)
         if (home->job.rotor.effect[e].name && !strcmp(home->job.rotor.effect[e].name, c->effect.name)) {
@@ -211,6 +215,20 @@ static int by_gain(const void *a, const void *b)
     return (first < second) - (first > second);
 }
 
+/* Whether a cause in one state alone is the same in all: no other state in which it could act has modes that are fitted. */
+static int is_common(const struct engine *engine, const struct scan *scan, int index)
+{
+    const struct scan_candidate *c = &scan->candidate[index], *all = NULL;
+    for (int i = 0; i < scan->ncandidate && c->state >= 0 && !all; i++)
+        if (scan->candidate[i].state < 0 && scan->candidate[i].cause == c->cause && !strcmp(scan->candidate[i].target, c->target))
+            all = &scan->candidate[i];
+    int others = 0;
+    for (int s = 0, mode = 0; all && s < engine->states.nstate; mode += engine->states.state[s].job.measurement.nmode, s++)
+        for (int k = 0; k < engine->states.state[s].job.measurement.nmode && s != c->state && all->in[s]; k++)
+            others += !engine->holdout[mode + k];
+    return all && !others;
+}
+
 /* The additions to a set, behind the *count there are. */
 static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most,
                    int *count)
@@ -220,6 +238,8 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
     for (int i = 0; i < scan->ncandidate && *count < most; i++) {
         struct proposal one = {.parent = parent, .candidate = i, .scan = scan, .set = *from};
         int best;
+        if (is_common(engine, scan, i))
+            continue;
         one.set.member[one.set.nmember++] = candidate_listed(scan, i);
         one.set.refit = NULL;
         one.set.expanded = 0;
@@ -285,6 +305,8 @@ static int fit_task(void *context, int index, int worker)
 static int fit_proposals(struct engine *engine, struct posterior *p, struct proposal *proposal, int count)
 {
     struct refit *refit = POOL_ARRAY(engine->pool, struct refit, count);
+    p->pass[p->npass].refit = refit;
+    p->pass[p->npass++].count = refit ? count : 0;
     struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct pool, count)};
     if (!refit || !task.pool)
         return ROTID_ERROR_MEMORY;
@@ -300,7 +322,7 @@ static int fit_proposals(struct engine *engine, struct posterior *p, struct prop
         e.refit = &refit[i];
         e.evidence = (struct evidence){0};
         for (int m = 0; m < e.nmember; m++)
-            take_values(&refit[i], &e.member[m]);
+            take_values(engine, &refit[i], &e.member[m]);
         status = score(engine, p, 0, &e);
         if (!status)
             prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
@@ -308,8 +330,6 @@ static int fit_proposals(struct engine *engine, struct posterior *p, struct prop
         if (!status && !append(p, &e))
             status = ROTID_ERROR_MEMORY;
     }
-    for (int i = 0; i < count && status; i++)
-        rotid_fit_free(refit[i].fit);
     return status;
 }
 
@@ -360,7 +380,7 @@ static int enter_round(struct engine *engine, const struct round_result *result,
     for (int i = 0; i < result->nrefit && !status; i++) {
         const struct scan_set *set = &result->set[i];
         const struct refit *refit = &result->refit[i];
-        if (!refit->fit)
+        if (!refit->fit || is_common(engine, scan, set->candidate[0]) || (set->count > 1 && is_common(engine, scan, set->candidate[1])))
             continue;
         e = (struct explanation){.nmember = set->count, .refit = refit};
         for (int m = 0; m < set->count; m++) {
@@ -368,7 +388,7 @@ static int enter_round(struct engine *engine, const struct round_result *result,
             const struct rotor *rotor = &refit->states.state[e.member[m].home].job.rotor;
             if (!e.member[m].cause->solid)
                 e.member[m].effect.name = rotor->effect[refit_effect(scan, set, m, e.member[m].home, rotor)].name;
-            take_values(refit, &e.member[m]);
+            take_values(engine, refit, &e.member[m]);
         }
         if (is_unweighed_accelerometer(&engine->states.state[e.member[0].home].job, &e.member[0].effect) && set->count == 1)
             continue;
@@ -553,7 +573,7 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     status = evidence_open(engine->pool, &engine->states, engine->number, engine->holdout, &p->data);
     if (!status)
         status = enter_round(engine, result, p);
-    for (int pass = 0; pass < MOST_PASSES && more && !status; pass++) {
+    for (int pass = 0; pass < SEARCH_PASSES && more && !status; pass++) {
         status = engine_stage(engine, "search of explanations, pass", pass + 1);
         if (!status)
             status = expand(engine, result, p, pass, &more);
@@ -575,7 +595,10 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
 
 void posterior_free(struct posterior *p)
 {
-    (void)p;
+    for (int i = 0; i < p->npass; i++)
+        for (int k = 0; k < p->pass[i].count; k++)
+            rotid_fit_free(p->pass[i].refit[k].fit);
+    p->npass = 0;
 }
 
 /* ---- the verdict */
@@ -673,8 +696,22 @@ static void list_alternatives(struct diagnosis *out, const struct posterior *p)
             *listed = p->item[i].member[m];
             listed->with = NULL;
             listed->set = set;
+            listed->probability = p->item[i].probability;
         }
     }
+}
+
+/* What would tell the two likeliest sets apart that were fitted. */
+static const char *advice(struct engine *engine, const struct posterior *p)
+{
+    struct possible model[2] = {{0}};
+    int count = 0;
+    for (int i = 0; i < p->count && count < 2; i++) {
+        const struct explanation *e = &p->item[i];
+        if (e->nmember && e->refit && !e->something_else)
+            model[count++] = (struct possible){&e->member[e->nmember - 1], &e->refit->states, e->refit->fit->x};
+    }
+    return advise_between(engine, count, model);
 }
 
 int posterior_verdict(struct engine *engine, struct posterior *p)
@@ -702,5 +739,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     verdict->adequate_after = verdict->kind == ROTID_ADEQUATE || (verdict->kind == ROTID_NAMED && explains(engine, p, model));
     if (verdict->kind == ROTID_AMBIGUOUS)
         list_alternatives(out, p);
+    if (!verdict->adequate_after && !(verdict->next_measurement = advice(engine, p)))
+        return ROTID_ERROR_MEMORY;
     return verdict->kind == ROTID_NAMED ? accept(engine, model) : ROTID_OK;
 }

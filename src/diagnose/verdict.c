@@ -101,28 +101,19 @@ static void find_difference(const struct job *job, int s, const int *number, con
     }
 }
 
-/* The members of a set whose frequencies can be foreseen in all states, two of them, and where these differ most. -1 where memory
- * is out. */
-static int compare_two(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last,
-                       const struct candidate *member[2], struct difference *most)
+/* Where two models differ most in the frequencies of all states. 0 where one of them cannot be foreseen, -1 where memory is out. */
+static int compare_two(struct engine *engine, const struct possible *model, struct difference *most)
 {
     const struct states *states = &engine->states;
-    int count = 0, set = round->result.set > 1 ? round->result.set : 2;
-    const struct refit *refit[2];
     *most = (struct difference){0};
-    for (int i = 0; last && i < round->ncandidate && i < set && count < 2; i++)
-        if (round->candidate[i].refit >= 0) {
-            refit[count] = &last->refit[round->candidate[i].refit];
-            member[count++] = &round->candidate[i];
-        }
-    for (int s = 0, mode = 0; s < states->nstate && count == 2; mode += states->state[s].job.measurement.nmode, s++) {
+    for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++) {
         struct future future[2];
         int known = 1, top = highest_mode(&states->state[s].job, engine->number + mode) + MORE_MODES, modes = top < 32 ? top : 32;
         for (int m = 0; m < 2 && known; m++) {
             struct pool scratch;
             pool_open(&scratch, engine->pool->allocator);
-            const struct state *state = &refit[m]->states.state[s];
-            double *x = state_values(&scratch, state, refit[m]->fit->x);
+            const struct state *state = &model[m].states->state[s];
+            double *x = state_values(&scratch, state, model[m].x);
             int status = x ? foresee(&scratch, &state->job, x, modes, &future[m]) : ROTID_ERROR_MEMORY;
             pool_close(&scratch);
             known = !status;
@@ -132,22 +123,31 @@ static int compare_two(struct engine *engine, const struct diagnosis_round *roun
         if (known)
             find_difference(&states->state[s].job, s, engine->number + mode, engine->holdout + mode, future, modes, most);
     }
-    return count;
+    return 1;
+}
+
+const char *advise_between(struct engine *engine, int count, const struct possible *model)
+{
+    struct difference most;
+    if (count < 2)
+        return pool_format(engine->pool, "%smore modes and more points along the rotor; %s", shapes_missing(engine->job),
+                           count ? model[0].cause->cause->check
+                                 : "the geometry, masses and materials of the deck are worth checking");
+    return compare_two(engine, model, &most) < 0 ? NULL : sentence(engine, model[0].cause, model[1].cause, &most);
 }
 
 /* The measurement that separates the members of an ambiguous set best; last: the fits of that round, NULL where they are gone.
  * NULL where memory is out. */
 static const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last)
 {
-    const struct candidate *member[2];
-    struct difference most;
-    int count = compare_two(engine, round, last, member, &most);
-    if (count < 0)
-        return NULL;
-    if (count < 2 || !round->result.set)
-        return pool_format(engine->pool, "%smore modes and more points along the rotor; %s", shapes_missing(engine->job),
-                           count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
-    return sentence(engine, member[0], member[1], &most);
+    struct possible model[2] = {{0}};
+    int count = 0, set = round->result.set > 1 ? round->result.set : 2;
+    for (int i = 0; last && i < round->ncandidate && i < set && count < 2; i++)
+        if (round->candidate[i].refit >= 0) {
+            const struct refit *refit = &last->refit[round->candidate[i].refit];
+            model[count++] = (struct possible){&round->candidate[i], &refit->states, refit->fit->x};
+        }
+    return advise_between(engine, round->result.set ? count : count > 1 ? 1 : count, model);
 }
 
 #define MANY          3 /* causes that together still leave something imitate what none of them is */

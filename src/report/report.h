@@ -390,6 +390,8 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d);
 /* all: every cause of a set that cannot be told apart, and every candidate; else the first ones, and how many there are more */
 struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *d, int all);
+/* The explanations with their shares of probability, together 99 %; all: or the first ones. */
+struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d, int all);
 /* round: from 0; a note of each candidate says its size and place and what became of it */
 struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, int round, int all);
 struct table *table_of_detectable(struct pool *pool, int count, const rotid_detectable *list, const char *caption);
