@@ -82,8 +82,8 @@ enum {
 ROTID_API const char *rotid_status_text(int status);
 /* Its name, such as "ROTID_OK". */
 ROTID_API const char *rotid_status_name(int status);
-/* 1 where the status of an iteration (of rotid_lm, of rotid_fit_result) tells a minimum: ROTID_STOP_GRADIENT, _STEP and _OBJECTIVE;
- * 0 for every other one: ROTID_STOP_STALLED is no minimum, ROTID_OK no end of an iteration. */
+/* 1 where the status of an iteration (of rotid_lm, of rotid_fit_result) tells a minimum: ROTID_STOP_GRADIENT, _STEP and
+ * _OBJECTIVE; 0 for every other one: ROTID_STOP_STALLED is no minimum, ROTID_OK no end of an iteration. */
 ROTID_API int rotid_status_converged(int status);
 
 /* ------------------------------------------------------------------------------------------------ environment */
@@ -156,8 +156,8 @@ struct rotid_deck {
     const char **heading;        /* [nheading] lines of *HEADING without the references */
     rotid_reference *references; /* [nreferences] */
     void *memory;                /* internal */
-    /* Several *STATE. Of these rotid_identify alone takes the whole deck; the others work on the deck of one state. Above stand the
-     * parameters of all, and the rest of the first one. 0 and NULL of a deck that is one state. */
+    /* Several *STATE. Of these rotid_identify alone takes the whole deck; the others work on the deck of one state. Above stand
+     * the parameters of all, and the rest of the first one. 0 and NULL of a deck that is one state. */
     int nstate;
     const char *const *state_name; /* [nstate] */
     rotid_deck *const *state;      /* [nstate] the deck of each, freed with this one */
@@ -294,10 +294,10 @@ typedef struct rotid_cause_parameter {
 /* A CAUSE card that is part of the model, or the accelerometer that a diagnosis weighed. Its factors are not in the values of the
  * other members of the geometry. */
 typedef struct rotid_model_cause {
-    const char *name;   /* of the card, or NULL */
-    const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
-    int sensor;         /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
+    const char *name;    /* of the card, or NULL */
+    const char *id;      /* of the catalogue, such as joint */
+    const char *target;  /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
+    int sensor;          /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_parameter *parameters; /* places are metres from the left end */
@@ -441,7 +441,8 @@ typedef struct rotid_identified_state {
     double chi2;          /* sum of its squared residuals over the squared stated noise [1]; NaN but with LIKELIHOOD */
     int nmodes;
     rotid_compared_mode *modes;      /* as those of the identification */
-    double *reduction_error_percent; /* per entry of modes: condensed over full frequency, less one [%]; NaN as in the identification */
+    double *reduction_error_percent; /* per entry of modes: condensed over full frequency, less one [%]; NaN as in the
+                                        identification */
     double *mesh_error_percent;      /* per entry of modes, as mesh_error_percent of rotid_mode [%] */
     double mass_kg;                  /* of the fitted model [kg] */
     double center_of_mass_m;         /* of the fitted model, from the left end [m] */
@@ -465,7 +466,7 @@ typedef struct rotid_hidden {
     const char *id;        /* of the catalogue */
     const char *target;    /* as in candidates */
     const char *component; /* the parameter of the cause that is its size; presence of a cause that is there or not */
-    double size;           /* deviation from neutral, with its sign; of a cause with two signs the other one turns that of shift */
+    double size; /* deviation from neutral, with its sign; of a cause with two signs the other one turns that of shift */
     const char *size_unit; /* of size */
     double z_m;            /* where on the axis it moves the parameter most [m]; NaN where the cause has no place */
     double width_m;        /* its width there [m]; NaN where the cause has none */
@@ -602,10 +603,10 @@ typedef struct rotid_beam_beside_solid {
     int nmodes;
     rotid_beside_mode *modes; /* of the solid by rising frequency */
     int nmoduli;
-    rotid_beside_modulus *moduli; /* those of *IDENTIFY; without any, E and G of the longest group of sheets, else of the first one
-                                     whose G is its own. Empty where there is none, and where the fit did not end well */
+    rotid_beside_modulus *moduli; /* those of *IDENTIFY; without any, E and G of the longest group of sheets, else of the first
+                                     one whose G is its own. Empty where there is none, and where the fit did not end well */
     int nfitted_modes;
-    int *fitted_modes;         /* numbers of the modes of the solid to which they were fitted: the measured ones, else the first six */
+    int *fitted_modes; /* numbers of the modes of the solid to which they were fitted: the measured ones, else the first six */
     double fitted_rms_percent; /* what the fitted beam leaves of these frequencies, rms [%]; NaN without moduli */
     const char *sentence;      /* the same for a person; NULL without moduli */
 } rotid_beam_beside_solid;
@@ -619,8 +620,8 @@ typedef struct rotid_spectrum {
     double *sensor_z_m; /* positions of the components of every shape, from the left end [m]: the sensors, without sensors all
                            nodes of the axis */
     int nmodes;
-    rotid_model_mode *modes;  /* bending modes by rising frequency; fewer than asked for where the model has fewer */
-    rotid_geometry *geometry; /* the model at the values of its parameters; NULL in old results */
+    rotid_model_mode *modes;         /* bending modes by rising frequency; fewer than asked for where the model has fewer */
+    rotid_geometry *geometry;        /* the model at the values of its parameters; NULL in old results */
     rotid_meridian *meridian;        /* of a solid, else NULL */
     rotid_beam_beside_solid *beside; /* of rotid_spectrum_beside, else NULL */
     double *master_mass; /* [nsensor_z_m * nsensor_z_m] condensed by Guyan onto the components of the shapes, for rotid_nco; NULL
@@ -632,11 +633,11 @@ typedef struct rotid_spectrum {
 
 /* How fine a solid of revolution is discretised. */
 typedef struct rotid_solid_mesh {
-    int unknowns;           /* degrees of freedom */
-    int half_band;          /* of the matrices: most that two coupled degrees of freedom are apart */
-    int slices;             /* of the mesh, across the axis */
-    double corner_m;        /* longest side of an element at a re-entrant corner [m]; NaN where the outline has none */
-    double largest_m;       /* longest side of any element [m] */
+    int unknowns;     /* degrees of freedom */
+    int half_band;    /* of the matrices: most that two coupled degrees of freedom are apart */
+    int slices;       /* of the mesh, across the axis */
+    double corner_m;  /* longest side of an element at a re-entrant corner [m]; NaN where the outline has none */
+    double largest_m; /* longest side of any element [m] */
 } rotid_solid_mesh;
 
 /* The model of a deck as the deck states it. */
@@ -678,9 +679,9 @@ typedef struct rotid_cause_value {
 
 /* A physical cause at one target, by the ids of docs/diagnosis.md. */
 typedef struct rotid_cause {
-    const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
-    const char *name;   /* of the CAUSE card that it would get, or NULL */
+    const char *id;      /* of the catalogue, such as joint */
+    const char *target;  /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
+    const char *name;    /* of the CAUSE card that it would get, or NULL */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
@@ -690,7 +691,16 @@ typedef struct rotid_cause {
                                       pair; none where it was not fitted, or was named */
 } rotid_cause;
 
-/* A set of causes, perhaps with something else that is not in the catalogue, and how probable it is (docs/method.md, section 11). */
+/* How far a parameter of *IDENTIFY lies apart between the causes that cannot be told apart. */
+typedef struct rotid_spread {
+    const char *name;       /* such as core.E */
+    const char *unit;       /* 1 for a pure number */
+    double lowest, highest; /* of its values with one of these causes in the model */
+    double ci95[2];         /* that hold the 95 % intervals of all of them; NaN where one of them has none */
+} rotid_spread;
+
+/* A set of causes, perhaps with something else that is not in the catalogue, and how probable it is (docs/method.md, section 11).
+ */
 typedef struct rotid_explanation {
     int ncauses;
     rotid_cause *causes; /* none, and not something_else: nothing is wrong */
@@ -729,18 +739,20 @@ typedef struct rotid_verdict {
     int nalternative_causes;
     rotid_cause *alternative_causes; /* the same with targets and values */
     int nalternative_sets;
-    int *alternative_sets; /* a number from 1 for each of them: two causes of one number are meant together */
-    const char *next_measurement;    /* what would settle it; NULL where nothing is open */
-    const char *sentence;            /* the verdict for a person; NULL where there is none */
-    int undetermined_parameters;     /* parameters of the base model that the data leave open */
-    int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
+    int *alternative_sets;        /* a number from 1 for each of them: two causes of one number are meant together */
+    const char *next_measurement; /* what would settle it; NULL where nothing is open */
+    const char *sentence;         /* the verdict for a person; NULL where there is none */
+    int undetermined_parameters;  /* parameters of the base model that the data leave open */
+    int confident;                /* modes, stated noise and reach of the sensors suffice for naming a cause */
+    int nspread;
+    rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
     int nexplanations;
-    rotid_explanation *explanations; /* most probable first, together 0.99 */
+    rotid_explanation *explanations; /* most probable first, together 0.99; none where margins decided */
     int nmarginals;
-    rotid_marginal *marginals;     /* of each cause above 0.001, most probable first */
-    double nothing;                /* probability that nothing is wrong; NaN before a verdict */
-    double nothing_prior;          /* the same before the data were seen */
-    double something_else;         /* probability that something outside of the catalogue is */
+    rotid_marginal *marginals; /* of each cause above 0.001, most probable first */
+    double nothing;            /* probability that nothing is wrong; NaN without explanations */
+    double nothing_prior;      /* the same before the data were seen */
+    double something_else;     /* probability that something outside of the catalogue is */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */
@@ -758,7 +770,8 @@ typedef struct rotid_data_finding {
     const char *text;  /* what was found and done */
     const char *state; /* name of the state whose data these are; NULL in a deck without *STATE */
     int nparameters;
-    rotid_cause_value *parameters; /* of sensor_line: shift, scale and flip (1: counted from the other end); none for the others */
+    rotid_cause_value
+        *parameters; /* of sensor_line: shift, scale and flip (1: counted from the other end); none for the others */
 } rotid_data_finding;
 
 /* An error of the model's own numbers, removed. */
@@ -844,9 +857,9 @@ typedef struct rotid_gain {
 
 /* What the base model leaves at a sensor. */
 typedef struct rotid_sensor_residual {
-    int id;     /* as in the deck or the universal file */
-    double z_m; /* position [m] */
-    double rms; /* of its shape residuals over their noise [1]; NaN where nothing was measured */
+    int id;            /* as in the deck or the universal file */
+    double z_m;        /* position [m] */
+    double rms;        /* of its shape residuals over their noise [1]; NaN where nothing was measured */
     const char *state; /* name of the state that it is a sensor of; NULL in a deck without *STATE */
 } rotid_sensor_residual;
 
@@ -905,10 +918,9 @@ typedef struct rotid_diagnosis {
     rotid_step *steps; /* where the time went */
     int nmessage;
     const rotid_message *message;
-    const char
-        *extended_deck; /* the deck with the named causes and the fitted values in it, as text, which names files by absolute
-                           paths; NULL where no deck reads as that model: a warning says why */
-    void *memory;       /* internal */
+    const char *extended_deck;  /* the deck with the named causes and the fitted values in it, as text, which names files by
+                                   absolute  paths; NULL where no deck reads as that model: a warning says why */
+    void *memory;               /* internal */
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
     int nhidden;
     rotid_hidden *hidden; /* for each parameter of *IDENTIFY those that move it most, the largest first, three at most */
@@ -1047,12 +1059,12 @@ ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int
                                     char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
-/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With nothing to identify the model is
- * compared as it stands. baseline: nonzero, checks as well: NLopt on the same objective, and what may hide in
- * the parameters (`hidden`). The environment's allocator must exist until
- * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
- * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.
- * Cancelled while NLopt runs, or without NLopt (make WITH_NLOPT=0): the fit is complete and fit->nbaseline is 0. */
+/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With
+ * nothing to identify the model is compared as it stands. baseline: nonzero, checks as well: NLopt on the same objective, and
+ * what may hide in the parameters (`hidden`). The environment's allocator must exist until the result is freed. Statuses: every
+ * ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured. Cancelled: ROTID_OK with fit->status ==
+ * ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL. Cancelled while NLopt runs, or without NLopt (make
+ * WITH_NLOPT=0): the fit is complete and fit->nbaseline is 0. */
 ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
                              rotid_identification **result);
 ROTID_API void rotid_identification_free(rotid_identification *result);
@@ -1062,15 +1074,16 @@ ROTID_API void rotid_identification_free(rotid_identification *result);
 /* Zero takes the default in brackets. */
 typedef struct rotid_diagnose_options {
     size_t size;
-    int threads;    /* [1] of this call; its BLAS should have one then */
-    int replicates; /* [1000] of the bootstrap, at most 1e6 */
-    long seed;      /* [1] >= 0, of the random numbers */
+    int threads;                /* [1] of this call; its BLAS should have one then */
+    int replicates;             /* [1000] of the bootstrap, at most 1e6 */
+    long seed;                  /* [1] >= 0, of the random numbers */
     const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
+    int posterior;              /* [0] decided by the probabilities of explanations, which are listed, and not by margins */
 } rotid_diagnose_options;
 
-/* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
- * and *result as for rotid_identify. The allocator and the callbacks of the environment are called from several threads where
- * options ask for more than one. */
+/* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers
+ * whatever the number of threads. options may be NULL. Allocator, statuses, failure and *result as for rotid_identify. The
+ * allocator and the callbacks of the environment are called from several threads where options ask for more than one. */
 ROTID_API int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,
                              char *failure, rotid_diagnosis **result);
 ROTID_API void rotid_diagnosis_free(rotid_diagnosis *result);
@@ -1128,9 +1141,9 @@ typedef struct rotid_model {
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
     int nmodes;          /* vectors in modes, 0 for none */
-    const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the full
-                            model begins where they are as many as it needs: of a model nearby, say. The result is the same but for
-                            rounding. NULL: none */
+    const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the
+                            full model begins where they are as many as it needs: of a model nearby, say. The result is the same
+                            but for rounding. NULL: none */
 } rotid_model;
 
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1
@@ -1163,12 +1176,12 @@ enum { ROTID_NELSON, ROTID_MODAL };                      /* eigenvector derivati
 typedef struct rotid_fit_options {
     size_t size;
     int functional, reduction, derivative; /* [ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON] */
-    int baseline;              /* nonzero: minimise the same objective with NLopt as well, where the library has it */
-    int max_iterations;        /* [100] */
-    double gradient_tolerance; /* [1e-10] of the cosine between the residual and each column of the Jacobian */
-    double step_tolerance;     /* [1e-12] relative step */
-    double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
-                                  their start */
+    int baseline;                          /* nonzero: minimise the same objective with NLopt as well, where the library has it */
+    int max_iterations;                    /* [100] */
+    double gradient_tolerance;             /* [1e-10] of the cosine between the residual and each column of the Jacobian */
+    double step_tolerance;                 /* [1e-12] relative step */
+    double bijection_chi; /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
+                             their start */
     double decrease_tolerance, objective_tolerance; /* [0], [1e-16] as in rotid_lm_options */
 } rotid_fit_options;
 

@@ -1,5 +1,5 @@
-/* The evidence of explanations (src/diagnose/laplace.c) beside integrals over a grid of the same likelihood and priors, which share nothing with
- * it but the residual: each within 0.3 in ln Z. The bar on foam, real data. */
+/* The evidence of explanations (src/diagnose/laplace.c) beside integrals over a grid of the same likelihood and priors, which
+ * share nothing with it but the residual: each within 0.3 in ln Z. The bar on foam, real data. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "diagnose/diagnose.h"
 #include "support.h"
 
-#define CLOSE 0.3
+#define CLOSE  0.3
 #define STATED 0.15 /* deviation of ln of a noise that is stated */
 
 static struct job job;
@@ -99,7 +99,8 @@ static double over_noise(double lines, int nline, double shapes, int nshape)
     for (int part = 0; part < 2; part++)
         for (int i = -400; i <= 400; i++) {
             double a = i * step;
-            sum[part] = sum_logs(sum[part], -square[part] * exp(-2 * a) / 2 - count[part] * a - a * a / (2 * STATED * STATED) + log(step / STATED) - log(2 * acos(-1)) / 2);
+            sum[part] = sum_logs(sum[part], -square[part] * exp(-2 * a) / 2 - count[part] * a - a * a / (2 * STATED * STATED) +
+                                                log(step / STATED) - log(2 * acos(-1)) / 2);
         }
     return sum[0] + sum[1];
 }
@@ -128,7 +129,8 @@ static double over_grid(struct likelihood *l, int n, const struct axis *axis)
     for (int i = 0; i < total; i++) {
         double weight = 0;
         for (int p = 0, rest = i; p < n; rest /= axis[p].points, p++) {
-            double share = (rest % axis[p].points + 0.5) / axis[p].points, a = axis[p].log ? log(axis[p].from) : axis[p].from, b = axis[p].log ? log(axis[p].to) : axis[p].to, t = a + share * (b - a);
+            double share = (rest % axis[p].points + 0.5) / axis[p].points, a = axis[p].log ? log(axis[p].from) : axis[p].from,
+                   b = axis[p].log ? log(axis[p].to) : axis[p].to, t = a + share * (b - a);
             x[p] = axis[p].log ? exp(t) : t;
             weight += log((b - a) / axis[p].points) + axis[p].density(x[p]);
         }
@@ -188,7 +190,7 @@ static void nothing_but_a_modulus(void **state)
     for (int noise = 0; noise < 3; noise++) {
         open_bar(noise == 0 ? 1 : noise == 1 ? 1.5 : 0.7);
         double z = evidence(NULL, NULL, NULL, x);
-        const struct axis axis[1] = {modulus_axis(x[0], 0.03, 400)};
+        const struct axis axis[1] = {modulus_axis(x[0], 0.03, 200)};
         open_likelihood(&job, &l);
         check("a modulus", z, over_grid(&l, 1, axis));
     }
@@ -206,7 +208,7 @@ static void a_size_with_a_sign(void **state)
     open_bar(1);
     double z = evidence("stiffness_gradient", start, NULL, x);
     fit_with("stiffness_gradient", start, &states, &one, &fit);
-    const struct axis axis[2] = {modulus_axis(x[0], 0.04, 160), {300, 0, -0.9, 0.9, of_gradient}};
+    const struct axis axis[2] = {modulus_axis(x[0], 0.03, 60), {90, 0, -0.4, 0.4, of_gradient}};
     open_likelihood(&states.state->job, &l);
     check("a gradient", z, over_grid(&l, 2, axis));
     rotid_fit_free(fit);
@@ -227,7 +229,8 @@ static void a_size_at_its_bound(void **state)
     fit_with("added_mass", start, &states, &one, &fit);
     heaviest = states.bounds[1].upper;
     bar_length = states.bounds[2].upper;
-    const struct axis axis[3] = {modulus_axis(x[0], 0.02, 16), {40, 0, 0, 0.1 * heaviest, of_mass}, {60, 0, 0, bar_length, of_place}};
+    const struct axis axis[3] = {
+        modulus_axis(x[0], 0.015, 12), {30, 0, 0, 0.08 * heaviest, of_mass}, {48, 0, 0, bar_length, of_place}};
     open_likelihood(&states.state->job, &l);
     check("a mass, fitted", z, over_grid(&l, 3, axis));
     rotid_fit_free(fit);

@@ -615,7 +615,7 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .notes = notes,
                             .before = options->before,
                             .after = options->after,
-                            .posterior = !options->rules,
+                            .posterior = options->posterior,
                             .out = out,
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,

@@ -39,7 +39,7 @@ struct diagnose_options {
     unsigned long seed;
     int replicates;             /* of the bootstrap; 0: 1000 */
     const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
-    int rules; /* decide by the rules that were */
+    int posterior;              /* decide by the probabilities of explanations */
 };
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
@@ -78,11 +78,11 @@ struct diagnosis_round {
 #define SEARCH_PASSES 4
 
 struct evidence {
-    double log_z;      /* over the noise's factors too */
-    double log_stated; /* at the noise as stated */
-    double log_exact;  /* likewise, of an approximation that leaves nothing */
-    double log_else;   /* with something else beside the causes; -INFINITY where nobody asked */
-    double noise[2];   /* factors of frequencies and shapes at their mode */
+    double log_z;       /* over the noise's factors too */
+    double log_stated;  /* at the noise as stated */
+    double log_exact;   /* likewise, of an approximation that leaves nothing */
+    double log_else;    /* with something else beside the causes; -INFINITY where nobody asked */
+    double noise[2];    /* factors of frequencies and shapes at their mode */
     double *mean, *std; /* [nown] of the deck's unknowns */
 };
 
@@ -110,8 +110,8 @@ struct posterior {
     struct marginal {
         struct candidate cause; /* as in the likeliest explanation that has it */
         double probability;
-    } *marginal; /* above LEAST_MARGINAL, largest first */
-    int npass; /* of the search, each with its fits */
+    } * marginal; /* above LEAST_MARGINAL, largest first */
+    int npass;    /* of the search, each with its fits */
     struct {
         int count;
         struct refit *refit;
@@ -982,6 +982,20 @@ struct sensor_likelihood { /* one sensor at a time */
     double *vector;
 };
 
+/* ---------------------------------------------------------------------------------------------------------------- spread */
+
+/* What a verdict leaves open of the parameters that are identified. */
+
+/* verdict.spread of *engine->out: of each unknown of the deck the least and the largest value over the causes that cannot be told
+ * apart, and what holds all their intervals. Without such causes, or where none of them was fitted, empty. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int spread_of_alternatives(struct engine *engine);
+
+/* Sentences, each with a blank before it; "" where there is nothing to say, NULL where memory is out.
+ * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
+ * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
+const char *spread_sentence(struct engine *engine);
+
 /* --------------------------------------------------------------------------------------------------------------- laplace */
 
 /* The evidence of an explanation (laplace.c). */
@@ -993,8 +1007,8 @@ double log_sum(double a, double b); /* ln(e^a + e^b) */
 /* Of the data in the states with this pairing. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_LIBRARY. */
 int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                   struct evidence_data **data);
-/* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise. out->mean
- * and out->std [nown] are filled. ROTID_OK, ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where the fit is of other data. */
+/* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise.
+ * out->mean and out->std [nown] are filled. ROTID_OK, ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where the fit is of other data. */
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
                     int nmember, const struct candidate *member, int something_else, struct evidence *out);
 /* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
@@ -1002,8 +1016,8 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
 
 /* ------------------------------------------------------------------------------------------------------------- posterior */
 
-/* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits and lists
- * hang on the engine's pool; the fits that the search made are in posterior_free. */
+/* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits
+ * and lists hang on the engine's pool; the fits that the search made are in posterior_free. */
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
 void posterior_free(struct posterior *posterior);
 /* The verdict of it into the engine: what is named becomes part of the model. */
@@ -1022,8 +1036,8 @@ struct possible {
     const double *x;
 };
 
-/* What to measure next: the mode in which two models differ most against the noise; count: 2, or fewer where there are none. NULL where
- * memory is out. */
+/* What to measure next: the mode in which two models differ most against the noise; count: 2, or fewer where there are none. NULL
+ * where memory is out. */
 const char *advise_between(struct engine *engine, int count, const struct possible *model);
 
 /* The verdict: adequate, named, ambiguous or unexplained, with what it rests on. last: the round that named nothing more. */

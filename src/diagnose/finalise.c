@@ -158,6 +158,57 @@ static int cause_intervals(const struct engine *engine)
     return status;
 }
 
+static void add_value(const rotid_cause_value *value, rotid_spread *spread)
+{
+    int first = !spread->name;
+    if (first)
+        *spread = (rotid_spread){value->name, value->unit, value->value, value->value, {value->ci95[0], value->ci95[1]}};
+    spread->lowest = fmin(spread->lowest, value->value);
+    spread->highest = fmax(spread->highest, value->value);
+    /* fmin and fmax prefer the number: one interval that is missing leaves none */
+    spread->ci95[0] = isfinite(value->ci95[0]) && isfinite(spread->ci95[0]) ? fmin(spread->ci95[0], value->ci95[0]) : (double)NAN;
+    spread->ci95[1] = isfinite(value->ci95[1]) && isfinite(spread->ci95[1]) ? fmax(spread->ci95[1], value->ci95[1]) : (double)NAN;
+}
+
+int spread_of_alternatives(struct engine *engine)
+{
+    const struct diagnosis *out = engine->out;
+    rotid_verdict *verdict = &engine->out->result.verdict;
+    verdict->nspread = 0;
+    verdict->spread = POOL_ARRAY(engine->pool, rotid_spread, engine->nown);
+    if (!verdict->spread)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < out->nalternative; i++)
+        for (int p = 0; p < out->alternative[i].nidentified; p++) {
+            add_value(&out->alternative[i].identified[p], &verdict->spread[p]);
+            verdict->nspread = engine->nown;
+        }
+    return ROTID_OK;
+}
+
+const char *spread_sentence(struct engine *engine)
+{
+    const struct diagnosis *out = engine->out;
+    const rotid_verdict *verdict = &out->result.verdict;
+    const char *text = "";
+    char figure[32];
+    int sets = 0;
+    for (int i = 0, set = 0; i < out->nalternative; i++)
+        if (out->alternative[i].nidentified && out->alternative[i].set != set) {
+            set = out->alternative[i].set;
+            sets++;
+        }
+    if (sets < 2) /* one alone differs from none, as do those that were weighed without a refit of the parameters */
+        return "";
+    for (int p = 0; p < verdict->nspread; p++) {
+        const rotid_spread *s = &verdict->spread[p];
+        double percent = 200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest);
+        if (isfinite(percent) && text)
+            text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", s->name, percent_text(percent, figure));
+    }
+    return !text || !*text ? text : pool_format(engine->pool, " Between these causes differ: %s.", text);
+}
+
 static const char *hidden_sentence(struct engine *engine, const rotid_fit_result *fit)
 {
     const rotid_diagnosis *out = &engine->out->result;
@@ -182,8 +233,8 @@ static const char *hidden_sentence(struct engine *engine, const rotid_fit_result
 }
 
 #define ALL_SHARES 0.99 /* of the explanations that are told */
-#define LISTED   4   /* causes in a sentence: more stand in the table */
-#define SEPARATE 0.7 /* correlation beyond which two parameters are known by a combination only */
+#define LISTED     4    /* causes in a sentence: more stand in the table */
+#define SEPARATE   0.7  /* correlation beyond which two parameters are known by a combination only */
 
 static double *side(rotid_pair *pair, int is_after)
 {
@@ -266,8 +317,11 @@ static const char *shares(struct pool *pool, const struct posterior *p)
             const char *own = describe(pool, &e->member[m]);
             one = own ? pool_format(pool, "%s%s%s", one, m ? " with " : "", own) : NULL;
         }
-        text = one ? pool_format(pool, "%s%s%s%s (%.2g %%)", text, !i ? "" : i + 1 == count ? " and " : ", ", one,
-                                 e->nmember && e->something_else ? " and something else" : "", 100 * e->probability)
+        text = one ? pool_format(pool, "%s%s%s%s (%.2g %%)", text,
+                                 !i               ? ""
+                                 : i + 1 == count ? " and "
+                                                  : ", ",
+                                 one, e->nmember && e->something_else ? " and something else" : "", 100 * e->probability)
                    : NULL;
     }
     return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
@@ -341,7 +395,8 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     case ROTID_AMBIGUOUS:
         if (one)
             return pool_format(pool, "Something changed between %s and %s (%s); %s.%s", from, to, chance, one, end);
-        return pool_format(pool, "The data cannot tell what changed between %s and %s (%s): %s.%s", from, to, chance, others, end);
+        return pool_format(pool, "Something changed between %s and %s (%s); the data cannot tell which of %s it is%s.%s", from,
+                           to, chance, others, verdict->confident ? "" : ", nor with confidence that it is any of them", end);
     default:
         return pool_format(
             pool,
@@ -370,10 +425,12 @@ static const char *verdict_sentence(struct engine *engine)
     const rotid_verdict *verdict = &out->result.verdict;
     struct pool *pool = engine->pool;
     const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
-    const char *causes = list(pool, out->ncause, out->cause), *others = out->posterior.count ? shares(pool, &out->posterior) : list(pool, out->nalternative, out->alternative);
+    const char *causes = list(pool, out->ncause, out->cause),
+               *others = out->posterior.count ? shares(pool, &out->posterior) : list(pool, out->nalternative, out->alternative);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
-               *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit) : "",
+               *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit)
+                                  : spread_sentence(engine),
                *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL,
                *one = others && !out->posterior.count ? only_one(pool, out, others) : NULL;
     for (int c = 0; c < out->ncause; c++)
@@ -414,10 +471,13 @@ static const char *verdict_sentence(struct engine *engine)
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
+        if (out->posterior.count)
+            return pool_format(pool, "The data cannot tell what the model lacks (%s): %s.%s%s", chance, others, faults, open);
         if (one)
             return pool_format(pool, "The model does not explain the data (%s); %s.%s%s", chance, one, faults, open);
         return pool_format(pool,
-                           "The data cannot tell what the model lacks (%s): %s.%s%s", chance, others, faults, open);
+                           "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
+                           chance, others, verdict->confident ? "" : ", nor with confidence that any of them is", faults, open);
     default:
         return pool_format(
             pool,
@@ -558,6 +618,8 @@ int finalise(struct engine *engine, const struct round_result *last)
         status = detectable_sizes(engine, last);
     if (!status && last && last->scan.ncandidate)
         status = hidden_shifts(engine, last);
+    if (!status)
+        status = spread_of_alternatives(engine);
     engine_step(engine, "detection limits");
     if (status)
         return status;

@@ -14,9 +14,9 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
-#define DATA_KINDS     8 /* of faults of the measurement */
-#define BEAM           4 /* sets expanded in a pass */
-#define FITTED         8 /* fits of a pass, the first twice as many */
+#define DATA_KINDS     8    /* of faults of the measurement */
+#define BEAM           4    /* sets expanded in a pass */
+#define FITTED         8    /* fits of a pass, the first twice as many */
 #define WITHIN         7.0  /* of the best, in ln P */
 #define ELSE_WITHIN    60.0 /* likewise: with something else beside them */
 #define ELSE_MOST      5
@@ -380,7 +380,8 @@ static int enter_round(struct engine *engine, const struct round_result *result,
     for (int i = 0; i < result->nrefit && !status; i++) {
         const struct scan_set *set = &result->set[i];
         const struct refit *refit = &result->refit[i];
-        if (!refit->fit || is_common(engine, scan, set->candidate[0]) || (set->count > 1 && is_common(engine, scan, set->candidate[1])))
+        if (!refit->fit || is_common(engine, scan, set->candidate[0]) ||
+            (set->count > 1 && is_common(engine, scan, set->candidate[1])))
             continue;
         e = (struct explanation){.nmember = set->count, .refit = refit};
         for (int m = 0; m < set->count; m++) {

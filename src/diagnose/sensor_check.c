@@ -183,7 +183,8 @@ static void explain_gain(struct sensor_likelihood *suspect, struct fault_likelih
     if (fabs(best_gain) < 1.5 * GAIN_FROM)
         a = -b;
     best = maximum(suspect, of_gain, fmin(a, b), fmax(a, b), &gain, &std);
-    offer(suspect, best, PARAMETER_COST, (struct fault_likelihood){.other = -1, .value = gain, .std = std}, &explanation[FAULT_GAIN]);
+    offer(suspect, best, PARAMETER_COST, (struct fault_likelihood){.other = -1, .value = gain, .std = std},
+          &explanation[FAULT_GAIN]);
 }
 
 static void explain_position(struct sensor_likelihood *suspect, struct fault_likelihood *explanation)
@@ -245,7 +246,8 @@ static void explain_swap(struct sensor_likelihood *suspect, struct fault_likelih
 static void likelihood_explain(struct sensor_likelihood *suspect, int quick, struct fault_likelihood *explanation)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
-        explanation[kind] = (struct fault_likelihood){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};
+        explanation[kind] =
+            (struct fault_likelihood){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};
     explain_swap(suspect, explanation);
     if (quick)
         return;

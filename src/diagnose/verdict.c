@@ -101,7 +101,8 @@ static void find_difference(const struct job *job, int s, const int *number, con
     }
 }
 
-/* Where two models differ most in the frequencies of all states. 0 where one of them cannot be foreseen, -1 where memory is out. */
+/* Where two models differ most in the frequencies of all states. 0 where one of them cannot be foreseen, -1 where memory is out.
+ */
 static int compare_two(struct engine *engine, const struct possible *model, struct difference *most)
 {
     const struct states *states = &engine->states;

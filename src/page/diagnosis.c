@@ -227,6 +227,20 @@ static void tile_pair(struct document *document, const char *name, const rotid_p
         note);
 }
 
+/* A parameter under the causes that cannot be told apart: the leading one's value, and the interval that holds all intervals. */
+static void tile_spread(struct document *document, const rotid_verdict *v, int p)
+{
+    struct pool *pool = document->pool;
+    const rotid_spread *s = &v->spread[p];
+    const rotid_cause *lead = v->nalternative_causes ? v->alternative_causes : NULL;
+    double value = lead && p < lead->nidentified ? lead->identified[p].value : (s->lowest + s->highest) / 2;
+    const rotid_fitted_parameter whole = {
+        .name = s->name, .unit = s->unit, .value = value, .ci95 = {s->ci95[0], s->ci95[1]}, .identifiable = 1};
+    tile_parameter(
+        document, &whole,
+        pool_format(pool, "holds those of all %s causes; the value is that of the first", human_count(pool, verdict_sets(v))));
+}
+
 static void add_tiles(struct document *document, const rotid_diagnosis *d)
 {
     const rotid_identification *fit = d->extended ? d->extended : d->base;
@@ -237,12 +251,9 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
     for (int p = 0; fit && p < d->base->nparameters && p < TILES_MOST - 3; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         double was = d->base->parameters[p].value;
-        if (p < d->nparameters && v->nexplanations > 1 && v->kind != ROTID_NAMED) {
-            const rotid_averaged_parameter *mean = &d->parameters[p];
-            const rotid_fitted_parameter whole = {
-                .name = mean->name, .unit = mean->unit, .value = mean->value, .ci95 = {mean->ci95[0], mean->ci95[1]}, .identifiable = 1};
-            tile_parameter(document, &whole, "averaged over the explanations by their probabilities");
-        } else if (value)
+        if (p < v->nspread && verdict_sets(v) > 1)
+            tile_spread(document, v, p);
+        else if (value)
             tile_parameter(document, value,
                            d->extended ? pool_format(pool, "was %s", human_value(pool, was, value->unit)) : NULL);
     }
@@ -292,6 +303,20 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
 
 /* ---- parameters */
 
+/* What the dispute is worth, in a paragraph. */
+static void say_spread(struct document *document, const rotid_verdict *v)
+{
+    char figure[32];
+    for (int p = 0; p < v->nspread && verdict_sets(v) > 1; p++) {
+        const rotid_spread *s = &v->spread[p];
+        struct human_unit unit = human_unit(s->highest, s->unit);
+        document_paragraph(document, "%s lies between %s and %s%s%s, %s apart, depending on the cause.", s->name,
+                           human_digits(document->pool, s->lowest * unit.factor, 4),
+                           human_digits(document->pool, s->highest * unit.factor, 4), *unit.text ? "\xc2\xa0" : "", unit.text,
+                           percent_text(200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest), figure));
+    }
+}
+
 /* Two digits: more is not known of a size that would have shown. */
 static const char *size_of(struct pool *pool, double size, const char *unit)
 {
@@ -337,6 +362,7 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     if (!d->base || !fit || d->verdict.kind < 0 || !d->base->nparameters)
         return;
     document_section(document, "verdict-parameters", "Parameters of the verdict");
+    say_spread(document, &d->verdict);
     document_figures(document, "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
@@ -351,8 +377,9 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     if (!v->nexplanations)
         return;
     document_section(document, "explanations", "Explanations");
-    document_paragraph(document, "Before the data were seen, nothing was wrong with %s %%; after them with %s %%. Something outside of "
-                                 "the catalogue: %s %%.",
+    document_paragraph(document,
+                       "Before the data were seen, nothing was wrong with %s %%; after them with %s %%. Something outside of the "
+                       "catalogue: %s %%.",
                        human_digits(document->pool, 100 * v->nothing_prior, 2), human_digits(document->pool, 100 * v->nothing, 2),
                        human_digits(document->pool, 100 * v->something_else, 2));
     document_table(document, table_of_explanations(document->pool, d, 1));

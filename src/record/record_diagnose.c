@@ -26,6 +26,12 @@ static const struct record_field cause_fields[] = {
 };
 const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
+static const struct record_field spread_fields[] = {
+    TEXT(rotid_spread, name, 0),      TEXT(rotid_spread, unit, 0),     NUMBER(rotid_spread, lowest, 0),
+    NUMBER(rotid_spread, highest, 0), INTERVAL(rotid_spread, ci95, 0), {0},
+};
+static const struct record spread_record = RECORD(rotid_spread, spread_fields);
+
 static const struct record_field explanation_fields[] = {
     STRUCTS(rotid_explanation, causes, 0, cause_record),
     FLAG(rotid_explanation, something_else, 0),
@@ -45,8 +51,9 @@ static const struct record_field marginal_fields[] = {
 static const struct record marginal_record = RECORD(rotid_marginal, marginal_fields);
 
 static const struct record_field averaged_fields[] = {
-    TEXT(rotid_averaged_parameter, name, 0), TEXT(rotid_averaged_parameter, unit, 0), NUMBER(rotid_averaged_parameter, value, 0),
-    NUMBER(rotid_averaged_parameter, std, FROM_0), INTERVAL(rotid_averaged_parameter, ci95, 0), {0},
+    TEXT(rotid_averaged_parameter, name, 0),     TEXT(rotid_averaged_parameter, unit, 0),
+    NUMBER(rotid_averaged_parameter, value, 0),  NUMBER(rotid_averaged_parameter, std, FROM_0),
+    INTERVAL(rotid_averaged_parameter, ci95, 0), {0},
 };
 static const struct record averaged_record = RECORD(rotid_averaged_parameter, averaged_fields);
 
@@ -62,6 +69,7 @@ static const struct record_field verdict_fields[] = {
     TEXT(rotid_verdict, sentence, MAY_BE_NULL),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
     FLAG(rotid_verdict, confident, SINCE_LATER),
+    STRUCTS(rotid_verdict, spread, SINCE_LATER, spread_record),
     STRUCTS(rotid_verdict, explanations, SINCE_LATER, explanation_record),
     STRUCTS(rotid_verdict, marginals, SINCE_LATER, marginal_record),
     NUMBER(rotid_verdict, nothing, SINCE_LATER | MAY_BE_NULL | PROBABILITY),

@@ -196,6 +196,18 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
     return text;
 }
 
+/* "stiffness_gradient of right with joint of core|right": the set of alternative cause i. */
+static const char *set_of(struct pool *pool, const rotid_verdict *v, int i)
+{
+    const char *text = "";
+    for (int k = i; k < v->nalternative_causes && (k == i || verdict_is_pair(v, k)) && text; k++) {
+        const rotid_cause *cause = &v->alternative_causes[k];
+        text = pool_format(pool, "%s%s%s", text, k > i ? " with " : "",
+                           label_of(pool, cause, cause->name && cause->variant ? cause->name : cause->id));
+    }
+    return text;
+}
+
 /* "joint of core|right with added_mass, and something else"; "nothing is wrong" */
 static const char *explanation_of(struct pool *pool, const rotid_explanation *e)
 {
@@ -238,19 +250,20 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
         table_open(pool, d->extended ? "Parameters of the extended model" : "Parameters of the model of the deck");
     for (int p = 0; p < d->base->nparameters; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
-        int shown = 0, left = 0;
-        if (p < d->nparameters && v->nexplanations > 1) {
+        int shown = 0, left = 0, averaged = p < d->nparameters;
+        if (averaged) {
             const rotid_averaged_parameter *mean = &d->parameters[p];
             value_row(table, mean->name, "averaged over the explanations",
                       &(rotid_fitted_parameter){
                           .value = mean->value, .unit = mean->unit, .ci95 = {mean->ci95[0], mean->ci95[1]}, .identifiable = 1});
         }
         if (value) {
-            value_row(table, value->name, d->extended ? "the extended model" : "the model of the deck", value);
+            value_row(table, value->name, averaged ? d->extended ? "the extended model" : "the model of the deck" : "", value);
             row_note(table, unseen ? hidden_of(pool, d, value) : "");
         }
-        for (int i = 0; i < v->nexplanations && v->kind == ROTID_AMBIGUOUS; i++) {
-            const rotid_cause_value *by = p < v->explanations[i].nidentified ? &v->explanations[i].identified[p] : NULL;
+        for (int i = 0; i < v->nalternative_causes; i++) {
+            const rotid_cause *cause = &v->alternative_causes[i];
+            const rotid_cause_value *by = p < cause->nidentified && !verdict_is_pair(v, i) ? &cause->identified[p] : NULL;
             if (!by)
                 continue;
             if (shown == LISTED && !all) {
@@ -258,7 +271,7 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
                 continue;
             }
             shown++;
-            value_row(table, by->name, explanation_of(pool, &v->explanations[i]),
+            value_row(table, by->name, set_of(pool, v, i),
                       &(rotid_fitted_parameter){.value = by->value,
                                                 .unit = by->unit,
                                                 .ci95 = {by->ci95[0], by->ci95[1]},
@@ -540,6 +553,7 @@ static void table_shares(const struct screen *to, const rotid_diagnosis *d)
 static void table_parameters(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
+    char figure[32];
     if (!v->sentence || !d->base || !d->base->nparameters)
         return;
     (void)fprintf(to->out, "\nPARAMETERS  %s, 95 %% intervals%s\n", d->extended ? "extended model" : "model of the deck",
@@ -550,6 +564,15 @@ static void table_parameters(const struct screen *to, const rotid_diagnosis *d)
     if (table)
         table->caption = "";
     table_write_text(to->out, table, to->width);
+    for (int p = 0; p < v->nspread && verdict_sets(v) > 1; p++) {
+        const rotid_spread *s = &v->spread[p];
+        struct human_unit unit = human_unit(s->highest, s->unit);
+        double f = unit.factor;
+        (void)fprintf(to->out, "  these causes leave %s %s to %s%s%s, %s apart; their intervals %s to %s\n", s->name,
+                      IN_DIGITS(4, f * s->lowest), IN_DIGITS(4, f * s->highest), *unit.text ? " " : "", unit.text,
+                      percent_text(200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest), figure),
+                      IN_DIGITS(4, f * s->ci95[0]), IN_DIGITS(4, f * s->ci95[1]));
+    }
 }
 
 static void print_heading(const struct screen *to, const struct result_head *head)

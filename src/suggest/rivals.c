@@ -108,7 +108,7 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     }
     if (status)
         return status;
-    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause, .share = cause->probability};
+    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause};
     rivals->n++;
     status = take_fit(pool, from, &refit, rival);
     for (int i = 0; i < count; i++)
@@ -139,17 +139,51 @@ static int by_score(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* By their probabilities; among: what they have together, the model as it is and something else being the rest. */
 static void share(struct rivals *rivals)
 {
-    double sum = 0;
+    double least = INFINITY, sum = 0;
     if (rivals->n > 1)
         qsort(rivals->rival, (size_t)rivals->n - 1, sizeof *rivals->rival, by_score);
     for (int i = 0; i + 1 < rivals->n; i++)
-        sum += rivals->rival[i].share;
+        least = fmin(least, rivals->rival[i].score);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i + 1 < rivals->n; i++) {
+            double weight = exp(-(rivals->rival[i].score - least) / 2);
+            if (pass)
+                rivals->rival[i].share = weight / sum;
+            else
+                sum += weight;
+        }
+}
+
+static int is_rival(const struct rivals *rivals, const struct candidate *c)
+{
+    for (int i = 0; i + 1 < rivals->n; i++) {
+        const struct candidate *r = rivals->rival[i].cause;
+        int pair = rivals->rival[i].ncause > 1;
+        if (r->cause == c->cause && r->effect.target == c->effect.target && r->state == c->state && pair == (c->with != NULL) &&
+            (!pair ||
+             (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
+            return 1;
+    }
+    return 0;
+}
+
+/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED)
+ * with the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
+static double share_among(const struct rivals *rivals, const struct diagnosis_round *round)
+{
+    const struct rival *best = rivals->rival;
+    double inside = 0, all = exp(-(rivals->rival[rivals->n - 1].score - best->score) / 2),
+           p = best->fit->dof > 0 ? chi_square_tail(best->fit->chi2, best->fit->dof) : 1;
     for (int i = 0; i + 1 < rivals->n; i++)
-        rivals->rival[i].share /= sum > 0 ? sum : 1;
-    rivals->among = sum;
+        inside += exp(-(rivals->rival[i].score - best->score) / 2);
+    for (int i = 0; i < round->ncandidate; i++) {
+        const struct candidate *c = &round->candidate[i];
+        if (c->result.refitted && !c->refused && isfinite(c->result.chi2) && !is_rival(rivals, c))
+            all += exp(-fmax(0, candidate_score(c) - best->score) / 2);
+    }
+    return inside / (inside + all) * p / (p + JUDGED);
 }
 
 int rivals_home(const struct states *states)
@@ -196,9 +230,8 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
     rivals->base_margin = fmax(rivals->margin, CLEAR * last->result.threshold);
     for (int i = 0, count; i < d->nalternative && !status; i += count) {
         const struct candidate *c = &d->alternative[i];
-        for (count = 1; i + count < d->nalternative && c[count].set == c->set;)
-            count++;
-        if (count > 2 || !is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
+        count = 1 + (i + 1 < d->nalternative && c[1].set == c->set); /* a pair has one number */
+        if (!is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
             rivals->left_out++;
             continue;
         }
@@ -214,6 +247,8 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
         rivals_free(rivals);
     else
         share(rivals);
+    if (rivals->n)
+        rivals->among = share_among(rivals, last);
     return status;
 }
 

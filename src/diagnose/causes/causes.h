@@ -43,11 +43,12 @@ enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
 
 /* What is expected of a parameter before the data are seen. */
 enum prior_kind {
-    PRIOR_FLAT,      /* uniform between its bounds */
-    PRIOR_GAUSSIAN,  /* normal about neutral; half of it where it is one-sided */
-    PRIOR_SHARE,     /* the same with a deviation of `scale` times the distance of the farther bound from neutral (negative: of the lower one) */
+    PRIOR_FLAT,     /* uniform between its bounds */
+    PRIOR_GAUSSIAN, /* normal about neutral; half of it where it is one-sided */
+    PRIOR_SHARE,    /* the same with a deviation of `scale` times the distance of the farther bound from neutral (negative: of the
+                       lower one) */
     PRIOR_LOG_NORMAL, /* ln(x/neutral) normal */
-    PRIOR_LOG_FLAT   /* uniform in ln x over `scale` decades below the upper bound */
+    PRIOR_LOG_FLAT    /* uniform in ln x over `scale` decades below the upper bound */
 };
 
 struct cause_parameter {
