@@ -177,17 +177,20 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
-/* Of the groups, tie rods and bars, in this order. */
+/* Of the groups, tie rods, bars and sensors, in this order, and of what was measured. */
 static int keep_places(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place};
-    const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars};
-    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2]);
+    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place, reader->sensor_place};
+    const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars, rotor->nsensor};
+    const struct card *measured = reader->modes_card ? reader->modes_card : reader->measured_card;
+    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2] + count[3]);
     reader->job->part = to;
-    for (int kind = 0; kind < 3 && to; kind++)
+    for (int kind = 0; kind < 4 && to; kind++)
         for (int i = 0; i < count[kind]; i++)
             *to++ = (struct job_place){from[kind][i].file, from[kind][i].line, from[kind][i].column};
+    if (measured)
+        reader->job->measured = (struct job_place){measured->place.file, measured->place.line, measured->place.column};
     return reader->job->part ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
