@@ -183,6 +183,7 @@ static void a_cause_over_again_with_more_parameters_is_no_rival(void **state)
     add("stiffness_local", "", 3, 61)->residual = zone;
     add("joint", "core|right", 1, 60)->residual = joint;
     candidates[0].nresidual = candidates[1].nresidual = 400;
+    candidates[0].effect.value[candidates[0].cause->place] = 0.41;
     conclude_as(ROTID_AMBIGUOUS, 2);
 }
 
