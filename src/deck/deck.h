@@ -176,6 +176,7 @@ struct deck_reader {
     struct job *job;
     int nmaterial;
     size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
+    int seen[DECK_MOST_KINDS];         /* of cards that may stand once */
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
     long taken;               /* rows of tables, by all cards */
@@ -189,7 +190,7 @@ struct deck_reader {
     const char *layout;             /* what a data line of the card at hand holds */
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
-    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
+    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
     const char *tie;           /* FIT, TIE=E:G */
     int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
     const char *state;         /* that the cards are of, NULL in a deck without *STATE */
@@ -269,6 +270,11 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
+/* Index of the first `count` groups that is called so [length], -1 where there is none. */
+int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length);
+/* The group that an option names, -1 after an error. */
+int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option);
+
 /* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
 int deck_add_group(struct deck_reader *reader, const struct card *card);
 
@@ -277,28 +283,13 @@ int deck_add_group(struct deck_reader *reader, const struct card *card);
 #define DECK_MOST_STATES   100                 /* each is read with all common cards */
 #define DECK_MOST_LINES    10000               /* of a card, and sensors of the rotor: they are compared with each other */
 
-/* The readers of the cards, by file. */
-void deck_units(struct deck_reader *reader, const struct card *card);
-void deck_material(struct deck_reader *reader, const struct card *card);
-void deck_elastic(struct deck_reader *reader, const struct card *card);
-void deck_density(struct deck_reader *reader, const struct card *card);
-void deck_shaft(struct deck_reader *reader, const struct card *card);
-void deck_beam(struct deck_reader *reader, const struct card *card);
-void deck_layer(struct deck_reader *reader, const struct card *card);
-void deck_perforation(struct deck_reader *reader, const struct card *card);
-void deck_tierod(struct deck_reader *reader, const struct card *card);
-void deck_bars(struct deck_reader *reader, const struct card *card);
-void deck_preload(struct deck_reader *reader, const struct card *card);
-void deck_sling(struct deck_reader *reader, const struct card *card);
+/* The readers of the cards (card_table.c). */
+typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
+deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
+    deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
+    deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set;
 /* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
-void deck_heading(struct deck_reader *reader, const struct card *card);
-void deck_sensors(struct deck_reader *reader, const struct card *card);
-void deck_modes(struct deck_reader *reader, const struct card *card);
-void deck_shape(struct deck_reader *reader, const struct card *card);
-void deck_frequencies(struct deck_reader *reader, const struct card *card);
-void deck_noise(struct deck_reader *reader, const struct card *card);
-void deck_cause(struct deck_reader *reader, const struct card *card);
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
@@ -320,12 +311,6 @@ const char *deck_whole_state(struct deck_reader *reader, const char **rest);
 /* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
  * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
 int deck_read_tables(struct deck_reader *reader, int *nread);
-
-void deck_identify(struct deck_reader *reader, const struct card *card);
-void deck_fit(struct deck_reader *reader, const struct card *card);
-/* The universal file of MEASURED: sensors, modes and shapes. */
-void deck_measured(struct deck_reader *reader, const struct card *card);
-void deck_frf(struct deck_reader *reader, const struct card *card);
 
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);
@@ -364,6 +349,9 @@ int cause_read_target(struct cause_card *c);
 /* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
 #define POINT_FREQUENCY_RANGE 0.05
 
+/* Values that are not known, NaN; NULL where memory is out. */
+double *deck_new_values(struct deck_reader *reader, size_t count);
+
 /* Room for them in the job, once its sensors and modes are known. 0, or 1 where memory is out. */
 int deck_new_points(struct deck_reader *reader);
 
@@ -384,9 +372,6 @@ void deck_settle_noise(struct deck_reader *reader);
  * otherwise new. Errors go to the list, of the common cards once; no section: as in the reader. */
 void deck_read_all_states(struct deck_reader *reader, int nread, struct states *states);
 
-/* Cards: *STATE itself, with the modes of that state; *SET. */
-void deck_state(struct deck_reader *reader, const struct card *card);
-void deck_set(struct deck_reader *reader, const struct card *card);
 /* What *SET says of lengths, before anything refers to positions. */
 void deck_set_lengths(struct deck_reader *reader);
 

@@ -50,12 +50,10 @@ int deck_cause_list_item(const struct card *card, const struct card_option *opti
 
 static int find_group(const struct cause_card *c, const char *name, struct place place, int *group)
 {
-    const struct rotor *rotor = &c->reader->job->rotor;
-    for (*group = 0; *group < rotor->ngroup; (*group)++)
-        if (same_text(rotor->group[*group].name, name))
-            return 0;
-    deck_error(c->reader, place, "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
-    return 1;
+    *group = deck_find_group(c->reader, c->reader->job->rotor.ngroup, name, strlen(name));
+    if (*group < 0)
+        deck_error(c->reader, place, "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
+    return *group < 0;
 }
 
 /* Groups by name; --set gives both of them as one text. */
@@ -209,10 +207,8 @@ int cause_read_target(struct cause_card *c)
     if (is_moving(c))
         return refuse_sensor(c);
     switch (c->kind->target) {
-    case TARGET_GROUP: {
-        const char *name = deck_option(c->reader, c->card, "GROUP", target_of[TARGET_GROUP].expected);
-        return !name || find_group(c, name, card_option(c->card, "GROUP")->value_place, &c->effect.target);
-    }
+    case TARGET_GROUP:
+        return (c->effect.target = deck_option_group(c->reader, c->card, "GROUP")) < 0;
     case TARGET_INTERFACE:
         return read_interface(c);
     case TARGET_SPRING:

@@ -14,8 +14,6 @@ void deck_material(struct deck_reader *reader, const struct card *card)
     const char *name = deck_option(reader, card, "NAME", "name");
     if (name && deck_find_material(reader, name) >= 0)
         deck_error(reader, card_option(card, "NAME")->value_place, "material %s is defined twice, expected a new name", name);
-    for (int i = 0; i < card->nline; i++)
-        deck_error(reader, card->line[i].place, "*MATERIAL has no data lines, expected *ELASTIC and *DENSITY behind it");
     struct material *material = DECK_APPEND(reader, reader->material, reader->nmaterial, reader->material_room);
     int *complete = DECK_APPEND(reader, reader->material_complete, reader->nmaterial, reader->material_complete_room);
     struct place *place = DECK_APPEND(reader, reader->material_place, reader->nmaterial, reader->material_place_room);

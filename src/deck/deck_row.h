@@ -77,14 +77,16 @@ enum card_states {
 
 struct deck_card {
     const char *name;
-    enum card_section section; /* of docs/deck.md */
-    int phase;                 /* cards are read by phases: what a later one refers to comes first, wherever it stands */
-    void (*read)(struct deck_reader *reader, const struct card *card); /* NULL: into a list of structs of the rotor */
+    enum card_section section;  /* of docs/deck.md */
+    int phase;                  /* cards are read by phases: what a later one refers to comes first, wherever it stands */
+    deck_card_reader *read;     /* NULL: into a list of structs of the rotor */
     const char *lines;          /* what a data line holds, in messages too; NULL: there is none */
     const struct deck_row *row; /* ended by one without option and what */
     enum card_states states;
     size_t size, list, count; /* of a list: a struct, and where in struct rotor pointer and number stand */
     int (*check)(struct deck_reader *reader, const struct data_line *line, const void *one); /* of a list: what no row says */
+    int once;                                                                                /* it may stand once */
+    const char *instead; /* of a card without data lines, what is expected in their place */
 };
 
 /* Rows of cards that have code of their own. */

@@ -7,8 +7,6 @@
 
 void deck_state(struct deck_reader *reader, const struct card *card)
 {
-    for (int i = 0; i < card->nline; i++)
-        deck_error(reader, card->line[i].place, "*STATE has no data lines, expected the cards of the state behind it");
     deck_choose_modes(reader, card);
 }
 
