@@ -546,6 +546,12 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
                                                "0.9\n*NOISE, FREQUENCY=0.001\n");
     assert_int_equal(deck_add_state(&test_pool, &origin, "bare", cards, &text), 0);
     assert_string_equal(text + sizeof old - 1, cards);
+    /* the machine in operation stays behind all states */
+    const char *machine = "*RUNNING\n** bearings\n*BEARING\n0, 1e8\n";
+    const struct deck_file whole = {"old", pool_format(&test_pool, "%s%s", old, machine)};
+    const struct deck_origin running = {.path = "old", .memory = 1, .nfile = 1, .file = &whole};
+    assert_int_equal(deck_add_state(&test_pool, &running, "bare", cards, &text), 0);
+    assert_string_equal(text, pool_format(&test_pool, "%s%s%s", old, cards, machine));
 }
 
 static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "rotid.h"
 #include "run/run.h"
 

@@ -5,16 +5,16 @@
  *
  * Comes in: a deck as file or text, --set overrides. Goes out: struct states, one struct job a state, in SI; all errors with
  * file, line, column. Entrances: deck_read_states, deck_read (deck.c). Steps of reading:
- *   deck_text.c          cards, options, data lines with their places, *INCLUDE; deck_override.c: --set
+ *   deck_text.c          cards, options, data lines with their places, *INCLUDE; --set
  *   deck_table.c         tables of FILE= (table_text.c) become data lines
  *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
  *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
  *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, read and written by deck_row.c
  *   deck_fields.c        one number, option or position with range and unit; deck_units.c: factors to SI
- *   deck_model.c, deck_layer.c, deck_members.c  materials, sections; rings; tie rods, bars, holes, *PRELOAD (group.preload)
- *   deck_measured.c, deck_frequencies.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
- *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
- *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
+ *   deck_model.c, deck_members.c  materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
+ *   deck_measured.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
+ *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; deck_state.c: *SET, what a state has of its own
+ *   deck_cause.c         *CAUSE: effects and suspects, faults of the data taken out of them
  *
  * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
  * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
@@ -320,28 +320,6 @@ void deck_apply_corrections(struct deck_reader *reader);
  * data, which this reports, or of a card that was refused, which has been reported. */
 int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place);
 
-/* --------------------------------------------------------------------------------------------- deck cause, deck extended */
-
-/* The reader of CAUSE cards, by file: the card and its values, its target, what corrections do to the data. */
-
-struct cause_card {
-    struct deck_reader *reader;
-    const struct card *card;
-    const char *name;
-    const struct cause_kind *kind;
-    int suspect;
-    struct effect effect;
-    struct correction correction;
-};
-
-/* What a target is called by on the card: its option, NULL where it has none, and what that expects. */
-const char *cause_target_option(enum cause_target target);
-const char *cause_target_expected(enum cause_target target);
-
-/* Reads the target into effect.target or the sensors and the block of the correction; the variant is known. 0, or 1 after an
- * error. */
-int cause_read_target(struct cause_card *c);
-
 /* ------------------------------------------------------------------------------------------------------ deck frequencies */
 
 /* Frequencies at single sensors, from a card or a universal file. */
@@ -446,20 +424,23 @@ struct deck_origin {
     const struct override *override;
 };
 
+/* Of *RUNNING and what stands behind it: the machine in operation ends a deck. */
+#define DECK_BEHIND_STATES DECK_MOST_CARDS
+
 /* A card with all lines up to the next one, comments among them. */
 struct deck_part {
     const char *text, *file; /* file: that it stands in */
     size_t length;
     const struct deck_card *card; /* NULL: not known, and what stands before the first card */
     int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
-    int state;                    /* which *STATE it stands behind, from 0; -1: none */
+    int state;                    /* which *STATE it stands behind, from 0; -1: none; DECK_BEHIND_STATES */
     int changed;
 };
 
 struct deck_edit {
     struct pool *pool;
     const struct deck_origin *origin;
-    int npart, nstate, status;
+    int npart, nstate, running, status; /* running: of the part at hand, *RUNNING has been met */
     size_t room;
     struct deck_part *part;
 };

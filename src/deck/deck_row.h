@@ -94,6 +94,10 @@ extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_lamina
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
     deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[];
 
+/* The cards there are, ended by one without a name; that of a name, NULL where there is none. */
+extern const struct deck_card deck_card_table[];
+const struct deck_card *deck_card_find(const char *name);
+
 int deck_row_is_last(const struct deck_row *row);
 
 /* Takes the options of a card, or the values of a data line, that are rows other than ROW_OTHER into the struct `to`. 0, or 1

@@ -6,7 +6,7 @@
  *   2 compose   edits of the parts (deck_edit.c): starts, suspects that were named, and what step 4 asked for; then what is new
  *   3 read      the whole text as any deck is read
  *   4 compare   deck_compare.c: nothing differs: done; else step 2 with more, as long as there is more that can be stated */
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 
 #include <math.h>
 #include <stdlib.h>
