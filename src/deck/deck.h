@@ -275,9 +275,6 @@ int deck_find_group(const struct deck_reader *reader, int count, const char *nam
 /* The group that an option names, -1 after an error. */
 int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option);
 
-/* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
-int deck_add_group(struct deck_reader *reader, const struct card *card);
-
 #define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS ROTOR_MOST_ELEMENTS /* of a segment, of a bundle of rods, of the rotor with its bundles */
 #define DECK_MOST_STATES   100                 /* each is read with all common cards */
@@ -577,40 +574,5 @@ int table_is_number(const char *text);
 
 /* "C7" of row 7 and column 3, as spreadsheets name it. Returns `name`. */
 const char *table_cell_name(int row, int column, char name[TABLE_CELL_LENGTH]);
-
-/* --------------------------------------------------------------------------------------------------------- table columns */
-
-/* Which column of a table holds what: by the names in its first row, or, where that begins with a number, by their order. */
-
-#define TABLE_MOST_VALUES 8
-
-struct csv_column {
-    const char *names; /* in lower case, separated by bars; the first is that of messages */
-    const char *si;    /* unit that its numbers have inside, as for deck_unit_factor; NULL: none */
-    int may_lack;
-};
-
-/* What the columns of a card are called. */
-struct table_kind {
-    const char *card;
-    int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
-    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
-    struct csv_column key[3];                   /* what else a row says; ended by one without names */
-};
-
-/* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
-struct table_numbered {
-    int number;
-    int of_mode, of_sensor, is_std; /* as the name says */
-};
-
-struct table_columns {
-    int header;                   /* the first row names the columns */
-    int value[TABLE_MOST_VALUES]; /* index of a column, -1: there is none */
-    int key[3];
-    double in_si[TABLE_MOST_VALUES]; /* of a unit in the header, 0: none there */
-};
-
-extern const struct table_kind table_kinds[]; /* ended by one without card */
 
 #endif

@@ -98,7 +98,8 @@ void deck_density(struct deck_reader *reader, const struct card *card)
         (void)deck_read_values(reader, &card->line[0], deck_density_rows, layout, material);
 }
 
-int deck_add_group(struct deck_reader *reader, const struct card *card)
+/* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
+static int add_group(struct deck_reader *reader, const struct card *card)
 {
     struct rotor *rotor = &reader->job->rotor;
     const char *name = deck_option(reader, card, "NAME", "name"),
@@ -151,7 +152,7 @@ static void settle_elements(struct deck_reader *reader, struct segment *s)
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
-    int group = deck_add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
@@ -174,7 +175,7 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
-    int group = deck_add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         struct segment *s = add_segment(reader, group);
         if (!s)
@@ -257,7 +258,7 @@ void deck_layer(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
-    int host = host_of(reader, card), group = deck_add_group(reader, card), sections = 0, section = 0;
+    int host = host_of(reader, card), group = add_group(reader, card), sections = 0, section = 0;
     for (int s = 0; s < rotor->nsegment; s++)
         sections += rotor->segment[s].group == host;
     int count = deck_lines(reader, card, 1, host < 0 ? DECK_MOST_LINES : sections, layout);
