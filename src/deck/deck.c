@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "rotid.h"
 #include "run/run.h"
 
@@ -293,6 +293,12 @@ static void read_card(struct deck_reader *reader, const struct card *card, int p
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind || kind->phase != phase)
         return;
+    for (int i = 0; i < card->nline && kind->instead; i++)
+        deck_error(reader, card->line[i].place, "*%s has no data lines, expected %s", card->name, kind->instead);
+    if (kind->once && reader->seen[kind - deck_card_table]++) {
+        deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
+        return;
+    }
     reader->layout = kind->lines;
     if (kind->read)
         kind->read(reader, card);
