@@ -286,7 +286,7 @@ static void read_results(const uint8_t *bytes, size_t count)
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = summary_read(&pool, path, &messages, &header, &summary);
+    int status = summary_read(&pool, path, &messages, &header, NULL, &summary);
     require((status == ROTID_OK) == (messages.errors == 0));
     if (status == ROTID_OK) {
         const struct result result = {
@@ -294,7 +294,7 @@ static void read_results(const uint8_t *bytes, size_t count)
         char *text = result_json(&result);
         FILE *nowhere = fopen("/dev/null", "wb");
         require(text && nowhere);
-        summary_table(nowhere, &summary);
+        screen_study(&(struct screen){nowhere, &pool, 0, SCREEN_WIDTH}, &summary);
         (void)fclose(nowhere);
         json_free(text);
     }

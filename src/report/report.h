@@ -6,16 +6,15 @@
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
  *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
- *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*), and
- *                     what the command shows on the screen (screen_*); chart.c: bars, strips along the axis
- *   screen.c          heading, notes, name of a state, a table on the screen
- *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
- *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
- *   layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped
- *   csv.c, csv_uff.c  --csv: the files of a command, all or none; quoting, formulas made harmless; universal files
- *   frf_file.c        frf_write_file: synthesised functions as sets 58
- *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
- *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
+ *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*),
+ * and what the command shows on the screen (screen_*); chart.c: bars, strips along the axis screen.c          heading, notes,
+ * name of a state, a table on the screen result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that
+ * have no struct in rotid.h human.c           numbers for people: human_value: prefix of the unit, four significant digits;
+ * human_interval: 95 % layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped csv.c, csv_uff.c
+ * --csv: the files of a command, all or none; quoting, formulas made harmless; universal files frf_file.c        frf_write_file:
+ * synthesised functions as sets 58 output.c          output_open, output_close: a file is written beside its name, then renamed;
+ * several at once, all or none terminal.c        standard output and error: memory until terminal_flush; one filter makes control
+ * characters harmless
  *
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
@@ -65,11 +64,11 @@ void strip_print(const struct strip *strip, FILE *out, int width, const char *la
 
 /* Results as tables for a spreadsheet: commas, a decimal point, names in the first row, which `FILE=` of a deck reads. */
 
-#define CSV_MOST_FILES 2
+#define CSV_MOST_FILES 3
 
 struct table;
 
-/* A file NAME.suffix; `from` is handed to `write`. */
+/* A file NAME.suffix.csv; `from` is handed to `write`. The last ones of a list may have none. */
 struct csv_part {
     const char *suffix;
     int (*write)(FILE *out, struct pool *pool, const void *from); /* a status */

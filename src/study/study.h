@@ -30,6 +30,7 @@
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
+#include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"
 
@@ -504,13 +505,27 @@ enum score score_make(const struct experiment *experiment, const struct diagnosi
 /* What a file of results says as a whole: for each cell how its runs ended, what they found and how far that is from the truth.
  */
 
-/* Reads a file of results, finished or not, with its header. ROTID_OK; ROTID_ERROR_SYNTAX where it is something else,
- * ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header,
+/* Reads a file of results, finished or not, with its header. runs: NULL, or takes a row of every run. ROTID_OK;
+ * ROTID_ERROR_SYNTAX where it is something else, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header, struct table *runs,
                  struct study_result *summary);
 
-/* For a person. */
-void summary_table(FILE *out, const struct study_result *summary);
+/* The summary and the runs as tables; on a page and a screen an axis on which cells do not differ is left away. */
+struct table *table_of_cells(struct pool *pool, const struct study_result *summary);
+struct table *table_of_cell_parameters(struct pool *pool, const struct study_result *summary);
+struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *summary);
+/* A row for each parameter of a run, one for a run that failed. */
+void table_add_run(struct table *table, const struct study_run *run);
+void screen_study(const struct screen *to, const struct study_result *summary);
+
+struct csv_study {
+    const struct study_result *summary;
+    const struct table *runs; /* as summary_read has filled it */
+};
+extern const struct csv_part csv_study_parts[CSV_MOST_FILES];
+
+/* What a parameter is in truth; NaN where that is not known. */
+double study_run_truth(const struct study_run *run, const char *name);
 
 /* Whether two runs are of one cell. */
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
