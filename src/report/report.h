@@ -172,21 +172,12 @@ const char *human_seconds(struct pool *pool, double seconds);
 
 /* Cells of tables and running text of a given width. A text may be UTF-8: columns are counted, not bytes. */
 
-/* A number in the width given, or a dash where there is none; one that is too large for it with an exponent. Width 0:
- * as wide as it is. */
-void number_cell(FILE *out, int width, int decimals, double value);
-void signed_cell(FILE *out, int width, int decimals, double value);
-/* The same with a number of significant digits, and with decimals before a power of ten. */
-void digits_cell(FILE *out, int width, int digits, double value);
-void power_cell(FILE *out, int width, int decimals, double value);
 /* A number within a sentence, or a dash. Returns text. */
 const char *layout_number(char text[64], int digits, double value);
 #define IN_DIGITS(digits, value) layout_number((char[64]){""}, (digits), (value))
 /* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
 const char *layout_unit(const char *unit);
 const char *layout_gap(const char *unit);
-/* A probability: three decimals, "<0.001" below. */
-void chance_cell(FILE *out, int width, double value);
 /* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
 void text_cell(FILE *out, int width, const char *text);
 /* The same of any length, with at least `width` columns. */
