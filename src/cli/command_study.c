@@ -76,7 +76,9 @@ static int report(struct command *command, const char *path, int code)
 int study_prepare(struct command *command, struct study *study)
 {
     struct plan *plan = POOL_NEW(&command->pool, struct plan);
-    int plans = 0;
+    int plans = 0, wrong = command_refuse_csv(command, csv_study_parts);
+    if (wrong)
+        return wrong;
     if (!plan)
         return command_fail(command, ROTID_ERROR_MEMORY);
     for (int i = 0; i < command->nfile; i++) {
@@ -162,7 +164,7 @@ static int merge(struct command *command)
 int command_study(struct command *command)
 {
     struct study study;
-    int refused = command_refuse_csv(command, csv_study_parts);
+    int refused = command->study.merge || command->study.summary ? command_refuse_csv(command, csv_study_parts) : EXIT_DONE;
     if (refused)
         return refused;
     if (command->study.merge)

@@ -450,6 +450,7 @@ int results_next(struct results *results, struct result_line *line);
 void results_close(struct results *results);
 
 struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
+    int descriptor, failed;
     off_t offset;
     size_t length;
 };
@@ -457,6 +458,9 @@ struct result_place { /* of the line that counts for a run, the last one; length
 /* Where the runs of a file stand: *place [header->runs]; *most: the length of the longest line. Statuses of results_next. */
 int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
                   struct result_place **place, size_t *most);
+/* Writes the file `path` whole: the header and the lines at place [header->runs] in order of the runs, none longer than `most`.
+ * ROTID_OK, ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: then nothing is written. */
+int results_write(const char *path, const struct header *header, const struct result_place *place, size_t most);
 
 /* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
@@ -465,7 +469,7 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
 int result_failed(const char *line);
 
 /* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
-int results_fetch(int descriptor, struct result_place place, char *text);
+int results_fetch(struct result_place place, char *text);
 
 /* ------------------------------------------------------------------------------------------------------------------- run */
 

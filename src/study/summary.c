@@ -357,7 +357,7 @@ static int read_all(struct pool *pool, int descriptor, struct message_list *mess
         out->runs += run % header->shards == header->shard - 1;
         if (!place[run].length)
             continue;
-        status = results_fetch(descriptor, place[run], text);
+        status = results_fetch(place[run], text);
         if (status)
             message_add(messages, SEVERITY_ERROR, out->results, 1, 1, "reading failed: %s", strerror(errno));
         pool_open(&own, NULL);
