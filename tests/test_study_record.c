@@ -504,6 +504,11 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
         {"\"run\":1,", "\"run\":1.5,", "run: is 1.5, expected a whole number"},
         {"\"run\":1,", "\"run\":\"1\",", "run: is a text, expected a number"},
         {"\"cell\":" CELL, "\"cell\":null", "cell: is null, expected an object"},
+        {"\"warnings\"",
+         "\"verdict\":{\"kind\":null,\"adequate_after\":false,\"p_value\":null,\"causes\":[],\"alternatives\":[],"
+         "\"alternative_causes\":[],\"next_measurement\":null,\"sentence\":null,\"undetermined_parameters\":0},"
+         "\"data_findings\":[],\"warnings\"",
+         "it has no verdict"},
     };
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++)
         assert_all_refuse(pool_format(&test_pool, "%s%s", first, stamped(changed(line, forged[i][0], forged[i][1]))), 2,

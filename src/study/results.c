@@ -146,6 +146,8 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
         record_read(&place, &study_run_record, run);
     if (!reader.status && run->status != STUDY_FAILED && !run->fit)
         place_wrong(&place, "it has no functional, expected the result of a run that did not fail");
+    if (!reader.status && run->diagnosis && run->diagnosis->verdict.kind < 0)
+        place_wrong(&place, "it has no verdict, expected that of a diagnosis that came to its end");
     cJSON_Delete(json);
     return !reader.status ? NULL : messages.count ? messages.item[0].text : "";
 }
