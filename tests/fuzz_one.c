@@ -312,7 +312,8 @@ static void read_results(const uint8_t *bytes, size_t count)
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = summary_read(&pool, path, &messages, &header, &summary);
+    struct table *runs = table_open(&pool, "");
+    int status = summary_read(&pool, path, &messages, &header, runs, &summary);
     require((status == ROTID_OK) == (messages.errors == 0));
     if (status == ROTID_OK) {
         const struct result result = {
@@ -320,7 +321,8 @@ static void read_results(const uint8_t *bytes, size_t count)
         char *text = result_json(&result);
         FILE *nowhere = fopen("/dev/null", "wb");
         require(text && nowhere);
-        summary_table(nowhere, &summary);
+        screen_study(&(struct screen){nowhere, &pool, 0, SCREEN_WIDTH}, &summary);
+        require(csv_table(nowhere, runs) == ROTID_OK);
         (void)fclose(nowhere);
         json_free(text);
     }
