@@ -17,7 +17,7 @@
 #   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
-#   make fuzz       the readers of decks, tables, universal files, plans and results, and suggest, on random input, FUZZ_SECONDS (600) each
+#   make fuzz       the readers of decks, tables, universal files, measured records, plans and results, and suggest, on random input, FUZZ_SECONDS (600) each
 #   make check-pages   pages in Chromium: figures, buttons, phone, print, hostile texts; make test does so where Chromium is there
 #   make sweep      report, in a browser, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
@@ -352,7 +352,7 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
-FUZZERS := uff deck table suggest plan results
+FUZZERS := uff import deck table suggest plan results
 FUZZ_PROGRAMS := $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 $(FUZZ_PROGRAMS): %: %.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
 	$(call tell,LD,$@)
@@ -362,9 +362,10 @@ fuzz:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) LDFLAGS='-fsanitize=fuzzer,address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' fuzzers
 	@for name in $(FUZZERS); do mkdir -p $(BUILD)/fuzz/corpus/$$name && \
+	    seeds=$$(test $$name = import && echo uff || echo $$name) && \
 	    OPENBLAS_NUM_THREADS=1 $(BUILD)/fuzz/tests/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1024 \
 	    -max_len=65536 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus/$$name \
-	    tests/fuzz/corpus/$$name || exit 1; done
+	    tests/fuzz/corpus/$$seeds || exit 1; done
 
 # Outputs of all commands on all decks beside those of another commit: FROZEN="--only identify ema" for some, --long for all.
 .PHONY: frozen

@@ -25,7 +25,7 @@ _rotid_options=(
     '-h --help:check modes sensitivity identify diagnose suggest frf ema export uff report study::'
     '--json:check modes sensitivity identify diagnose suggest frf export ema uff study:files:json'
     '--set:check modes sensitivity identify diagnose suggest frf export study:value:'
-    '--csv:modes identify uff:value:'
+    '--csv:modes identify uff study:value:'
     '--compare:modes::'
     '--at:sensitivity:value:'
     '--step:sensitivity:value:'

@@ -9,6 +9,7 @@
 
 #include "api/api.h"
 #include "deck/deck.h"
+#include "import/import.h"
 #include "result/result.h"
 #include "study/study.h"
 #include "uff/uff.h"
@@ -115,6 +116,31 @@ void fuzz_one_uff(const uint8_t *bytes, size_t count)
     message_open(&messages, &pool);
     int status = uff_read(&pool, path, &messages, &file);
     require(status == ROTID_OK || status == ROTID_ERROR_SYNTAX);
+    require((status != ROTID_OK) == (messages.errors > 0));
+    pool_close(&pool);
+    (void)close(descriptor);
+}
+
+void fuzz_one_import(const uint8_t *bytes, size_t count)
+{
+    const struct measurement_options options = {.threads = 1};
+    const struct listing_options keep = {.keep_shapes = 1};
+    char path[32];
+    struct pool pool;
+    struct message_list messages;
+    struct listing listing;
+    struct measurement measurement;
+    const char **summary;
+    int lines, descriptor = hold(bytes, count, path);
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = listing_read(&pool, path, &keep, &messages, &listing);
+    require(status == ROTID_OK || (status == ROTID_ERROR_SYNTAX && messages.errors));
+    if (!status)
+        require(listing_summarise(&pool, &listing, &lines, &summary) == ROTID_OK);
+    message_open(&messages, &pool);
+    status = measurement_read(&pool, path, &options, &messages, &measurement);
+    require(status == ROTID_OK || status == ROTID_ERROR_SYNTAX || status == ROTID_ERROR_ARGUMENT);
     require((status != ROTID_OK) == (messages.errors > 0));
     pool_close(&pool);
     (void)close(descriptor);
@@ -286,7 +312,8 @@ static void read_results(const uint8_t *bytes, size_t count)
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = summary_read(&pool, path, &messages, &header, &summary);
+    struct table *runs = table_open(&pool, "");
+    int status = summary_read(&pool, path, &messages, &header, runs, &summary);
     require((status == ROTID_OK) == (messages.errors == 0));
     if (status == ROTID_OK) {
         const struct result result = {
@@ -294,7 +321,8 @@ static void read_results(const uint8_t *bytes, size_t count)
         char *text = result_json(&result);
         FILE *nowhere = fopen("/dev/null", "wb");
         require(text && nowhere);
-        summary_table(nowhere, &summary);
+        screen_study(&(struct screen){nowhere, &pool, 0, SCREEN_WIDTH}, &summary);
+        require(csv_table(nowhere, runs) == ROTID_OK);
         (void)fclose(nowhere);
         json_free(text);
     }

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "page/page.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -431,4 +432,41 @@ int page_times(const char *text, const char *what)
         text++;
     }
     return count;
+}
+
+int page_composed(const char *name, const rotid_allocator *allocator, int *errors)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct result result;
+    struct document document;
+    pool_open(&pool, allocator);
+    message_open(&messages, &pool);
+    int status = page_result_read(&pool, page_path(name), &messages, &result);
+    if (errors)
+        *errors = messages.errors;
+    if (!status) {
+        assert_status(document_open(&document, &pool), ROTID_OK);
+        page_compose(&document, 1, &result);
+        assert_true(allocator || !document.failed);
+        document_close(&document);
+    }
+    cJSON_Delete(result.json);
+    pool_close(&pool);
+    return status;
+}
+
+long page_composed_without_memory(const char *name)
+{
+    long served = 0;
+    assert_status(page_composed(name, NULL, NULL), ROTID_OK);
+    for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
+        struct failing_allocator failing;
+        failing_allocator_open(&failing, n);
+        int status = page_composed(name, &failing.allocator, NULL);
+        assert_true(n > 0 || !status);
+        served = n ? served : failing.served;
+        assert_int_equal(failing.in_use, 0);
+    }
+    return served;
 }

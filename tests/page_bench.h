@@ -5,6 +5,8 @@
 #include <cJSON.h>
 #include <stddef.h>
 
+#include "rotid.h"
+
 /* Setup and teardown of a group: makes and removes the folder. */
 int page_bench_open(void **state);
 int page_bench_close(void **state);
@@ -41,6 +43,13 @@ const char *page_made(const char *name);
 void page_says(const char *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* How often `what` stands in the text. */
 int page_times(const char *text, const char *what);
+
+/* Reads a result in the folder and composes its page without writing it, in this process; everything is freed, with `allocator`
+ * (may be NULL) for the pool. The status of the reader; *errors (may be NULL): how many it found. A page that is composed with
+ * enough memory lacks nothing. */
+int page_composed(const char *name, const rotid_allocator *allocator, int *errors);
+/* The same with memory that ends after 1, 2, ... blocks: never a crash, never a leak. How many blocks there are. */
+long page_composed_without_memory(const char *name);
 
 /* The name of a Chromium that starts here, NULL where there is none. */
 const char *browser_name(void);

@@ -12,6 +12,7 @@
 #include "exact.h"
 #include "folder.h"
 #include "oracle/oracle.h"
+#include "reading.h"
 #include "support.h"
 
 #define POINTS 21
@@ -36,17 +37,6 @@ static void append(const char *format, ...)
     int count = vsnprintf(text + used, sizeof text - used, format, arguments);
     va_end(arguments);
     assert_true(count >= 0 && used + (size_t)count < sizeof text);
-}
-
-static void read_deck(const char *deck, struct job *job)
-{
-    struct message_list messages;
-    const char *path = folder_write("deck.inp", deck);
-    message_open(&messages, &test_pool);
-    int status = deck_read(&test_pool, path, 0, NULL, &messages, job);
-    for (size_t i = 0; i < messages.count; i++)
-        print_message("deck %d:%d: %s\n", messages.item[i].line, messages.item[i].column, messages.item[i].text);
-    assert_status(status, ROTID_OK);
 }
 
 /* What a test with the mass at each point in turn measures, hammered at the left end: frequency, and the residue there over
@@ -135,7 +125,7 @@ static void judge(const struct simulation *s, const char *cards, struct job *job
                   struct diagnosis *out)
 {
     write_deck(s, cards);
-    read_deck(text, job);
+    read_job(text, notes, job);
     diagnose(job, notes, out);
 }
 
@@ -204,7 +194,7 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         assert_non_null(strstr(written, "TYPE=accelerometer_mass, MOUNT=MOVING"));
         assert_non_null(strstr(written, "*FREQUENCIES"));
         if (seed == 1) {
-            read_deck(written, &again);
+            read_job(written, &notes, &again);
             assert_status(identify_run(&test_pool, &again, 0, NULL, &quiet, &back), ROTID_OK);
             assert_close(back.fit->x[0], d.base.fit->x[0], 1e-7, 0);
             assert_close(back.fit->x[1], d.base.fit->x[1], 1e-7, 0);
@@ -301,7 +291,7 @@ static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
         assert_true(strcmp(d.round[0].candidate[i].cause->id, "accelerometer_mass") != 0);
     const struct deck_write_options options = {.x = d.base.fit->x};
     assert_status(deck_write(&test_pool, &d.given, &d.judged, &options, &notes, &written), ROTID_OK);
-    read_deck(written, &again);
+    read_job(written, &notes, &again);
     for (int i = 0; i < POINTS * MODES; i++)
         assert_close(again.measurement.shape_std[i], d.job.measurement.shape_std[i], 1e-12, 0);
     for (int k = 0; k < MODES; k++)

@@ -7,32 +7,13 @@
 
 #include "api_bench.h"
 #include "deck/deck.h"
+#include "folder.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
 #define BAR                                                                                                                      \
     "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.1, 0, 24\n"           \
     "*SENSORS\n1, 0\n2, 0.15\n3, 0.3\n4, 0.45\n5, 0.6\n6, 0.75\n7, 0.9\n8, 1.05\n9, 1.2\n"
-
-static char directory[] = "/tmp/test_api_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[2][256];
-    static int next;
-    next = !next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-static const char *write_text(const char *name, const char *text)
-{
-    const char *path = path_of(name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-    return path;
-}
 
 /* ------------------------------------------------------------------------------------------------ decks */
 
@@ -77,22 +58,22 @@ static void mass_and_centre_are_those_at_the_start_of_the_parameters(void **stat
 {
     (void)state;
     const double area = 3.14159265358979323846 / 4 * 0.1 * 0.1;
-    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR));
+    rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR));
     assert_close(deck->length, 1.2, 1e-15, 0);
     assert_close(deck->mass, 7850 * 1.2 * area, 1e-13, 0);
     assert_close(deck->centre, 0.6, 1e-13, 0);
     assert_null(deck->shape);
     assert_int_equal(deck->nmode, 0);
     rotid_deck_free(deck);
-    deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.rho, 5000, 9000, 6000\n"));
+    deck = bench_deck(folder_write("bar.inp", BAR "*IDENTIFY\ncore.rho, 5000, 9000, 6000\n"));
     assert_close(deck->mass, 6000 * 1.2 * area, 1e-13, 0);
     rotid_deck_free(deck);
     /* density of the left half raised by a cause that is part of the model, its size searched from a start of its own */
-    deck = bench_deck(write_text("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
-                                            "*SHAFT, NAME=a, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
-                                            "*SHAFT, NAME=b, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
-                                            "*CAUSE, NAME=heavy, TYPE=density, GROUP=a\nfactor, 1.2\n"
-                                            "*IDENTIFY\nheavy.factor, 0.8, 1.5, 1.1\n"));
+    deck = bench_deck(folder_write("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
+                                              "*SHAFT, NAME=a, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
+                                              "*SHAFT, NAME=b, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
+                                              "*CAUSE, NAME=heavy, TYPE=density, GROUP=a\nfactor, 1.2\n"
+                                              "*IDENTIFY\nheavy.factor, 0.8, 1.5, 1.1\n"));
     assert_close(deck->mass, 7850 * area * (0.6 * 1.1 + 0.6), 1e-13, 0);
     assert_close(deck->centre, (0.3 * 1.1 + 0.9) / (1.1 + 1), 1e-13, 0);
     rotid_deck_free(deck);
@@ -127,7 +108,7 @@ static void modes_follow_the_parameters(void **state)
     (void)state;
     const double four = 8e11;
     rotid_spectrum *one, *two;
-    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
+    rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
     assert_status(rotid_spectrum_compute(deck, NULL, 4, NULL, NULL, &one), ROTID_OK);
     assert_status(rotid_spectrum_compute(deck, &four, 4, NULL, NULL, &two), ROTID_OK);
     assert_int_equal(one->nrigid_hz, 2);
@@ -180,7 +161,7 @@ static void with_nothing_to_identify_the_model_is_compared(void **state)
     (void)state;
     rotid_spectrum *s;
     rotid_identification *r;
-    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
+    rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
     assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
     assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, NULL, &s), ROTID_OK);
     assert_int_equal(r->fit->iterations, 0);
@@ -249,20 +230,10 @@ static void verdicts_have_names(void **state)
     assert_non_null(rotid_verdict_name(4));
 }
 
-static int open_directory(void **state)
+static int open_folder(void **state)
 {
-    (void)state;
     set_blas_threads(1); /* the numbers of the program too are those of one */
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    static const char *const names[] = {"bar.inp"};
-    (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        (void)unlink(path_of(names[i]));
-    return rmdir(directory);
+    return folder_make(state);
 }
 
 int main(void)
@@ -277,5 +248,5 @@ int main(void)
         cmocka_unit_test(an_identification_says_what_its_fit_found),
         cmocka_unit_test(verdicts_have_names),
     };
-    return cmocka_run_group_tests_name("api", tests, open_directory, remove_directory);
+    return cmocka_run_group_tests_name("api", tests, open_folder, folder_remove);
 }

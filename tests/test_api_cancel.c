@@ -11,11 +11,10 @@
 #include "api_dump.h"
 #include "base/base.h"
 #include "fit/fit.h"
+#include "folder.h"
 #include "paper_fit.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
-
-static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
 
 struct host {
     int stop_at, once; /* the poll that says so; once: the next ones do not */
@@ -161,7 +160,7 @@ static void an_identification_ends_with_the_best_point_so_far(void **state)
 static void a_diagnosis_shows_what_was_finished(void **state)
 {
     (void)state;
-    rotid_deck *deck = bench_deck(deck_path);
+    rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     for (int threads = 1; threads <= 2; threads++) {
         const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100, .threads = threads};
         struct host whole = {.stop_at = INT_MAX};
@@ -214,7 +213,7 @@ static void a_broken_off_model_is_no_result(void **state)
 {
     (void)state;
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
-    rotid_deck *deck = bench_deck(deck_path);
+    rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;
     for (int k = 1; !ended; k += 5) {
@@ -235,22 +234,13 @@ static void a_broken_off_model_is_no_result(void **state)
     rotid_deck_free(deck);
 }
 
-static int open_directory(void **state)
+static int open_folder(void **state)
 {
-    (void)state;
     set_blas_threads(1);
-    if (!mkdtemp(directory))
+    if (folder_make(state))
         return 1;
-    (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);
-    bench_hidden_deck(deck_path, 0.4, 3);
+    bench_hidden_deck(folder_path("deck.inp"), 0.4, 3);
     return 0;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(deck_path);
-    return rmdir(directory);
 }
 
 int main(void)
@@ -261,5 +251,5 @@ int main(void)
         cmocka_unit_test(a_diagnosis_shows_what_was_finished),
         cmocka_unit_test(a_broken_off_model_is_no_result),
     };
-    return cmocka_run_group_tests_name("api cancel", tests, open_directory, remove_directory);
+    return cmocka_run_group_tests_name("api cancel", tests, open_folder, folder_remove);
 }

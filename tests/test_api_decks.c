@@ -8,38 +8,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "support.h"
 
 #define CORPUS ROTID_SOURCE_DIR "/tests/data/decks/wrong"
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define MODEL  "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.1, 0, 24\n"
 
-static char directory[] = "/tmp/test_api_decks_XXXXXX";
 static int kept[2], quiet_file;
-
-static const char *path_of(const char *name)
-{
-    static char path[2][256];
-    static int next;
-    next = !next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-static const char *write_text(const char *name, const char *text)
-{
-    const char *path = path_of(name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-    return path;
-}
 
 /* Standard output and error into a file until told otherwise. */
 static void listen_in(void)
 {
     (void)fflush(NULL);
-    quiet_file = open(path_of("printed"), O_RDWR | O_CREAT | O_TRUNC, 0600);
+    quiet_file = open(folder_path("printed"), O_RDWR | O_CREAT | O_TRUNC, 0600);
     assert_true(quiet_file >= 0);
     for (int i = 0; i < 2; i++) {
         kept[i] = dup(i + 1);
@@ -58,7 +40,7 @@ static off_t stop_listening(void)
     }
     assert_int_equal(fstat(quiet_file, &about), 0);
     (void)close(quiet_file);
-    (void)unlink(path_of("printed"));
+    (void)unlink(folder_path("printed"));
     return about.st_size;
 }
 
@@ -169,16 +151,16 @@ static void a_file_that_is_not_there_is_named(void **state)
     rotid_deck *deck;
     char failure[512];
     rotid_identification *result;
-    assert_status(rotid_deck_read(path_of("none.inp"), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
+    assert_status(rotid_deck_read(folder_path("none.inp"), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
     assert_non_null(deck);
     assert_int_equal(deck->nerror, 1);
-    assert_non_null(strstr(deck->message[0].text, path_of("none.inp")));
+    assert_non_null(strstr(deck->message[0].text, folder_path("none.inp")));
     assert_non_null(strstr(deck->message[0].text, "No such file"));
     assert_true(isnan(deck->mass) && isnan(deck->length) && isnan(deck->centre));
     assert_status(rotid_identify(deck, 0, NULL, failure, &result), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(failure, "No such file"));
     rotid_deck_free(deck);
-    assert_status(rotid_deck_read(directory, 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
+    assert_status(rotid_deck_read(folder, 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
     rotid_deck_free(deck);
 }
 
@@ -190,7 +172,7 @@ static void of_many_errors_the_number_is_kept(void **state)
     for (int i = 0; i < 1000; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "*UNKNOWN\n");
     rotid_deck *deck;
-    assert_status(rotid_deck_read(write_text("many.inp", text), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
+    assert_status(rotid_deck_read(folder_write("many.inp", text), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
     assert_true(deck->nerror >= 1000);
     assert_int_equal(deck->nmessage, 200);
     assert_int_equal(deck->message[199].line, 200);
@@ -277,7 +259,7 @@ static void runs_say_why_they_failed(void **state)
     rotid_deck *deck;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
-    const char *path = write_text("bare.inp", MODEL "*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
+    const char *path = folder_write("bare.inp", MODEL "*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
     assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_identify(deck, 0, NULL, failure, &identification), ROTID_ERROR_ARGUMENT);
     assert_memory_equal(failure, path, strlen(path));
@@ -286,7 +268,7 @@ static void runs_say_why_they_failed(void **state)
     assert_non_null(strstr(failure, ":1:1: the deck has no measured modes"));
     rotid_deck_free(deck);
     /* rad/s, say, or one frequency for one parameter */
-    path = write_text("bare.inp", MODEL "*MODES\n1, 300\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
+    path = folder_write("bare.inp", MODEL "*MODES\n1, 300\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
     assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
     assert_null(diagnosis);
@@ -299,7 +281,7 @@ static void a_long_reason_is_cut_off_between_characters(void **state)
 {
     (void)state;
     char name[3][260], path[1200], text[] = MODEL;
-    size_t used = (size_t)snprintf(path, sizeof path, "%s", directory);
+    size_t used = (size_t)snprintf(path, sizeof path, "%s", folder);
     for (int i = 0; i < 3; i++) { /* three folders of a hundred letters with two bytes each, the last begins with one more byte */
         size_t length = i == 2;
         name[i][0] = 'x';
@@ -338,21 +320,6 @@ static void a_long_reason_is_cut_off_between_characters(void **state)
     }
 }
 
-static int open_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    static const char *const names[] = {"many.inp", "bare.inp"};
-    (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        (void)unlink(path_of(names[i]));
-    return rmdir(directory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -363,5 +330,5 @@ int main(void)
         cmocka_unit_test(runs_say_why_they_failed),
         cmocka_unit_test(a_long_reason_is_cut_off_between_characters),
     };
-    return cmocka_run_group_tests_name("api decks", tests, open_directory, remove_directory);
+    return cmocka_run_group_tests_name("api decks", tests, folder_make, folder_remove);
 }

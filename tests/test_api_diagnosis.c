@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include "api_bench.h"
+#include "folder.h"
 
 #define LAP ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
-
-static char directory[] = "/tmp/test_api_diagnosis_XXXXXX", deck_path[64], extended_path[64];
 
 /* The deck that a diagnosis hands over is the one that the program writes, and it is one. */
 static void the_extended_deck_is_that_of_the_program(void **state)
@@ -20,17 +19,17 @@ static void the_extended_deck_is_that_of_the_program(void **state)
     rotid_deck *deck = bench_deck(LAP);
     char failure[512] = "not touched";
     (void)snprintf(command, sizeof command, "'%s' diagnose '%s' --threads 2 --quiet --extended '%s'", ROTID_PROGRAM, LAP,
-                   extended_path);
+                   folder_path("extended.inp"));
     assert_int_equal(system(command), 0);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
     assert_string_equal(failure, "");
     rotid_deck_free(deck);
-    FILE *stream = fopen(extended_path, "rb");
+    FILE *stream = fopen(folder_path("extended.inp"), "rb");
     assert_non_null(stream);
     assert_true(fread(text, 1, (1 << 20) - 1, stream) > 0);
     (void)fclose(stream);
     assert_string_equal(d->extended_deck, text);
-    deck = bench_deck(extended_path);
+    deck = bench_deck(folder_path("extended.inp"));
     assert_int_equal(deck->nparameter, (d->extended ? d->extended : d->base)->nparameters);
     rotid_deck_free(deck);
     rotid_diagnosis_free(d);
@@ -97,11 +96,11 @@ static void the_extended_deck_keeps_the_words_of_the_user(void **state)
         free(text);
         /* what it gives is what the diagnosis found */
         const rotid_identification *found = d->extended ? d->extended : d->base;
-        FILE *stream = fopen(extended_path, "wb");
+        FILE *stream = fopen(folder_path("extended.inp"), "wb");
         assert_non_null(stream);
         (void)fputs(d->extended_deck, stream);
         (void)fclose(stream);
-        deck = bench_deck(extended_path);
+        deck = bench_deck(folder_path("extended.inp"));
         assert_status(rotid_identify(deck, 0, NULL, failure, &fit), ROTID_OK);
         rotid_deck_free(deck);
         assert_int_equal(fit->nparameters, found->nparameters);
@@ -162,8 +161,8 @@ static void what_was_hidden_is_named(void **state)
     (void)state;
     rotid_diagnosis *d;
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2, .seed = 4};
-    bench_hidden_deck(deck_path, 0.4, 3);
-    rotid_deck *deck = bench_deck(deck_path);
+    bench_hidden_deck(folder_path("deck.inp"), 0.4, 3);
+    rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
     rotid_deck_free(deck);
     assert_int_equal(d->verdict.kind, ROTID_NAMED);
@@ -180,23 +179,10 @@ static void what_was_hidden_is_named(void **state)
     rotid_diagnosis_free(d);
 }
 
-static int open_directory(void **state)
+static int open_folder(void **state)
 {
-    (void)state;
     set_blas_threads(1); /* the numbers of the program too are those of one */
-    if (!mkdtemp(directory))
-        return 1;
-    (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);
-    (void)snprintf(extended_path, sizeof extended_path, "%s/extended.inp", directory);
-    return 0;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(deck_path);
-    (void)unlink(extended_path);
-    return rmdir(directory);
+    return folder_make(state);
 }
 
 int main(void)
@@ -206,5 +192,5 @@ int main(void)
         cmocka_unit_test(the_extended_deck_keeps_the_words_of_the_user),
         cmocka_unit_test(what_was_hidden_is_named),
     };
-    return cmocka_run_group_tests_name("api diagnosis", tests, open_directory, remove_directory);
+    return cmocka_run_group_tests_name("api diagnosis", tests, open_folder, folder_remove);
 }

@@ -7,10 +7,9 @@
 
 #include "api_bench.h"
 #include "api_dump.h"
+#include "folder.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
-
-static char directory[] = "/tmp/test_api_memory_XXXXXX", deck_path[64], bar_path[64];
 
 /* ------------------------------------------------------------------------------------------------ failing allocations */
 
@@ -26,7 +25,7 @@ static int try_read(const rotid_deck *deck, const rotid_environment *environment
     static const char *const override[] = {"FIT.MODES=1-4", "NOISE.FREQUENCY=0.001"};
     rotid_deck *made = (void *)1;
     (void)deck;
-    int status = rotid_deck_read(deck_path, 2, override, environment, NULL, &made);
+    int status = rotid_deck_read(folder_path("deck.inp"), 2, override, environment, NULL, &made);
     *result = made;
     return status;
 }
@@ -136,7 +135,7 @@ static void sweep(const char *name, const rotid_deck *deck, attempt try_it, void
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    rotid_deck *deck = bench_deck(deck_path), *bar = bench_deck(bar_path);
+    rotid_deck *deck = bench_deck(folder_path("deck.inp")), *bar = bench_deck(folder_path("bar.inp"));
     sweep("rotid_deck_read", NULL, try_read, free_deck, 100000, 1);
     sweep("rotid_deck_read of a wrong deck", NULL, try_read_wrong, free_deck, 300, 1.1);
     sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
@@ -174,7 +173,7 @@ static void results_outlive_the_deck_and_live_on_the_allocator(void **state)
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     bench_memory_open(&memory);
     const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
-    assert_status(rotid_deck_read(deck_path, 0, NULL, &environment, NULL, &deck), ROTID_OK);
+    assert_status(rotid_deck_read(folder_path("deck.inp"), 0, NULL, &environment, NULL, &deck), ROTID_OK);
     OWNED(deck);
     OWNED(deck->path);
     OWNED(deck->sensor_z);
@@ -217,7 +216,7 @@ static void results_are_small(void **state)
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     bench_memory_open(&memory);
     const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
-    rotid_deck *deck = bench_deck(deck_path);
+    rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     assert_status(rotid_identify(deck, 0, &environment, NULL, &identification), ROTID_OK);
     print_message("identification: %ld blocks of %ld kept\n", memory.in_use, memory.served);
     assert_true(memory.served > 5 * memory.in_use);
@@ -231,30 +230,17 @@ static void results_are_small(void **state)
     assert_int_equal(memory.in_use, 0);
 }
 
-static int open_directory(void **state)
+static int open_folder(void **state)
 {
-    (void)state;
     set_blas_threads(1);
-    if (!mkdtemp(directory))
+    if (folder_make(state))
         return 1;
-    (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);
-    (void)snprintf(bar_path, sizeof bar_path, "%s/bar.inp", directory);
-    bench_hidden_deck(deck_path, 0.4, 3);
-    FILE *stream = fopen(bar_path, "wb");
-    if (!stream)
-        return 1;
-    (void)fprintf(stream, "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"
-                          "1.2, 0.1, 0, 6\n*MODES\n1, 300\n2, 800\n3, 1500\n*NOISE, FREQUENCY=0.001\n"
-                          "*IDENTIFY\ncore.E, 1e11, 3e11, 1.9e11\ncore.rho, 7000, 9000, 8000\n");
-    return fclose(stream);
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(deck_path);
-    (void)unlink(bar_path);
-    return rmdir(directory);
+    bench_hidden_deck(folder_path("deck.inp"), 0.4, 3);
+    (void)folder_write("bar.inp",
+                       "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"
+                       "1.2, 0.1, 0, 6\n*MODES\n1, 300\n2, 800\n3, 1500\n*NOISE, FREQUENCY=0.001\n"
+                       "*IDENTIFY\ncore.E, 1e11, 3e11, 1.9e11\ncore.rho, 7000, 9000, 8000\n");
+    return 0;
 }
 
 int main(void)
@@ -264,5 +250,5 @@ int main(void)
         cmocka_unit_test(results_outlive_the_deck_and_live_on_the_allocator),
         cmocka_unit_test(results_are_small),
     };
-    return cmocka_run_group_tests_name("api memory", tests, open_directory, remove_directory);
+    return cmocka_run_group_tests_name("api memory", tests, open_folder, folder_remove);
 }

@@ -211,7 +211,7 @@ static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
     assert_true(file.longest <= 80);
     free(file.text);
     (void)folder_write("ids.inp", MODEL "*SENSORS\n40, 0\n100000000, 0.4\n1, 0.7\n");
-    refuses("export ids.inp --format dmig --condensed -o no.bdf", 2, "sensor 100000000 cannot be the id of a GRID");
+    refuses("export ids.inp --format dmig --condensed -o no.bdf", 2, "ids.inp:14:1: sensor 100000000 cannot be the id of a GRID");
     assert_int_equal(run("export ids.inp --format dmig -o full.bdf"), 0);
     assert_false(is_there("no.bdf"));
 }

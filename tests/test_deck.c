@@ -9,6 +9,7 @@
 
 #include "deck/deck.h"
 #include "folder.h"
+#include "reading.h"
 #include "support.h"
 
 #define EVERY_CARD ROTID_SOURCE_DIR "/tests/data/decks/every_card.inp"
@@ -20,38 +21,7 @@
 
 #define assert_number(value, expected) assert_close((value), (expected), 1e-14, 0)
 
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-};
-
-static struct reading every; /* of the deck with every card */
-
-/* The deck is right: no error. */
-static void read_path(struct reading *r, const char *path)
-{
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    int status = deck_read(&r->pool, path, 0, NULL, &r->messages, &r->job);
-    for (size_t i = 0; i < r->messages.count && status; i++)
-        print_error("%d:%d: %s\n", r->messages.item[i].line, r->messages.item[i].column, r->messages.item[i].text);
-    assert_status(status, ROTID_OK);
-    assert_int_equal(r->messages.errors, 0);
-}
-
-static void read_text(struct reading *r, const char *text)
-{
-    read_path(r, folder_write("deck.inp", text));
-}
-
-static int warns(const struct reading *r, const char *part)
-{
-    for (size_t i = 0; i < r->messages.count; i++)
-        if (r->messages.item[i].severity == SEVERITY_WARNING && strstr(r->messages.item[i].text, part))
-            return 1;
-    return 0;
-}
+static struct reading every;
 
 /* ------------------------------------------------------------------------------------------------ every card */
 
@@ -109,11 +79,11 @@ static void rods_with_modes_of_their_own_are_warned_about(void **state)
 {
     (void)state;
     struct reading r;
-    read_text(&r, START "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4\n");
-    assert_true(r.job.rotor.tierod[0].elements == 4 && warns(&r, "rods in 4 elements have modes of their own"));
+    read_text(&r, START "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4\n", NULL);
+    assert_true(r.job.rotor.tierod[0].elements == 4 && warns(&r.messages, "rods in 4 elements have modes of their own"));
     pool_close(&r.pool);
-    read_text(&r, START "*BARS, NAME=cage, MATERIAL=steel, CENTER=0.5, LENGTH=0.8\n6, 0.01, 0.04, 2\n");
-    assert_true(warns(&r, "bars fixed at their centre alone have a mode of their own near 45 Hz"));
+    read_text(&r, START "*BARS, NAME=cage, MATERIAL=steel, CENTER=0.5, LENGTH=0.8\n6, 0.01, 0.04, 2\n", NULL);
+    assert_true(warns(&r.messages, "bars fixed at their centre alone have a mode of their own near 45 Hz"));
     pool_close(&r.pool);
 }
 
@@ -233,7 +203,7 @@ static void without_a_word_of_the_user_the_fit_is_what_can_be_trusted(void **sta
                     {START "*NOISE, FREQUENCY=1e-3\n*FIT, FUNCTIONAL=hybrid_f\n", ROTID_HYBRID_F, 0, 0}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         struct reading r;
-        read_text(&r, expected[i].text);
+        read_text(&r, expected[i].text, NULL);
         assert_int_equal(r.job.options.fit.functional, expected[i].functional);
         assert_int_equal(r.job.options.fit.reduction, expected[i].reduction);
         assert_int_equal(r.job.options.fit.derivative, expected[i].derivative);
@@ -254,7 +224,7 @@ static void lists_of_modes_choose_what_is_fitted_and_what_is_held_out(void **sta
                     {START "*FIT, MODES=1,\n 2, HOLDOUT=2\n", {0, 1, 1, 1}}, {START "*FIT, MODES=5\n", {1, 1, 1, 0}}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         struct reading r;
-        read_text(&r, expected[i].text);
+        read_text(&r, expected[i].text, NULL);
         assert_memory_equal(r.job.measurement.holdout, expected[i].holdout, sizeof expected[i].holdout);
         pool_close(&r.pool);
     }
@@ -268,11 +238,11 @@ static void a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus(void **s
         START "*FIT, TIE=E:G\n*IDENTIFY\ncore.G, 1e9, 2e11, 8e10\ncore.E, 1e10, 4e11, 2e11\ncore.rho, 7000, 8000, 7850\n"};
     for (int i = 0; i < 2; i++) {
         struct reading r;
-        read_text(&r, texts[i]);
+        read_text(&r, texts[i], NULL);
         assert_true(r.job.unknowns.nparameter == 2 && r.job.unknowns.parameter[0].kind == PARAMETER_E &&
                     r.job.unknowns.parameter[1].kind == PARAMETER_RHO);
         assert_true(!strcmp(r.job.unknowns.bounds[0].name, "core.E") && !strcmp(r.job.unknowns.bounds[1].name, "core.rho"));
-        assert_true(r.job.rotor.group[0].material.isotropic && warns(&r, "core.G follows core.E"));
+        assert_true(r.job.rotor.group[0].material.isotropic && warns(&r.messages, "core.G follows core.E"));
         pool_close(&r.pool);
     }
 }
@@ -281,7 +251,7 @@ static void an_identified_shear_modulus_is_no_longer_that_of_an_isotropic_materi
 {
     (void)state;
     struct reading r;
-    read_text(&r, START "*IDENTIFY\ncore.G, 1e9, 2e11, 7e10\n");
+    read_text(&r, START "*IDENTIFY\ncore.G, 1e9, 2e11, 7e10\n", NULL);
     assert_false(r.job.rotor.group[0].material.isotropic);
     assert_number(r.job.rotor.group[0].material.g, 2.1e11 / 2.6);
     pool_close(&r.pool);
@@ -305,7 +275,7 @@ static void form_does_not_change_what_a_deck_says(void **state)
         "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         struct reading r;
-        read_text(&r, texts[i]);
+        read_text(&r, texts[i], NULL);
         const struct segment *s = r.job.rotor.segment;
         const struct material *m = &r.job.rotor.group[0].material;
         assert_true(r.job.rotor.nsegment == 1 && s->length == 1 && s->outer == 0.1 && s->inner == 0 && s->elements == 20);
@@ -325,7 +295,7 @@ static void a_line_may_have_1024_characters(void **state)
     struct reading r;
     memset(text + strlen(text), 'x', 1024);
     (void)strcat(text, "\r\n" START);
-    read_text(&r, text);
+    read_text(&r, text, NULL);
     assert_int_equal(strlen(r.job.heading[0]), 1024);
     pool_close(&r.pool);
 }
@@ -340,7 +310,7 @@ static void an_included_file_is_looked_for_beside_the_one_that_names_it(void **s
                        "*MATERIAL, NAME=steel\n*INCLUDE, FILE=deep/elastic.inc\n*DENSITY\n*include, file=deep/rho.inc");
     (void)folder_write("sub/deep/elastic.inc", "*ELASTIC\n2.1e11, 0.3\n");
     (void)folder_write("sub/deep/rho.inc", "7850\n"); /* goes on with the card of the deck that names it */
-    read_text(&r, "*INCLUDE, FILE=sub/steel.inc\n" SHAFT);
+    read_text(&r, "*INCLUDE, FILE=sub/steel.inc\n" SHAFT, NULL);
     assert_number(r.job.rotor.group[0].material.rho, 7850);
     pool_close(&r.pool);
     static const char *const left[] = {"sub/deep/rho.inc", "sub/deep/elastic.inc", "sub/deep", "sub/steel.inc", "sub"};
@@ -353,8 +323,10 @@ static void positions_are_metres_ends_or_ends_of_groups(void **state)
     (void)state;
     static const double expected[] = {0, 1.5, 1, 1.5, 0, 1, 0.25, 1.5};
     struct reading r;
-    read_text(&r, MATERIAL SHAFT "*SHAFT, NAME=tail.a, MATERIAL=steel\n0.5, 0.08, 0, 10\n*SPRING\nSTART, 1\nend, 1\ncore.end, 1\n"
-                                 "Tail.A.End, 1\n-0.000001, 1\ntail.a.start, 1\n0.25, 1\n1.500001, 1\n");
+    read_text(&r,
+              MATERIAL SHAFT "*SHAFT, NAME=tail.a, MATERIAL=steel\n0.5, 0.08, 0, 10\n*SPRING\nSTART, 1\nend, 1\ncore.end, 1\n"
+                             "Tail.A.End, 1\n-0.000001, 1\ntail.a.start, 1\n0.25, 1\n1.500001, 1\n",
+              NULL);
     assert_int_equal(r.job.rotor.nspring, 8);
     for (int i = 0; i < 8; i++) /* a coordinate with six digits may lie a little outside */
         assert_number(r.job.rotor.spring[i].position, expected[i]);
@@ -363,7 +335,7 @@ static void positions_are_metres_ends_or_ends_of_groups(void **state)
 
 static int open_all(void **state)
 {
-    read_path(&every, EVERY_CARD);
+    read_path(&every, EVERY_CARD, NULL);
     return folder_make(state);
 }
 

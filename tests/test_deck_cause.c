@@ -12,6 +12,7 @@
 #include "folder.h"
 #include "modal/modal.h"
 #include "model/model.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 
@@ -24,40 +25,7 @@
 #define FREQUENCIES "*MODES\n1, 400\n2, 715\n3, 1720\n"
 #define NOISE       "*NOISE, FREQUENCY=0.001, SHAPE=0.01\n"
 
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-};
-
 static struct reading every;
-
-/* The deck is right: no error. `set`: one --set, or NULL. */
-static void read_path(struct reading *r, const char *path, const char *set)
-{
-    struct override override;
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    if (set)
-        assert_int_equal(override_parse(&r->pool, set, &override), 0);
-    int status = deck_read(&r->pool, path, set != NULL, &override, &r->messages, &r->job);
-    for (size_t i = 0; i < r->messages.count && status; i++)
-        print_error("%d:%d: %s\n", r->messages.item[i].line, r->messages.item[i].column, r->messages.item[i].text);
-    assert_status(status, ROTID_OK);
-}
-
-static void read_text(struct reading *r, const char *text, const char *set)
-{
-    read_path(r, folder_write("deck.inp", text), set);
-}
-
-static int warns(const struct reading *r, const char *part)
-{
-    for (size_t i = 0; i < r->messages.count; i++)
-        if (r->messages.item[i].severity == SEVERITY_WARNING && strstr(r->messages.item[i].text, part))
-            return 1;
-    return 0;
-}
 
 /* ------------------------------------------------------------------------------------------------ cards */
 
@@ -204,7 +172,7 @@ static void a_cause_that_changes_nothing_is_warned_about(void **state)
               MODEL "*TIEROD, NAME=ties, MATERIAL=steel, FROM=core.start, TO=core.end\n6, 0.01, 0.04, 1e3\n"
                     "*CAUSE, NAME=c, TYPE=tie_shear, AT=ties\n",
               NULL);
-    assert_true(warns(&r, "cause c of TYPE=tie_shear changes nothing here"));
+    assert_true(warns(&r.messages, "cause c of TYPE=tie_shear changes nothing here"));
     pool_close(&r.pool);
 }
 

@@ -120,7 +120,7 @@ static void one_state_can_be_chosen(void **state)
 static void set_and_identify_hold_for_their_state(void **state)
 {
     (void)state;
-    struct states s = good(BAR UNKNOWN "bar.G, 1e10, 1e12, 1e11\n" FREE "*SET\nbar.length, 0.5\nbar.G, 7e10\n"
+    struct states s = good(BAR UNKNOWN "bar.G, 1e10, 1e12, 1e11\n" FREE "*SET\nbar.length, 0.8\nbar.length, 0.5\nbar.G, 7e10\n"
                                        "*STATE, NAME=after\n*IDENTIFY\nbar.E, 1e10, 1e12, 3e11\n*MODES\n1, 225\n2, 610\n",
                            NULL);
     const struct job *shorter = &s.state[0].job, *after = &s.state[1].job;

@@ -7,6 +7,7 @@
 
 #include "deck/deck.h"
 #include "folder.h"
+#include "reading.h"
 #include "report/report.h"
 #include "support.h"
 #include "uff/uff.h"
@@ -17,29 +18,11 @@
 #define MODES    "*MODES\n1, 500\n2, 1300\n3, 2400\n"
 #define SENSORS  "*SENSORS\n1, 0\n2, 0.25\n7, 1\n"
 
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-    int status;
-};
-
-static void read_path(struct reading *r, const char *path)
-{
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    r->status = deck_read(&r->pool, path, 0, NULL, &r->messages, &r->job);
-}
-
 /* A deck whose cards name table.csv beside it. */
 static void read_with(struct reading *r, const char *table, const char *deck)
 {
     (void)folder_write("table.csv", table);
-    read_path(r, folder_write("deck.inp", deck));
-    for (size_t i = 0; i < r->messages.count && r->status; i++)
-        print_error("%s:%d:%d: %s\n", r->messages.item[i].file, r->messages.item[i].line, r->messages.item[i].column,
-                    r->messages.item[i].text);
-    assert_status(r->status, ROTID_OK);
+    read_text(r, deck, NULL);
 }
 
 static double component(const struct job *job, int id, int mode)
@@ -62,7 +45,7 @@ static void assert_sheets(const char *locale)
                    MATERIAL "*SHAFT, FILE=" TABLES "%s_sections.csv\n*MODES, FILE=" TABLES "%s_modes.csv\n*SENSORS, FILE=" TABLES
                             "%s_shapes.csv\n*SHAPE, FILE=" TABLES "%s_shapes.csv\n",
                    locale, locale, locale, locale);
-    read_path(&r, folder_write("deck.inp", text));
+    try_path(&r, folder_write("deck.inp", text), NULL);
     assert_status(r.status, ROTID_OK);
     assert_int_equal(r.messages.count, 1); /* one note: of the column of remarks */
     assert_non_null(strstr(r.messages.item[0].text, "'remark'"));
@@ -253,7 +236,7 @@ static void a_mistake_names_row_and_column(void **state)
         struct reading r;
         (void)folder_write("table.csv", m->table);
         (void)snprintf(deck, sizeof deck, MATERIAL "%s%s, FILE=table.csv\n", strstr(m->card, "*SHAFT") ? "" : SHAFT, m->card);
-        read_path(&r, folder_write("deck.inp", deck));
+        try_path(&r, folder_write("deck.inp", deck), NULL);
         const rotid_message *first = r.messages.item;
         while (r.messages.count && first->severity != SEVERITY_ERROR)
             first++;
@@ -277,7 +260,7 @@ static void a_card_has_a_table_or_data_lines(void **state)
     (void)folder_write("table.csv", "1,500\n");
     for (size_t i = 0; i < sizeof deck / sizeof *deck; i++) {
         struct reading r;
-        read_path(&r, folder_write("deck.inp", deck[i][0]));
+        try_path(&r, folder_write("deck.inp", deck[i][0]), NULL);
         assert_status(r.status, ROTID_ERROR_SYNTAX);
         assert_non_null(strstr(r.messages.item[0].text, deck[i][1]));
         pool_close(&r.pool);
@@ -301,7 +284,7 @@ static void tables_without_end_are_refused(void **state)
             bytes[b] = unit[i][0][b % strlen(unit[i][0])];
         bytes[size] = 0;
         (void)folder_write("table.csv", bytes);
-        read_path(&r, folder_write("deck.inp", MATERIAL SHAFT "*MODES, FILE=table.csv\n"));
+        try_path(&r, folder_write("deck.inp", MATERIAL SHAFT "*MODES, FILE=table.csv\n"), NULL);
         assert_status(r.status, ROTID_ERROR_SYNTAX);
         assert_int_equal(r.messages.errors, 1);
         if (!strstr(r.messages.item[0].text, unit[i][1]))
@@ -354,12 +337,12 @@ static int assert_same_modes(const char *path)
     (void)snprintf(deck, sizeof deck,
                    MATERIAL "*SHAFT, NAME=core, MATERIAL=steel\n4, 0.1, 0, 400\n*MEASURED, FILE=%s, DIRECTION=%c\n", path,
                    "XYZ"[universal.direction]);
-    read_path(&a, folder_write("measured.inp", deck));
+    try_path(&a, folder_write("measured.inp", deck), NULL);
     (void)snprintf(deck, sizeof deck,
                    MATERIAL "*SHAFT, NAME=core, MATERIAL=steel\n4, 0.1, 0, 400\n*MODES, FILE=%s\n*SENSORS, FILE=%s\n"
                             "*SHAPE, FILE=%s\n",
                    file[0], file[1], file[1]);
-    read_path(&b, folder_write("tables.inp", deck));
+    try_path(&b, folder_write("tables.inp", deck), NULL);
     assert_status(a.status, ROTID_OK);
     assert_status(b.status, ROTID_OK);
     const struct job_measurement *m = &a.job.measurement, *t = &b.job.measurement;

@@ -10,7 +10,7 @@
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "folder.h"
-#include "read_states.h"
+#include "reading.h"
 #include "run/run.h"
 #include "same_job.h"
 #include "support.h"
@@ -37,24 +37,6 @@ static const char *write_with(const struct states *given, const struct states *m
         print_error("%s\n", notes.item[i].text);
     assert_status(status, ROTID_OK);
     return text;
-}
-
-/* The states of a text of deck_write: its paths are absolute. */
-static struct states read_written(const char *text)
-{
-    return read_states(text);
-}
-
-static struct states read_path(const char *path, const struct override *override)
-{
-    struct message_list messages;
-    struct states states;
-    message_open(&messages, &test_pool);
-    int status = deck_read_states(&test_pool, path, NULL, override != NULL, override, &messages, &states);
-    for (size_t i = 0; i < messages.count && status; i++)
-        print_error("%s:%d:%d: %s\n", path, messages.item[i].line, messages.item[i].column, messages.item[i].text);
-    assert_status(status, ROTID_OK);
-    return states;
 }
 
 static void assert_same_states(const struct states *a, const struct states *b)
@@ -88,7 +70,7 @@ static void for_each_deck(void check(const char *))
 
 static void is_its_own_text(const char *path)
 {
-    const struct states given = read_path(path, NULL);
+    const struct states given = read_states_at(path, NULL);
     const char *text = write_with(&given, &given, NULL);
     char *own = file_bytes(path, NULL);
     int named = 0;
@@ -108,7 +90,7 @@ static void is_its_own_text(const char *path)
     }
     free(own);
     assert_true(named < 10);
-    const struct states back = read_written(text);
+    const struct states back = read_states(text);
     assert_same_states(&given, &back);
 }
 
@@ -187,10 +169,10 @@ static int each_mode;
  * with that of the writer. */
 static void says_what_is_meant(const char *path)
 {
-    const struct states given = read_path(path, NULL), meant = changed(&given, each_mode);
+    const struct states given = read_states_at(path, NULL), meant = changed(&given, each_mode);
     if (!given.state->job.unknowns.nparameter || !given.state->job.measurement.nmode || given.state->job.options.solid)
         return;
-    const struct states back = read_written(write_with(&given, &meant, NULL));
+    const struct states back = read_states(write_with(&given, &meant, NULL));
     same_job_rounding = 1e-12;
     assert_same_states(&meant, &back);
     same_job_rounding = 0;
@@ -251,12 +233,26 @@ static void what_is_new_is_added(void **state)
     same_job_rounding = 1e-13;
     for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
         const struct states given = read_states(pair[i].given), meant = read_states(pair[i].meant);
-        const struct states back = read_written(write_with(&given, &meant, NULL));
+        const struct states back = read_states(write_with(&given, &meant, NULL));
         for (int s = 0; s < back.nstate; s++) /* stated or not, it is the same */
             back.state[s].job.options.has_fit = meant.state[s].job.options.has_fit;
         assert_same_states(&meant, &back);
     }
     same_job_rounding = 0;
+}
+
+/* A diagnosis names the unknowns of a cause in one state as if they were of all. */
+static void an_unknown_of_a_cause_in_one_state_is_of_that_state(void **state)
+{
+    (void)state;
+    const struct states given = read_states(BAR UNKNOWN FREE HELD),
+                        meant = read_states(BAR UNKNOWN FREE HELD "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n"
+                                                                  "*IDENTIFY\nm.mass, 0.1, 2, 0.5\n");
+    assert_string_equal(meant.state[1].job.unknowns.bounds[1].name, "held:m.mass");
+    meant.state[1].job.unknowns.bounds[1].name = "m.mass";
+    const struct states back = read_states(write_with(&given, &meant, NULL));
+    meant.state[1].job.unknowns.bounds[1].name = "held:m.mass";
+    assert_same_states(&meant, &back);
 }
 
 /* A group whose name is an option or holds an equals sign cannot stand behind a comma. */
@@ -274,7 +270,7 @@ static void names_may_be_odd(void **state)
                                                         "%s*CAUSE, NAME=j=1, TYPE=joint, AT=0.5\nflexibility, 1e-9\n"
                                                         "*CAUSE, NAME=type, TYPE=density, GROUP=%s\nfactor, 0.9\n",
                                                         given, right[i]));
-        const struct states back = read_written(write_with(&a, &b, NULL));
+        const struct states back = read_states(write_with(&a, &b, NULL));
         assert_same_states(&b, &back);
     }
 }
@@ -330,7 +326,7 @@ static void what_is_new_stands_in_the_units_of_the_deck(void **state)
             print_error("%s\nlacks %s\n", text, expected[i]);
         assert_non_null(strstr(text, expected[i]));
     }
-    const struct states back = read_written(text);
+    const struct states back = read_states(text);
     assert_close(back.bounds[0].start, 2.05e11, 1e-14, 0);
     assert_close(back.bounds[1].start, 2000, 1e-14, 0);
 }
@@ -345,7 +341,7 @@ static void files_stay_where_they_can(void **state)
     (void)folder_write("modes.csv", "mode,frequency [Hz]\n1,225\n2,610\n");
     const char *path = folder_write("deck.inp", "*INCLUDE, FILE=below/shaft.inc\n** measured\n*MODES,\n FILE=modes.csv ** today\n"
                                                 "*IDENTIFY\nbar.E, 1e10, 1e12, 2e11\n");
-    const struct states given = read_path(path, NULL);
+    const struct states given = read_states_at(path, NULL);
     const double x[] = {1.9e11};
     const struct deck_write_options options = {.x = x};
     const char *text = write_with(&given, &given, &options);
@@ -364,7 +360,7 @@ static void files_stay_where_they_can(void **state)
     assert_null(strstr(text, "*INCLUDE"));
     assert_non_null(strstr(text, "** the cards of below/shaft.inc"));
     assert_non_null(strstr(text, "** the shaft\n*SHAFT, NAME=bar, MATERIAL=steel\n0.5, 0.05, 0, 10\n0.5, 0.04, 0, 30\n"));
-    const struct states back = read_written(text);
+    const struct states back = read_states(text);
     assert_same_states(&meant, &back);
     /* beside the deck its paths are relative, elsewhere they are not */
     struct message_list notes;
@@ -389,7 +385,7 @@ static void what_was_set_for_the_run_is_written(void **state)
     for (size_t i = 0; i < sizeof set / sizeof *set; i++) {
         struct override override;
         assert_int_equal(override_parse(&test_pool, set[i], &override), 0);
-        const struct states given = read_path(path, &override), back = read_written(write_with(&given, &given, NULL));
+        const struct states given = read_states_at(path, &override), back = read_states(write_with(&given, &given, NULL));
         assert_same_states(&given, &back);
     }
 }
@@ -409,7 +405,7 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
         const struct states given = read_states(
             with ? "** first\n*HEADING\nthe deck\npaper error_percent = 1, 2\n\n** the model\n" MODEL : "** first\n" MODEL);
         const char *text = write_with(&given, &given, &options);
-        const struct states second = read_written(text);
+        const struct states second = read_states(text);
         const struct job *job = &second.state->job;
         assert_int_equal(strncmp(text, "** first\n*HEADING\n", 18), 0);
         assert_int_equal(job->nheading, 5 + with);
@@ -432,7 +428,7 @@ static void written_at_x_the_starts_are_those_of_x(void **state)
                             "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
                             "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
                             "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-7, 1e-8\nt.slope, -0.5, 0.5, 0.1\n"),
-                        second = read_written(write_with(&first, &first, &options));
+                        second = read_states(write_with(&first, &first, &options));
     for (int p = 0; p < 3; p++)
         assert_true(second.bounds[p].start == x[p] && second.bounds[p].lower == first.bounds[p].lower);
     assert_true(first.state->job.unknowns.bounds[0].start == 2e11); /* untouched */
@@ -442,7 +438,7 @@ static void written_at_x_the_starts_are_those_of_x(void **state)
                                      "*MODES\n1, 225\n2, 610\n");
     assert_int_equal(states.nparameter, 3);
     options.x = own;
-    const struct states back = read_written(write_with(&states, &states, &options));
+    const struct states back = read_states(write_with(&states, &states, &options));
     for (int p = 0; p < 3; p++)
         assert_true(back.bounds[p].start == own[p] && !strcmp(back.bounds[p].name, states.bounds[p].name));
 }
@@ -464,7 +460,7 @@ static void what_lies_on_a_bound_is_still_a_deck(void **state)
     x[1] = 2 * upper;
     for (int zero = 0; zero < 2; zero++) {
         x[2] = zero ? 0 : 0.5; /* zero is no scale */
-        const struct states back = read_written(write_with(&given, &meant, &options));
+        const struct states back = read_states(write_with(&given, &meant, &options));
         const rotid_parameter *bounds = back.state->job.unknowns.bounds;
         assert_close(bounds[1].upper, upper, 1e-12, 0);
         for (int p = 0; p < 3; p++)
@@ -481,7 +477,7 @@ static void two_modes_of_one_frequency_stay_two(void **state)
     double hz[] = {500, 1300, 1300}; /* as a universal file may have it */
     assert_int_equal(states_copy(&test_pool, &given, &meant), ROTID_OK);
     meant.state->job.measurement.frequency_hz = hz;
-    const struct states back = read_written(write_with(&given, &meant, NULL));
+    const struct states back = read_states(write_with(&given, &meant, NULL));
     assert_true(back.state->job.measurement.frequency_hz[1] == 1300 &&
                 back.state->job.measurement.frequency_hz[2] == nextafter(1300, INFINITY));
 }
@@ -492,10 +488,10 @@ static void a_fit_runs_from_the_written_deck_to_where_it_stood(void **state)
     struct identification before, after;
     (void)state;
     message_open(&notes, &test_pool);
-    const struct states given = read_path(ROTID_SOURCE_DIR "/input/foam_bar.inp", NULL);
+    const struct states given = read_states_at(ROTID_SOURCE_DIR "/input/foam_bar.inp", NULL);
     assert_status(identify_run(&test_pool, &given.state->job, 0, NULL, &notes, &before), ROTID_OK);
     const struct deck_write_options options = {.x = before.fit->x};
-    const struct states back = read_written(write_with(&given, &given, &options));
+    const struct states back = read_states(write_with(&given, &given, &options));
     assert_status(identify_run(&test_pool, &back.state->job, 0, NULL, &notes, &after), ROTID_OK);
     assert_close(after.fit->x[0], before.fit->x[0], 1e-7, 0);
     assert_close(after.fit->objective, before.fit->objective, 1e-9, 0);
@@ -589,6 +585,7 @@ int main(void)
         TEST(a_deck_that_says_what_is_meant_is_its_own_text),
         TEST(whatever_differs_is_stated),
         TEST(what_is_new_is_added),
+        TEST(an_unknown_of_a_cause_in_one_state_is_of_that_state),
         TEST(names_may_be_odd),
         TEST(what_is_new_stands_in_the_units_of_the_deck),
         TEST(files_stay_where_they_can),

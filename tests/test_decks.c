@@ -7,6 +7,7 @@
 
 #include "deck/deck.h"
 #include "folder.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 
@@ -14,26 +15,6 @@
 #define DECKS ROTID_SOURCE_DIR "/tests/data/decks/"
 
 #define MODEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"
-
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-};
-
-/* The deck is right: no error. `set`: one --set, or NULL. */
-static void read_path(struct reading *r, const char *path, const char *set)
-{
-    struct override override;
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    if (set)
-        assert_int_equal(override_parse(&r->pool, set, &override), 0);
-    int status = deck_read(&r->pool, path, set != NULL, &override, &r->messages, &r->job);
-    for (size_t i = 0; i < r->messages.count && status; i++)
-        print_error("%d:%d: %s\n", r->messages.item[i].line, r->messages.item[i].column, r->messages.item[i].text);
-    assert_status(status, ROTID_OK);
-}
 
 /* *MEASURED with these options, of this universal file */
 static void read_measured(struct reading *r, const char *options, const char *uff)
@@ -43,14 +24,6 @@ static void read_measured(struct reading *r, const char *options, const char *uf
     (void)snprintf(text, sizeof text, "%s*MEASURED, FILE=m.uff%s\n", MODEL, options);
     (void)folder_write("deck.inp", text);
     read_path(r, folder_path("deck.inp"), NULL);
-}
-
-static int warns(const struct reading *r, const char *part)
-{
-    for (size_t i = 0; i < r->messages.count; i++)
-        if (r->messages.item[i].severity == SEVERITY_WARNING && strstr(r->messages.item[i].text, part))
-            return 1;
-    return 0;
 }
 
 static void an_override_is_card_option_value(void **state)
@@ -192,8 +165,8 @@ static void complex_shapes_are_turned_real_and_conjugates_dropped(void **state)
     assert_close(fabs(r.job.measurement.shape[0]), 5, 1e-14, 0);
     assert_close(r.job.measurement.shape[1] / r.job.measurement.shape[0], 2, 1e-14, 0); /* its sign is free */
     assert_close(r.job.measurement.shape[2] / r.job.measurement.shape[0], -1, 1e-14, 0);
-    assert_true(warns(&r, "1 shapes repeat the frequency of another and are left out, as conjugates of it"));
-    assert_false(warns(&r, "out of phase"));
+    assert_true(warns(&r.messages, "1 shapes repeat the frequency of another and are left out, as conjugates of it"));
+    assert_false(warns(&r.messages, "out of phase"));
     pool_close(&r.pool);
 }
 
@@ -203,7 +176,7 @@ static void motion_out_of_phase_is_left_out_and_said(void **state)
     struct reading r;
     read_measured(&r, "", ALONG_Z COMPLEX("1", "-30. 3000.", "2. 0.", "0. 1.", "2. 0."));
     assert_true(fabs(fabs(r.job.measurement.shape[0]) - 2) < 1e-14 && fabs(r.job.measurement.shape[2]) < 1e-14);
-    assert_true(warns(&r, "11 % of the motion of the shape at 477.489 Hz is out of phase and left out"));
+    assert_true(warns(&r.messages, "11 % of the motion of the shape at 477.489 Hz is out of phase and left out"));
     pool_close(&r.pool);
 }
 

@@ -1,4 +1,5 @@
 /* Diagnoses over several states of a deck, of effects that tools/hide has put into the data, and what changed between two. */
+#include "reading.h"
 #include "support.h"
 
 #include <math.h>
@@ -37,17 +38,6 @@ static struct hide_request request(int modes, int sensors, unsigned seed)
     return r;
 }
 
-static rotid_deck *read_text(const char *text, const char *set)
-{
-    rotid_deck *deck;
-    char failure[ROTID_FAILURE_LENGTH];
-    int status = rotid_deck_read_text(strlen(text), text, "states.inp", NULL, set != NULL, &set, NULL, failure, &deck);
-    if (status)
-        print_message("%s\n", failure);
-    assert_status(status, ROTID_OK);
-    return deck;
-}
-
 static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidden_state *state, const char *set,
                                  const char *before, const char *after)
 {
@@ -58,7 +48,7 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
     if (!text)
         print_message("%s\n", message);
     assert_non_null(text);
-    rotid_deck *deck = read_text(text, set);
+    rotid_deck *deck = read_handle(text, set != NULL, &set);
     int status = rotid_diagnose(deck, &options, NULL, failure, &d);
     if (status)
         print_message("%s\n", failure);
@@ -75,7 +65,7 @@ static void what_states_share_is_possible_in_each(void **state)
     (void)state;
     static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=short\n*SET\nleft.length, 0.12\ncore.length, 0.3\n"
                                      "right.length, 0.08\n*MODES\n1, 900\n2, 2000\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n";
-    rotid_deck *deck = read_text(text, NULL);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     const struct states *states = deck_states_of(deck);
     const struct cause_kind *zone_kind = catalogue_find("stiffness_local");
     struct effect effect = {.kind = zone_kind->effect, .name = "zone", .value = {0.3, 0.2, 0.02}};
@@ -96,7 +86,7 @@ static void what_states_share_is_possible_in_each(void **state)
 static rotid_diagnosis *diagnose_text(const char *text)
 {
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2};
-    rotid_deck *deck = read_text(text, NULL);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     rotid_diagnosis *d;
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
     rotid_deck_free(deck);
@@ -187,6 +177,8 @@ static void assert_extended(const rotid_diagnosis *d)
     char failure[ROTID_FAILURE_LENGTH];
     rotid_deck *deck;
     rotid_identification *again;
+    for (int i = 0; i < d->nmessage && !d->extended_deck; i++)
+        print_error("%s\n", d->message[i].text);
     assert_non_null(d->extended_deck);
     assert_status(rotid_deck_read_text(strlen(d->extended_deck), d->extended_deck, NULL, NULL, 0, NULL, NULL, failure, &deck),
                   ROTID_OK);
@@ -432,7 +424,7 @@ static void wrong_states_are_refused(void **state)
                  {"before", NULL, "options->after is NULL, expected the name of a state as well as in options->before"}};
     const struct hide_request r = request(4, 7, 900);
     char message[300], failure[ROTID_FAILURE_LENGTH], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
-    rotid_deck *deck = read_text(text, NULL);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     rotid_diagnosis *d;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const rotid_diagnose_options options = {.size = sizeof options, .before = cases[i].before, .after = cases[i].after};
@@ -457,7 +449,7 @@ static void failing_allocations_are_survived(void **state)
     for (int question = 0; question < 2; question++) {
         const rotid_diagnose_options options = {
             .size = sizeof options, .replicates = 100, .before = question ? "before" : NULL, .after = question ? "after" : NULL};
-        rotid_deck *deck = read_text(text, NULL);
+        rotid_deck *deck = read_handle(text, 0, NULL);
         for (int n = 1, done = 0; !done; n += 1 + n) {
             struct failing_allocator failing;
             rotid_diagnosis *d = NULL;

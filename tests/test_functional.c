@@ -230,7 +230,7 @@ static void check_jacobian(struct pool *pool, int kind, int reduction, int deriv
 
 static void jacobians_match_central_differences(void **state)
 {
-    for (int kind = ROTID_HYBRID; kind <= ROTID_LIKELIHOOD; kind++)
+    for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++)
         for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++)
             for (int derivative = ROTID_NELSON; derivative <= (reduction ? ROTID_MODAL : ROTID_NELSON); derivative++) {
                 struct data data;
@@ -248,7 +248,7 @@ static void jacobians_match_central_differences(void **state)
 
 static void held_out_modes_are_predicted_but_not_fitted(void **state)
 {
-    for (int kind = ROTID_HYBRID; kind <= ROTID_LIKELIHOOD; kind++) {
+    for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {
         struct data data;
         struct functional all, some;
         const rotid_model *model = measure(*state, 0.02, 65, &data);
@@ -274,7 +274,7 @@ static void held_out_modes_are_predicted_but_not_fitted(void **state)
 /* A shape that is M~-orthogonal to the mode it is said to be leaves (15) without meaning, unless the mode is only compared. */
 static void a_shape_orthogonal_to_its_partner_is_unpaired(void **state)
 {
-    for (int kind = ROTID_HYBRID; kind <= ROTID_LIKELIHOOD; kind++) {
+    for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {
         struct data data;
         struct functional f, wrong;
         const rotid_model *model = measure(*state, 0.02, 66, &data);
@@ -319,7 +319,7 @@ static void measured_data_out_of_range_are_refused(void **state)
                         &data.shape_std[40],
                         &data.shape_std[40]};
     const double bad[] = {0, -1, NAN, INFINITY, 0, -1e-3, NAN, 0, -0.01, NAN};
-    for (int kind = ROTID_HYBRID; kind <= ROTID_LIKELIHOOD; kind++) {
+    for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {
         assert_status(status_of(*state, kind, ROTID_GUYAN, model, &data.measured), ROTID_OK);
         for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
             double kept = *values[i];

@@ -37,6 +37,7 @@ static void universal_files(void **state)
 {
     (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/uff", fuzz_one_uff) > 10);
+    assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/uff", fuzz_one_import) > 10);
 }
 
 static void decks(void **state)

@@ -9,7 +9,7 @@
 #include "folder.h"
 #include "hammer/hammer.h"
 #include "hide/hide_states.h"
-#include "read_states.h"
+#include "reading.h"
 
 #define COMMON                                                                                                                   \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.06e11, 0.795e11, 0.30\n*DENSITY\n7850\n"                                     \

@@ -1,6 +1,7 @@
 /* A fit of a solid runs on its coarse mesh with frequencies held to the limit that this mesh and the one that counts lead to:
  * beside fits that use no coarse mesh, and beside frequencies of meshes that are refined. */
 #include "folder.h"
+#include "reading.h"
 #include "solid_rig.h"
 
 #include <math.h>
@@ -21,13 +22,6 @@ static const char rotor_text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\
                                  "*SHAFT, NAME=core, MATERIAL=stack\n0.35, 0.20, 0, 20\n"
                                  "*SHAFT, NAME=right, MATERIAL=steel\n0.20, 0.08, 0, 20\n*FIT, MODEL=SOLID\n";
 
-static void read_deck(const char *text, struct job *job)
-{
-    struct message_list messages;
-    message_open(&messages, &test_pool);
-    assert_status(deck_read(&test_pool, folder_write("deck.inp", text), 0, NULL, &messages, job), ROTID_OK);
-}
-
 /* x: of the unknowns; NULL: at what the deck states */
 static void compute(const struct job *job, const double *x, int parts, struct spectrum *spectrum)
 {
@@ -41,13 +35,14 @@ static void measured_job(int shapes, struct job *job)
 {
     static const double off[MODES] = {1, -0.7, 0.4, -1.2};
     char text[16384];
+    struct message_list quiet;
     struct spectrum s;
     strcpy(text, rotor_text);
     if (shapes)
         strcat(text, "*SENSORS\n");
     for (int i = 0; i < SENSORS && shapes; i++)
         (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, 0.8 * (i + 0.5) / SENSORS);
-    read_deck(text, job);
+    read_job(text, &quiet, job);
     compute(job, NULL, SPECTRUM_MESH, &s);
     (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=0.001%s\n*MODES\n", shapes ? ", SHAPE=0.01" : "");
     for (int k = 0; k < MODES; k++)
@@ -58,7 +53,7 @@ static void measured_job(int shapes, struct job *job)
             (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, s.shape[k * SENSORS + i] + 0.01 * off[(3 * i + k) % MODES]);
     }
     strcat(text, "*IDENTIFY\ncore.E, 1e10, 4e11, 0.6e11\ncore.G, 1e10, 1.5e11, 0.7e11\n");
-    read_deck(text, job);
+    read_job(text, &quiet, job);
 }
 
 /* Through rotid_fit on the mesh that counts alone, the measured frequencies, frequency_hz [MODES], being as far above the limit

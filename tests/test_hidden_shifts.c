@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "diagnose/causes/causes.h"
+#include "reading.h"
 #include "support.h"
 
 #define MODES     6
@@ -43,17 +44,6 @@ static const struct rotor_case beam = {"beam", MATERIALS SHAFTS SPRINGS, UNKNOWN
                                          UNKNOWN,  "*FIT\n",
                                          2,        {"*STATE, NAME=bare\n", "*STATE, NAME=disc\n*DISK\n0.25, 8\n"}};
 
-static rotid_deck *read_text(const char *text)
-{
-    char failure[ROTID_FAILURE_LENGTH];
-    rotid_deck *deck;
-    int status = rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, failure, &deck);
-    if (status)
-        print_error("%s\n%s\n", failure, text);
-    assert_int_equal(status, ROTID_OK);
-    return deck;
-}
-
 /* The modes of the rotor with `cause` in it, state by state, as the deck that is fitted. */
 static void write_deck(const struct rotor_case *c, const char *cause, size_t room, char *text)
 {
@@ -62,7 +52,7 @@ static void write_deck(const struct rotor_case *c, const char *cause, size_t roo
         const char *cards = strchr(c->state[s], '\n'); /* without *STATE */
         char rotor[4096], failure[ROTID_FAILURE_LENGTH];
         (void)snprintf(rotor, sizeof rotor, "%s%s%s%s", c->rotor, cards ? cards + 1 : "", cause, c->fit);
-        rotid_deck *deck = read_text(rotor);
+        rotid_deck *deck = read_handle(rotor, 0, NULL);
         rotid_spectrum *spectrum;
         assert_int_equal(rotid_spectrum_compute(deck, NULL, MODES, NULL, failure, &spectrum), ROTID_OK);
         at += (size_t)snprintf(text + at, room - at, "%s*MODES\n", c->state[s]);
@@ -77,7 +67,7 @@ static void write_deck(const struct rotor_case *c, const char *cause, size_t roo
 static rotid_identification *identified(const char *text, int checks)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    rotid_deck *deck = read_text(text);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     rotid_identification *fit;
     assert_int_equal(rotid_identify(deck, checks, NULL, failure, &fit), ROTID_OK);
     rotid_deck_free(deck);
@@ -151,7 +141,7 @@ static void look(const struct rotor_case *c, int least)
     char failure[ROTID_FAILURE_LENGTH];
     rotid_diagnosis *d;
     write_deck(c, "", sizeof text, text);
-    rotid_deck *deck = read_text(text);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     assert_int_equal(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
     rotid_deck_free(deck);
     assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);

@@ -9,7 +9,7 @@
 
 #include "folder.h"
 #include "hide/hide.h"
-#include "read_states.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 

@@ -36,8 +36,9 @@ static void check(const struct sensor_line *line, int moved, unsigned seed, stru
     for (int k = 0; k < MODES; k++) {
         for (int s = 0; s < N; s++) {
             double at = sensor_line_place(line, length, z[s]) + (s == moved ? 0.06 : 0);
-            shape[s + k * N] = rotor_shape_at(&truth, k, at) + NOISE * random_normal(&random);
-            std[s + k * N] = NOISE;
+            double size = k % 2 ? -0.3 : 1; /* a measured shape has a size and a sign of its own */
+            shape[s + k * N] = size * (rotor_shape_at(&truth, k, at) + NOISE * random_normal(&random));
+            std[s + k * N] = NOISE * fabs(size);
         }
         memcpy(axis + k * AXIS, truth.value[k], AXIS * sizeof *axis);
     }

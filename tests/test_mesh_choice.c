@@ -6,25 +6,10 @@
 #include "deck/deck.h"
 #include "exact.h"
 #include "folder.h"
+#include "reading.h"
 #include "run/run.h"
 
 #define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
-
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-};
-
-static void read_text(struct reading *r, const char *text)
-{
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    int status = deck_read(&r->pool, folder_write("deck.inp", text), 0, NULL, &r->messages, &r->job);
-    for (size_t i = 0; i < r->messages.count && status; i++)
-        print_error("%s\n", r->messages.item[i].text);
-    assert_status(status, ROTID_OK);
-}
 
 /* Worst error of modes 1 to count against the oracle, relative. */
 static double error_of(const struct rotor *rotor, int count)
@@ -58,7 +43,7 @@ static void the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that(v
         char text[1024];
         struct reading r;
         (void)snprintf(text, sizeof text, MATERIAL SHAFTS("", "", ",, 0.058") MODES "*NOISE, FREQUENCY=%g\n", noise[i]);
-        read_text(&r, text);
+        read_text(&r, text, NULL);
         double error = error_of(&r.job.rotor, 4);
         assert_true(error <= MESH_CHOICE_SHARE * noise[i]);
         assert_true(error > 0.2 * MESH_CHOICE_SHARE * noise[i]); /* elements cost time */
@@ -70,9 +55,9 @@ static void the_highest_mode_and_the_smallest_noise_count(void **state)
 {
     struct reading low, high, fine;
     (void)state;
-    read_text(&low, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n");
-    read_text(&high, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 4.9\n");
-    read_text(&fine, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 0.49\n");
+    read_text(&low, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n", NULL);
+    read_text(&high, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 4.9\n", NULL);
+    read_text(&fine, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 0.49\n", NULL);
     assert_true(elements_of(&high.job.rotor) > 2 * elements_of(&low.job.rotor));
     assert_true(elements_of(&fine.job.rotor) > 2 * elements_of(&high.job.rotor));
     assert_true(error_of(&fine.job.rotor, 6) <= 1e-5);
@@ -85,7 +70,7 @@ static void without_noise_the_error_is_a_hundredth_of_a_percent(void **state)
 {
     struct reading r;
     (void)state;
-    read_text(&r, MATERIAL SHAFTS("", "", ""));
+    read_text(&r, MATERIAL SHAFTS("", "", ""), NULL);
     assert_true(error_of(&r.job.rotor, MESH_CHOICE_MODES) <= MESH_CHOICE_ERROR);
     int told = 0;
     for (size_t i = 0; i < r.messages.count; i++)
@@ -99,13 +84,13 @@ static void sections_that_state_elements_keep_them(void **state)
 {
     struct reading r;
     (void)state;
-    read_text(&r, MATERIAL SHAFTS(", 7", "", ", 300, 0.055") MODES "*NOISE, FREQUENCY=0.01\n");
+    read_text(&r, MATERIAL SHAFTS(", 7", "", ", 300, 0.055") MODES "*NOISE, FREQUENCY=0.01\n", NULL);
     assert_int_equal(r.job.rotor.segment[0].elements, 7);
     assert_true(r.job.rotor.segment[1].elements > 1);
     assert_int_equal(r.job.rotor.segment[2].elements, 300);
     assert_close(r.job.rotor.segment[2].stiff_outer, 0.055, 0, 0);
     pool_close(&r.pool);
-    read_text(&r, MATERIAL "*BEAM, NAME=strip, MATERIAL=steel\n0.5, 0.005, 0.02\n" MODES);
+    read_text(&r, MATERIAL "*BEAM, NAME=strip, MATERIAL=steel\n0.5, 0.005, 0.02\n" MODES, NULL);
     assert_true(r.job.rotor.segment[0].elements > 5);
     pool_close(&r.pool);
 }
@@ -115,7 +100,7 @@ static void there_is_an_end(void **state)
 {
     struct reading r;
     (void)state;
-    read_text(&r, MATERIAL SHAFTS("", "", "") MODES "*NOISE, FREQUENCY=1e-9\n");
+    read_text(&r, MATERIAL SHAFTS("", "", "") MODES "*NOISE, FREQUENCY=1e-9\n", NULL);
     assert_in_range(elements_of(&r.job.rotor), MESH_CHOICE_LARGEST, MESH_CHOICE_LARGEST + 3);
     assert_non_null(strstr(r.messages.item[0].text, "more elements would have to be stated"));
     pool_close(&r.pool);
@@ -127,7 +112,7 @@ static void the_deck_that_is_written_states_the_elements(void **state)
     struct reading r, again;
     char *text;
     (void)state;
-    read_text(&r, MATERIAL SHAFTS("", "", "") MODES);
+    read_text(&r, MATERIAL SHAFTS("", "", "") MODES, NULL);
     struct state only, other;
     const struct states given = states_of(&r.job, &only), meant = states_of(&r.job, &other);
     double std[10];
@@ -137,7 +122,7 @@ static void the_deck_that_is_written_states_the_elements(void **state)
     other.job.options.fit.functional = ROTID_LIKELIHOOD;
     assert_status(deck_write(&r.pool, &given, &meant, NULL, &r.messages, &text), ROTID_OK);
     assert_non_null(strstr(text, "*NOISE, FREQUENCY=1e-6"));
-    read_text(&again, text);
+    read_text(&again, text, NULL);
     for (int s = 0; s < 3; s++)
         assert_int_equal(again.job.rotor.segment[s].elements, r.job.rotor.segment[s].elements);
     pool_close(&again.pool);

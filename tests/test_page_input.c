@@ -106,28 +106,6 @@ static void all_files_are_judged_and_one_bad_one_is_enough(void **state)
 /* ------------------------------------------------------------------------------------------------ every key, wrong in every way
  */
 
-/* Reads a file and composes its page, without writing it; everything is freed. The status of the reader. */
-static int compose(const char *name, int *wrong)
-{
-    struct pool pool;
-    struct message_list messages;
-    struct result result;
-    struct document document;
-    pool_open(&pool, NULL);
-    message_open(&messages, &pool);
-    int status = page_result_read(&pool, page_path(name), &messages, &result);
-    *wrong = messages.errors;
-    if (!status) {
-        assert_status(document_open(&document, &pool), ROTID_OK);
-        page_compose(&document, 1, &result);
-        assert_false(document.failed);
-        document_close(&document);
-    }
-    cJSON_Delete(result.json);
-    pool_close(&pool);
-    return status;
-}
-
 static int try_it(const cJSON *root)
 {
     int wrong;
@@ -135,7 +113,7 @@ static int try_it(const cJSON *root)
     assert_non_null(text);
     page_write_file("mutant.json", text);
     cJSON_free(text);
-    int status = compose("mutant.json", &wrong);
+    int status = page_composed("mutant.json", NULL, &wrong);
     assert_true(status == ROTID_OK ? !wrong : status == ROTID_ERROR_SYNTAX && wrong > 0);
     return status != ROTID_OK;
 }
@@ -345,7 +323,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state)
         assert_non_null(stream);
         assert_int_equal(fwrite(whole, 1, cut, stream), cut);
         assert_int_equal(fclose(stream), 0);
-        assert_status(compose("cut.json", &wrong), ROTID_ERROR_SYNTAX);
+        assert_status(page_composed("cut.json", NULL, &wrong), ROTID_ERROR_SYNTAX);
         assert_int_equal(wrong, 1);
     }
 }
@@ -357,33 +335,8 @@ static void memory_that_runs_out_is_survived(void **state)
     make_results();
     static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",    "modes.json",
                                         "diagnose.json", "study.json",       "states.json", "states_modes.json"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        long served = 0;
-        for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
-            struct failing_allocator failing;
-            struct pool pool;
-            struct message_list messages;
-            struct result result;
-            struct document document;
-            failing_allocator_open(&failing, n);
-            pool_open(&pool, &failing.allocator);
-            message_open(&messages, &pool);
-            int status = page_result_read(&pool, page_path(names[i]), &messages, &result);
-            if (!status) {
-                assert_status(document_open(&document, &pool), ROTID_OK);
-                page_compose(&document, 1, &result);
-                assert_true(n > 0 || !document.failed);
-                document_close(&document);
-            } else {
-                assert_true(n > 0);
-            }
-            cJSON_Delete(result.json);
-            served = n ? served : failing.served;
-            pool_close(&pool);
-            assert_int_equal(failing.in_use, 0);
-        }
-        assert_true(served > 50);
-    }
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        assert_true(page_composed_without_memory(names[i]) > 50);
 }
 
 int main(void)

@@ -8,6 +8,8 @@
 
 #include "base/base.h"
 #include "deck/deck.h"
+#include "folder.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 
@@ -185,15 +187,6 @@ static void a_median_of_sizes_stands_for_one_and_a_half_of_the_noise(void **stat
     }
 }
 
-/* ------------------------------------------------------------------------------------------------ decks */
-
-struct reading {
-    struct message_list messages;
-    struct job job;
-};
-
-static char file[] = "/tmp/test_point_frequency_XXXXXX";
-
 #define MODEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"
 #define DATA                                                                                                                     \
     "*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n*MODES\n1, 450\n2, 1230, , 0.7\n*SHAPE, MODE=1\n1, 1\n2, 0.1\n3, "    \
@@ -201,18 +194,6 @@ static char file[] = "/tmp/test_point_frequency_XXXXXX";
 #define POINTS_1 "*FREQUENCIES, MODE=1\n1, 447, 0.2\n2, 450, 0.2\n3, 449, 0.3\n4, 449\n6, 447.1, 0.2\n"
 #define POINTS_2 "*FREQUENCIES, MODE=2\n1, 1228\n"
 #define END      "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n"
-
-static void read_text(struct reading *r, const char *text)
-{
-    FILE *stream = fopen(file, "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-    message_open(&r->messages, &test_pool);
-    int status = deck_read(&test_pool, file, 0, NULL, &r->messages, &r->job);
-    for (size_t i = 0; i < r->messages.count && status; i++)
-        print_error("%d:%d: %s\n", r->messages.item[i].line, r->messages.item[i].column, r->messages.item[i].text);
-    assert_status(status, ROTID_OK);
-}
 
 static int has_note(const struct reading *r, const char *text)
 {
@@ -226,7 +207,7 @@ static void a_deck_without_them_has_none(void **state)
 {
     (void)state;
     struct reading r;
-    read_text(&r, MODEL DATA END);
+    read_job(MODEL DATA END, &r.messages, &r.job);
     assert_true(!r.job.measurement.point_frequency_hz && !r.job.measurement.point_frequency_std &&
                 r.job.measurement.frequency_hz[0] == 450);
 }
@@ -236,7 +217,7 @@ static void the_card_sets_the_frequency_of_its_mode(void **state)
     (void)state;
     struct reading r;
     struct point_mean mean;
-    read_text(&r, MODEL DATA POINTS_1 POINTS_2 "*NOISE, FREQUENCY=0.001\n" END);
+    read_job(MODEL DATA POINTS_1 POINTS_2 "*NOISE, FREQUENCY=0.001\n" END, &r.messages, &r.job);
     const double *hz = r.job.measurement.point_frequency_hz, *std = r.job.measurement.point_frequency_std;
     assert_non_null(hz);
     assert_true(hz[0] == 447 && hz[3] == 449 && isnan(hz[4]) && hz[6] == 1228 && isnan(hz[7]));
@@ -248,7 +229,7 @@ static void the_card_sets_the_frequency_of_its_mode(void **state)
     assert_close(r.job.measurement.frequency_std[0], mean.std / mean.hz, 1e-15, 0);
     assert_true(r.job.measurement.frequency_hz[1] == 1228 && has_note(&r, "mode 2 has 1 frequencies at single sensors"));
     assert_close(r.job.measurement.frequency_std[1], 0.001, 1e-15, 0);
-    read_text(&r, MODEL DATA "*FREQUENCIES, MODE=2, MEAN=NO\n1, 1228\n" END);
+    read_job(MODEL DATA "*FREQUENCIES, MODE=2, MEAN=NO\n1, 1228\n" END, &r.messages, &r.job);
     assert_true(r.job.measurement.frequency_hz[1] == 1230 && r.job.measurement.point_frequency_hz[6] == 1228);
     assert_close(r.job.measurement.frequency_std[1], 0.7 / 1230, 1e-14, 0);
 }
@@ -257,7 +238,8 @@ static void floors_are_added_to_what_the_data_state_and_to_nothing_else(void **s
 {
     (void)state;
     struct reading r;
-    read_text(&r, MODEL DATA "*NOISE, FREQUENCY=0.001, FLOOR_FREQUENCY=0.002, SHAPE=0.02, FLOOR_SHAPE=0.01\n" END);
+    read_job(MODEL DATA "*NOISE, FREQUENCY=0.001, FLOOR_FREQUENCY=0.002, SHAPE=0.02, FLOOR_SHAPE=0.01\n" END, &r.messages,
+             &r.job);
     assert_close(r.job.measurement.frequency_std[0], 0.001, 1e-15, 0);
     assert_close(r.job.measurement.frequency_std[1], hypot(0.7 / 1230, 0.002), 1e-14, 0);
     assert_close(r.job.measurement.shape_std[0], 0.02, 1e-15, 0);
@@ -283,13 +265,13 @@ static void the_deck_comes_back(void **state)
         struct reading r, back;
         char *written;
         double damping[] = {0.01, 0.02};
-        read_text(&r, text[i]);
+        read_job(text[i], &r.messages, &r.job);
         struct state only, other;
         const struct states given = states_of(&r.job, &only), meant = states_of(&r.job, &other);
         other.job.measurement.damping = damping; /* so that the data are written anew */
         assert_status(deck_write(&test_pool, &given, &meant, NULL, &r.messages, &written), ROTID_OK);
         assert_non_null(strstr(written, "MEAN=NO"));
-        read_text(&back, written);
+        read_job(written, &back.messages, &back.job);
         assert_same(12, r.job.measurement.point_frequency_hz, back.job.measurement.point_frequency_hz);
         assert_same(12, r.job.measurement.point_frequency_std, back.job.measurement.point_frequency_std);
         assert_close(back.job.measurement.frequency_hz[0], r.job.measurement.frequency_hz[0], 1e-15, 0);
@@ -301,8 +283,9 @@ static void frequencies_follow_their_sensor(void **state)
 {
     (void)state;
     struct reading r;
-    read_text(&r, MODEL DATA POINTS_1 "*CAUSE, NAME=a, TYPE=sensor_position, SENSOR=2\nshift, 0.3\n"
-                                      "*CAUSE, NAME=b, TYPE=sensor_swap, SENSOR=1,6\n" END);
+    read_job(MODEL DATA POINTS_1 "*CAUSE, NAME=a, TYPE=sensor_position, SENSOR=2\nshift, 0.3\n"
+                                 "*CAUSE, NAME=b, TYPE=sensor_swap, SENSOR=1,6\n" END,
+             &r.messages, &r.job);
     assert_int_equal(r.job.rotor.sensor[2].id, 2); /* now behind sensor 3 */
     assert_true(r.job.measurement.point_frequency_hz[2] == 450 && r.job.measurement.point_frequency_hz[1] == 449);
     assert_true(r.job.measurement.point_frequency_hz[0] == 447.1 && r.job.measurement.point_frequency_hz[5] == 447);
@@ -331,7 +314,7 @@ static const char *read_set(struct reading *r, struct uff_shape *set, int count)
     const struct uff_shape *const chosen[] = {&first, &second};
     struct uff_file data = {.extra_count = count, .extra = set};
     struct deck_reader reader = {.pool = &test_pool, .messages = &r->messages, .job = &r->job};
-    read_text(r, MODEL DATA END);
+    read_job(MODEL DATA END, &r->messages, &r->job);
     deck_uff_std(&reader, "test.uff", &data, 2, chosen, 0);
     for (size_t i = 0; i < r->messages.count; i++)
         if (r->messages.item[i].severity == SEVERITY_ERROR) {
@@ -393,33 +376,23 @@ static void malformed_sets_are_refused(void **state)
     assert_non_null(strstr(read_set(&r, set, 1), "complex"));
 }
 
-static int make_file(void **state)
-{
-    int descriptor = mkstemp(file);
-    return descriptor < 0 || close(descriptor) || open_test_pool(state);
-}
-
-static int remove_file(void **state)
-{
-    return unlink(file) || close_test_pool(state);
-}
-
 int main(void)
 {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mean_is_over_all_sensors_and_not_over_those_that_read),
-        cmocka_unit_test(two_columns_that_resemble_each_other_are_told_apart),
-        cmocka_unit_test(few_points_give_their_plain_mean),
-        cmocka_unit_test(the_deviation_of_the_mean_is_what_it_scatters_by),
-        cmocka_unit_test(one_wrong_reading_does_not_move_the_mean),
-        cmocka_unit_test(a_median_of_sizes_stands_for_one_and_a_half_of_the_noise),
-        cmocka_unit_test(a_deck_without_them_has_none),
-        cmocka_unit_test(the_card_sets_the_frequency_of_its_mode),
-        cmocka_unit_test(floors_are_added_to_what_the_data_state_and_to_nothing_else),
-        cmocka_unit_test(the_deck_comes_back),
-        cmocka_unit_test(frequencies_follow_their_sensor),
-        cmocka_unit_test(sets_of_deviations_become_those_of_the_job),
-        cmocka_unit_test(malformed_sets_are_refused),
+        TEST(the_mean_is_over_all_sensors_and_not_over_those_that_read),
+        TEST(two_columns_that_resemble_each_other_are_told_apart),
+        TEST(few_points_give_their_plain_mean),
+        TEST(the_deviation_of_the_mean_is_what_it_scatters_by),
+        TEST(one_wrong_reading_does_not_move_the_mean),
+        TEST(a_median_of_sizes_stands_for_one_and_a_half_of_the_noise),
+        TEST(a_deck_without_them_has_none),
+        TEST(the_card_sets_the_frequency_of_its_mode),
+        TEST(floors_are_added_to_what_the_data_state_and_to_nothing_else),
+        TEST(the_deck_comes_back),
+        TEST(frequencies_follow_their_sensor),
+        TEST(sets_of_deviations_become_those_of_the_job),
+        TEST(malformed_sets_are_refused),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

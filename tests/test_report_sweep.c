@@ -142,27 +142,6 @@ static int is_refused(const struct kind *kind, const char *key)
     return 0;
 }
 
-/* Whether a page is made of it, in this process and without a picture. */
-static int is_read(const char *name)
-{
-    struct pool pool;
-    struct message_list messages;
-    struct result result;
-    struct document document;
-    pool_open(&pool, NULL);
-    message_open(&messages, &pool);
-    int status = page_result_read(&pool, page_path(name), &messages, &result);
-    if (!status) {
-        assert_status(document_open(&document, &pool), ROTID_OK);
-        page_compose(&document, 1, &result);
-        assert_false(document.failed);
-        document_close(&document);
-    }
-    cJSON_Delete(result.json);
-    pool_close(&pool);
-    return !status;
-}
-
 /* ------------------------------------------------------------------------------------------------ the texts of a result */
 
 struct replaced { /* the same text is the same name in all places */
@@ -262,7 +241,7 @@ static void learn_keys(struct kind *kind, const cJSON *item, int *free_keys)
     assert_true(nseen < MOST_KEYS);
     seen[nseen++] = item->string;
     (void)write_hostile(kind, item->string, 1, "learn.json");
-    if (is_read("learn.json"))
+    if (!page_composed("learn.json", NULL, NULL))
         (*free_keys)++;
     else
         kind->refused[kind->nkey++] = item->string;
@@ -327,17 +306,17 @@ static void hostile_texts_stay_texts(void **state)
     long wanted = asked ? strtol(asked, NULL, 10) : 0, texts = 0, pages = 0, refused = 0;
     double begin = clock_seconds();
     stream.state = 12;
-    assert_int_equal(
-        page_run(
-            "cd %s; %s identify %s --quiet --json identify.json; %s sensitivity %s --quiet --json sensitivity.json && " /* 1: not
-                                                                                                                           adequate
-                                                                                                                         */
-            "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
-            "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json check.json && "
-            "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
-            page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM,
-            LAP, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
-        0);
+    assert_int_equal(page_run("cd %s; %s identify %s --quiet --json identify.json; %s sensitivity %s --quiet --json "
+                              "sensitivity.json && " /* 1: not
+                                                        adequate
+                                                      */
+                              "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
+                              "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json "
+                              "check.json && "
+                              "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
+                              page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM,
+                              PAPER, ROTID_PROGRAM, LAP, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
+                     0);
     for (size_t i = 0; i < KINDS; i++) {
         int free_keys = 0;
         kinds[i].json = read_kind(&kinds[i]);

@@ -8,6 +8,7 @@
 #include "derivative_check.h"
 #include "folder.h"
 #include "model/model.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 
@@ -23,34 +24,12 @@
 #define MODES "*MODES\n1, 380\n2, 940\n3, 1930\n4, 2950\n5, 4200\n*NOISE, FREQUENCY=0.001\n"
 #define CORE  "core.E, 1e10, 2e11, 0.7e11\n"
 
-struct reading {
-    struct pool pool;
-    struct message_list messages;
-    struct job job;
-    int status;
-};
-
-static void read_text(struct reading *r, const char *text)
-{
-    pool_open(&r->pool, NULL);
-    message_open(&r->messages, &r->pool);
-    r->status = deck_read(&r->pool, folder_write("deck.inp", text), 0, NULL, &r->messages, &r->job);
-}
-
-static void read_right(struct reading *r, const char *text)
-{
-    read_text(r, text);
-    for (size_t i = 0; i < r->messages.count && r->status; i++)
-        print_error("%s\n", r->messages.item[i].text);
-    assert_status(r->status, ROTID_OK);
-}
-
 static void assert_same_fit(const char *shared, const char *one, double tolerance)
 {
     struct reading a, b;
     struct identification fit_a, fit_b;
-    read_right(&a, shared);
-    read_right(&b, one);
+    read_text(&a, shared, NULL);
+    read_text(&b, one, NULL);
     assert_int_equal(a.job.unknowns.nparameter, b.job.unknowns.nparameter);
     assert_status(identify_run(&a.pool, &a.job, 0, NULL, &a.messages, &fit_a), ROTID_OK);
     assert_status(identify_run(&b.pool, &b.job, 0, NULL, &b.messages, &fit_b), ROTID_OK);
@@ -99,7 +78,7 @@ static void assert_derivatives(const char *fit)
     (void)snprintf(deck, sizeof deck, "%s%s", text, fit);
     char *steel = strstr(deck, "2.1e11, 8e10"); /* what is shared is stated alike */
     memcpy(steel, "0.8e11, 8e10", strlen("0.8e11, 8e10"));
-    read_right(&r, deck);
+    read_text(&r, deck, NULL);
     assert_status(model_open(&r.pool, r.job.models, &r.job.rotor, 2, r.job.unknowns.parameter, 1, &model, &failed), ROTID_OK);
     check_derivatives(&r.pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model.equations.nrigid,
                       model.equations.nrigid + 3, x, steps, 1e-6);
@@ -128,7 +107,7 @@ static void what_cannot_be_shared_is_said(void **state)
         char text[2048];
         struct reading r;
         (void)snprintf(text, sizeof text, MATERIAL APART MODES "*IDENTIFY\n%s", wrong[i][0]);
-        read_text(&r, text);
+        try_path(&r, folder_write("deck.inp", text), NULL);
         assert_status(r.status, ROTID_ERROR_SYNTAX);
         if (!strstr(r.messages.item[0].text, wrong[i][1]))
             fail_msg("%s: %s", wrong[i][0], r.messages.item[0].text);
@@ -167,11 +146,11 @@ static void a_deck_with_shared_unknowns_is_written_and_read(void **state)
     const double x[] = {1.7e11, 0.6e11};
     const struct deck_write_options at = {.x = x};
     (void)state;
-    read_right(&r, MATERIAL APART MODES "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE);
+    read_text(&r, MATERIAL APART MODES "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE, NULL);
     struct state only;
     const struct states states = states_of(&r.job, &only);
     assert_status(deck_write(&r.pool, &states, &states, &at, &r.messages, &text), ROTID_OK);
-    read_right(&again, text);
+    read_text(&again, text, NULL);
     assert_true(again.job.unknowns.bounds[0].start == 1.7e11);
     assert_string_equal(again.job.unknowns.bounds[0].name, "left.E=right.E");
     assert_int_equal(again.job.unknowns.parameter[0].nalso, 1);

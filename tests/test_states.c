@@ -1,5 +1,6 @@
 /* Several states of a rotor through the first layer: each is a deck of its own, all are identified together, a state held out is
  * predicted, and results go to JSON and back. */
+#include "reading.h"
 #include "support.h"
 
 #include <math.h>
@@ -27,22 +28,11 @@ static char *deck_text(const char *functional, const char *fit, double hz[STATES
     return text;
 }
 
-static rotid_deck *read_deck(const char *text, int nset, const char *const *set)
-{
-    rotid_deck *deck;
-    char failure[ROTID_FAILURE_LENGTH];
-    int status = rotid_deck_read_text(strlen(text), text, "states.inp", NULL, nset, set, NULL, failure, &deck);
-    if (status)
-        print_message("%s\n", failure);
-    assert_status(status, ROTID_OK);
-    return deck;
-}
-
 /* Frequencies of the model at bar.E = 2e11 and d.mass = 4, which each state as a deck of its own says. */
 static void measure(double hz[STATES][MODES])
 {
     double any[STATES][MODES] = {{100, 200, 300}, {100, 200, 300}, {100, 200, 300}}, truth[] = {2e11, 4};
-    rotid_deck *deck = read_deck(deck_text("LIKELIHOOD", "", any), 0, NULL);
+    rotid_deck *deck = read_handle(deck_text("LIKELIHOOD", "", any), 0, NULL);
     assert_int_equal(deck->nstate, STATES);
     assert_int_equal(deck->nparameter, 2);
     assert_string_equal(deck->parameter[1].name, "loaded:d.mass");
@@ -65,7 +55,7 @@ static rotid_identification *identify(const char *text, int baseline)
 {
     rotid_identification *found;
     char failure[ROTID_FAILURE_LENGTH];
-    rotid_deck *deck = read_deck(text, 0, NULL);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     int status = rotid_identify(deck, baseline, NULL, failure, &found);
     if (status)
         print_message("%s\n", failure);
@@ -133,7 +123,7 @@ static void one_state_is_the_same_however_it_is_asked_for(void **state)
     char failure[ROTID_FAILURE_LENGTH];
     measure(hz);
     const char *text = deck_text("LIKELIHOOD", "", hz);
-    rotid_deck *all = read_deck(text, 0, NULL), *one = read_deck(text, 1, set);
+    rotid_deck *all = read_handle(text, 0, NULL), *one = read_handle(text, 1, set);
     rotid_identification *a, *b;
     assert_int_equal(one->nstate, 0);
     assert_string_equal(one->parameter[1].name, "d.mass");

@@ -8,7 +8,7 @@
 
 #include "exact.h"
 #include "folder.h"
-#include "read_states.h"
+#include "reading.h"
 #include "rotid.h"
 
 #define E_TRUE 1.9e11

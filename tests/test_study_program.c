@@ -355,6 +355,35 @@ static void wrong_usage_is_refused(void **state)
     assert_int_equal(bench_lines("x.jsonl"), 0);
 }
 
+/* A row a cell, a row for each parameter of it, a row for each parameter of a run; in SI, what the JSON holds. */
+static void summary_and_runs_are_tables_for_a_spreadsheet(void **state)
+{
+    (void)state;
+    bench_says("study --summary one.jsonl --csv out --json out.json", 0,
+               "out.cells.csv, out.parameters.csv and out.runs.csv are written");
+    char *json = bench_read("out.json"), *cells = bench_read("out.cells.csv"), *parameters = bench_read("out.parameters.csv"),
+         *runs = bench_read("out.runs.csv");
+    cJSON *summary = cJSON_Parse(json);
+    const cJSON *first = cJSON_GetArrayItem(get(summary, "cells"), 0), *p = cJSON_GetArrayItem(get(first, "parameters"), 0);
+    int ncell = cJSON_GetArraySize(get(summary, "cells")), nparameter = cJSON_GetArraySize(get(first, "parameters"));
+    assert_int_equal(bench_lines("out.cells.csv"), 1 + ncell);
+    assert_int_equal(bench_lines("out.parameters.csv"), 1 + ncell * nparameter);
+    assert_int_equal(bench_lines("out.runs.csv"), 1 + (int)number_of(summary, "done") * nparameter);
+    assert_int_equal(strncmp(cells, "deck,variant,modes,sensors,hidden,noise,shape noise,runs,failed,", 62), 0);
+    assert_int_equal(strncmp(runs, "run,deck,variant,", 17), 0);
+    const char *row = strstr(parameters, ",core.E,Pa,");
+    assert_non_null(row);
+    row += strlen(",core.E,Pa,");
+    assert_close(strtod(row, (char **)&row), number_of(p, "count"), 0, 0);
+    assert_close(strtod(row + 1, (char **)&row), number_of(p, "mean"), 1e-15, 0);
+    cJSON_Delete(summary);
+    free(json);
+    free(cells);
+    free(parameters);
+    free(runs);
+    bench_says("study --summary one.jsonl --csv out --json out.runs.csv", 2, "the file of --json");
+}
+
 static void the_summary_is_a_table_or_json(void **state)
 {
     (void)state;
@@ -433,6 +462,7 @@ int main(void)
         cmocka_unit_test(a_mended_deck_runs_again),
         cmocka_unit_test(wrong_usage_is_refused),
         cmocka_unit_test(the_summary_is_a_table_or_json),
+        cmocka_unit_test(summary_and_runs_are_tables_for_a_spreadsheet),
         cmocka_unit_test(a_full_disk_stops_it),
         cmocka_unit_test(a_changed_study_is_refused), /* last: it changes the deck */
     };

@@ -440,7 +440,7 @@ static void assert_all_refuse(const char *text, int line, const char *words)
     for (int reader = 0; reader < 3; reader++) {
         message_open(&messages, &test_pool);
         int status = reader == 0   ? record_open(&test_pool, part, &header, 0, &messages, &record)
-                     : reader == 1 ? summary_read(&test_pool, part, &messages, &found, &summary)
+                     : reader == 1 ? summary_read(&test_pool, part, &messages, &found, NULL, &summary)
                                    : merge_results(&test_pool, 1, &part, all, &messages, &merge);
         if (status >= 0 || messages.errors != 1 || messages.item[0].line != line || !strstr(messages.item[0].text, words) ||
             !strstr(messages.item[0].text, "expected"))
@@ -504,6 +504,11 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
         {"\"run\":1,", "\"run\":1.5,", "run: is 1.5, expected a whole number"},
         {"\"run\":1,", "\"run\":\"1\",", "run: is a text, expected a number"},
         {"\"cell\":" CELL, "\"cell\":null", "cell: is null, expected an object"},
+        {"\"warnings\"",
+         "\"verdict\":{\"kind\":null,\"adequate_after\":false,\"p_value\":null,\"causes\":[],\"alternatives\":[],"
+         "\"alternative_causes\":[],\"next_measurement\":null,\"sentence\":null,\"undetermined_parameters\":0},"
+         "\"data_findings\":[],\"warnings\"",
+         "it has no verdict"},
     };
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++)
         assert_all_refuse(pool_format(&test_pool, "%s%s", first, stamped(changed(line, forged[i][0], forged[i][1]))), 2,
@@ -532,7 +537,7 @@ static void summaries_add_up(void **state)
     assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9), 0), ROTID_OK);
     record_close(&record);
     message_open(&messages, &test_pool);
-    assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &found, &s), ROTID_OK);
+    assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &found, NULL, &s), ROTID_OK);
     assert_true(s.ncells == 1 && s.done == RUNS && s.runs == RUNS && s.missing == 0 && s.failed == 1 && s.nerrors == 1);
     const struct study_cell_result *cell = &s.cells[0];
     assert_true(cell->converged == 3 && cell->at_bound == 1 && cell->not_converged == 1 && cell->failed == 1);

@@ -11,8 +11,10 @@
 #include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
+#include "folder.h"
 #include "hide/hide.h"
 #include "linalg/linalg.h"
+#include "reading.h"
 #include "suggest/suggest.h"
 #include "support.h"
 
@@ -22,19 +24,10 @@ static const char shaft[] = "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11
                             "*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.05, 0, 10\n"
                             "*IDENTIFY\ncore.E, 1e10, 6e11, 2.1e11\ncore.G, 1e9, 3e11, 8e10\n";
 
-static rotid_deck *read_text(const char *text)
-{
-    char failure[ROTID_FAILURE_LENGTH];
-    rotid_deck *deck;
-    if (rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, failure, &deck))
-        fail_msg("%s", failure);
-    return deck;
-}
-
 static rotid_suggestion *suggest_text(const char *text, const rotid_suggest_options *options)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    rotid_deck *deck = read_text(text);
+    rotid_deck *deck = read_handle(text, 0, NULL);
     rotid_suggestion *s;
     if (rotid_suggest(deck, options, NULL, failure, &s))
         fail_msg("%s", failure);
@@ -86,7 +79,7 @@ static void intervals_and_limits_are_those_of_the_test_that_is_made(void **state
     const rotid_suggest_options options = {.size = sizeof options, .modes = 5, .replicates = 1000};
     char failure[ROTID_FAILURE_LENGTH], *before = pool_format(&test_pool, "%s%s", shaft, seven);
     rotid_suggestion *s = suggest_text(before, &options);
-    rotid_deck *bare = read_text(before), *deck = read_text(measured_deck(bare, 5, seven));
+    rotid_deck *bare = read_handle(before, 0, NULL), *deck = read_handle(measured_deck(bare, 5, seven), 0, NULL);
     rotid_identification *fit;
     rotid_diagnosis *d;
     (void)state;
@@ -235,15 +228,13 @@ static void effective_independence_keeps_the_determinant(void **state)
 
 /* ---- after an ambiguous diagnosis */
 
-static char directory[] = "/tmp/suggest.XXXXXX";
-
 /* A job of data that tools/hide makes of a deck. */
 static void make_job(const char *deck, const char *effect, double frequency_noise, unsigned seed, struct job *job)
 {
     static const char *const truth[] = {"core.E=2.2e11", "core.G=8.2e10"};
     struct hide_request request = hide_request_default();
     struct message_list messages;
-    char message[300] = "", *text, *json, *path = pool_format(&test_pool, "%s/case.inp", directory);
+    char message[300] = "", *text, *json, *path = pool_copy_text(&test_pool, folder_path("case.inp"));
     request.deck = deck;
     request.name = "case";
     request.seed = seed;
@@ -263,7 +254,6 @@ static void make_job(const char *deck, const char *effect, double frequency_nois
     message_open(&messages, &test_pool);
     if (deck_read(&test_pool, path, 0, NULL, &messages, job))
         fail_msg("%s", messages.count ? messages.item[0].text : "no deck");
-    remove(path);
     free(text);
     free(json);
 }
@@ -556,6 +546,12 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
                                                "0.9\n*NOISE, FREQUENCY=0.001\n");
     assert_int_equal(deck_add_state(&test_pool, &origin, "bare", cards, &text), 0);
     assert_string_equal(text + sizeof old - 1, cards);
+    /* the machine in operation stays behind all states */
+    const char *machine = "*RUNNING\n** bearings\n*BEARING\n0, 1e8\n";
+    const struct deck_file whole = {"old", pool_format(&test_pool, "%s%s", old, machine)};
+    const struct deck_origin running = {.path = "old", .memory = 1, .nfile = 1, .file = &whole};
+    assert_int_equal(deck_add_state(&test_pool, &running, "bare", cards, &text), 0);
+    assert_string_equal(text, pool_format(&test_pool, "%s%s%s", old, cards, machine));
 }
 
 static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
@@ -566,7 +562,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
     static const enum test_kind kinds[] = {TEST_MASS, TEST_STIFF, TEST_FREE, TEST_MOVED};
     int number[] = {1, 2};
     double z[] = {0.1, 0.4, 0.7};
-    rotid_deck *deck = read_text(old);
+    rotid_deck *deck = read_handle(old, 0, NULL);
     struct job job;
     struct message_list messages;
     const struct deck_memory memory = {.name = "old", .text = old, .length = sizeof old - 1};
@@ -594,7 +590,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
         text = pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text);
-        deck = read_text(text);
+        deck = read_handle(text, 0, NULL);
         assert_int_equal(deck->nstate, 2);
         assert_int_equal(deck->state[0]->nmode, 2);
         assert_int_equal(deck->state[1]->nsensor, 3);
@@ -610,27 +606,6 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
 
 #define STEEL_BAR                                                                                                                \
     "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n0.8, 0.03, 0, 80\n"
-
-/* Where files of these tests lie; the last one is written elsewhere. */
-static const char *file_of(const char *name)
-{
-    return pool_format(&test_pool, "%s/%s", directory, name);
-}
-
-static void put_file(const char *name, const char *text)
-{
-    FILE *file = fopen(file_of(name), "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static int read_path(const char *path, struct states *states)
-{
-    struct message_list messages;
-    message_open(&messages, &test_pool);
-    return deck_read_states(&test_pool, path, NULL, 0, NULL, &messages, states);
-}
 
 /* The deck of a file with a test in it: statuses of deck_propose, after which `notes` are its own. */
 static int propose(const char *from, const char *to, const char *home, enum test_kind kind, const char *cards,
@@ -657,7 +632,7 @@ static int propose(const char *from, const char *to, const char *home, enum test
                                       .sensors_m = z,
                                       .mass_kg = kind == TEST_MASS ? 0.5 : (double)NAN,
                                       .z_m = moves ? 0.25 : (double)NAN};
-    assert_int_equal(read_path(from, &states), 0);
+    states = read_states_at(from, NULL);
     assert_int_equal(deck_write_test(&test_pool, &states.state[states.nstate - 1].job, &test, &own), 0);
     suggested.cards = cards ? cards : own;
     message_open(notes, &test_pool);
@@ -676,29 +651,29 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
                              *modes = "*MODES\n1, 0.2\n2, 0.55\n";
     static const enum test_kind kinds[] = {TEST_MASS, TEST_STIFF, TEST_FREE, TEST_MOVED};
     const char *path[] = {"units.inp", "table.inp", "named.inp", "included.inp", "chosen.inp"};
-    const char *to = file_of("next/next.inp");
+    const char *to = pool_copy_text(&test_pool, folder_path("next/next.inp"));
     struct message_list notes;
     char *text;
     (void)state;
-    assert_int_equal(mkdir(file_of("next"), 0700), 0);
-    put_file("units.inp", pool_format(&test_pool, "%s%s", shaft_mm, modes));
-    put_file("modes.csv", "mode,frequency [kHz]\n1,0.2\n2,0.55\n");
-    put_file("table.inp", pool_format(&test_pool, "%s*MODES,\n File = modes.csv ** of today\n", shaft_mm));
-    put_file("named.inp",
-             pool_format(&test_pool, "%s*STATE, NAME=Mass\n%s*STATE, NAME=heavy\n*DISK\n500, 90\n%s", shaft_mm, modes, modes));
-    put_file("shaft.inc", shaft_mm);
-    put_file("modes.inc", "** measured with care\n*DISK\n500, 90\n*MODES, FILE=modes.csv\n");
-    put_file("included.inp", "*INCLUDE, FILE=shaft.inc\n** the hammer\n*INCLUDE, FILE=modes.inc\n");
-    put_file("chosen.inp",
-             pool_format(&test_pool, "%s*FIT, STATE=one\n*STATE, NAME=one\n%s*STATE, NAME=two\n%s", shaft_mm, modes, modes));
+    assert_int_equal(mkdir(folder_path("next"), 0700), 0);
+    (void)folder_write("units.inp", pool_format(&test_pool, "%s%s", shaft_mm, modes));
+    (void)folder_write("modes.csv", "mode,frequency [kHz]\n1,0.2\n2,0.55\n");
+    (void)folder_write("table.inp", pool_format(&test_pool, "%s*MODES,\n File = modes.csv ** of today\n", shaft_mm));
+    (void)folder_write("named.inp", pool_format(&test_pool, "%s*STATE, NAME=Mass\n%s*STATE, NAME=heavy\n*DISK\n500, 90\n%s",
+                                                shaft_mm, modes, modes));
+    (void)folder_write("shaft.inc", shaft_mm);
+    (void)folder_write("modes.inc", "** measured with care\n*DISK\n500, 90\n*MODES, FILE=modes.csv\n");
+    (void)folder_write("included.inp", "*INCLUDE, FILE=shaft.inc\n** the hammer\n*INCLUDE, FILE=modes.inc\n");
+    (void)folder_write("chosen.inp", pool_format(&test_pool, "%s*FIT, STATE=one\n*STATE, NAME=one\n%s*STATE, NAME=two\n%s",
+                                                 shaft_mm, modes, modes));
     for (int i = 0; i < 4; i++)
         for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
             struct states states;
             const char *home = i == 2 ? "heavy" : NULL;
-            if (propose(file_of(path[i]), to, home, kinds[k], NULL, &notes, &text))
+            if (propose(folder_path(path[i]), to, home, kinds[k], NULL, &notes, &text))
                 fail_msg("%s %s: %s", path[i], test_id(kinds[k]), notes.count ? notes.item[0].text : "no message");
-            put_file("next/next.inp", pool_format(&test_pool, "%s*MODES\n1, 0.199\n2, 0.548\n", text));
-            assert_int_equal(read_path(to, &states), 0);
+            (void)folder_write("next/next.inp", pool_format(&test_pool, "%s*MODES\n1, 0.199\n2, 0.548\n", text));
+            states = read_states_at(to, NULL);
             assert_int_equal(states.nstate, i == 2 ? 3 : 2);
             const struct rotor *was = &states.state[states.nstate - 2].job.rotor,
                                *rotor = &states.state[states.nstate - 1].job.rotor;
@@ -722,27 +697,21 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
             }
         }
     /* in the same folder paths stay */
-    assert_int_equal(propose(file_of("table.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
+    assert_int_equal(propose(folder_path("table.inp"), folder_path("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
     assert_non_null(strstr(text, "*MODES,\n File = modes.csv ** of today\n"));
     /* cards of something else are not handed out: SI in millimetres, and a state that is not read */
     assert_int_equal(
-        propose(file_of("units.inp"), to, NULL, TEST_MASS,
+        propose(folder_path("units.inp"), to, NULL, TEST_MASS,
                 "** proposed\n*STATE, NAME=mass\n*DISK, NAME=known_mass\n0.25, 0.5\n*SENSORS\n1, 100\n2, 400\n3, 700\n"
                 "** *MODES\n** 1, 0.2\n",
                 &notes, &text),
         ROTID_ERROR_ARGUMENT);
     assert_null(text);
     assert_non_null(strstr(notes.item[0].text, "the cards of the test mass would be read as another one"));
-    assert_int_equal(propose(file_of("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_ARGUMENT);
+    assert_int_equal(propose(folder_path("chosen.inp"), to, NULL, TEST_MASS, NULL, &notes, &text), ROTID_ERROR_ARGUMENT);
     assert_null(text);
-    assert_int_equal(propose(file_of("units.inp"), file_of("nowhere/x.inp"), NULL, TEST_MASS, NULL, &notes, &text),
+    assert_int_equal(propose(folder_path("units.inp"), folder_path("nowhere/x.inp"), NULL, TEST_MASS, NULL, &notes, &text),
                      ROTID_ERROR_IO);
-    static const char *const made[] = {"modes.csv", "shaft.inc", "modes.inc", "next/next.inp"};
-    for (size_t i = 0; i < sizeof path / sizeof *path; i++)
-        remove(file_of(path[i]));
-    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
-        remove(file_of(made[i]));
-    assert_int_equal(rmdir(file_of("next")), 0);
 }
 
 /* Modes that *FIT holds out are of the test that was made: the next one may not measure them. This once gave no deck. */
@@ -753,28 +722,15 @@ static void modes_that_are_held_out_stay_with_their_state(void **state)
     struct states states;
     char *text;
     (void)state;
-    put_file("held.inp",
-             pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
-    assert_int_equal(propose(file_of("held.inp"), file_of("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
+    (void)folder_write(
+        "held.inp", pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
+    assert_int_equal(propose(folder_path("held.inp"), folder_path("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
     assert_non_null(strstr(text, "*STATE, NAME=measured, MODES=1-3, HOLDOUT=3\n"));
-    put_file("held.inp", pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text));
-    assert_int_equal(read_path(file_of("held.inp"), &states), 0);
+    (void)folder_write("held.inp", pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text));
+    states = read_states_at(folder_path("held.inp"), NULL);
     static const int held[] = {0, 0, 1, 1};
     assert_memory_equal(states.state[0].job.measurement.holdout, held, sizeof held);
     assert_memory_equal(states.state[1].job.measurement.holdout, held, 2 * sizeof *held);
-    assert_int_equal(remove(file_of("held.inp")), 0);
-}
-
-static int open_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int close_directory(void **state)
-{
-    (void)state;
-    return rmdir(directory);
 }
 
 int main(void)
@@ -794,5 +750,5 @@ int main(void)
         TEST(what_is_proposed_reads_as_it_is_meant),
         TEST(modes_that_are_held_out_stay_with_their_state),
     };
-    return cmocka_run_group_tests(tests, open_directory, close_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -236,39 +236,34 @@ static void what_is_no_number_is_a_dash(void **state)
     assert_non_null(strstr(text, "measured mode 1 at 1184 Hz is mode 2 of the model by its shape\n"));
 }
 
-static const char *printed_cell(void (*put)(FILE *, int, int, double), int width, int digits, double value)
-{
-    static char kept[512];
-    char *made = NULL;
-    size_t length;
-    FILE *stream = open_memstream(&made, &length);
-    assert_non_null(stream);
-    put(stream, width, digits, value);
-    (void)fclose(stream);
-    (void)snprintf(kept, sizeof kept, "%s", made);
-    free(made);
-    return kept;
-}
-
-static void cells_keep_their_width(void **state)
+/* Whatever the number, a column is as wide as its widest cell, and a huge one gets a power of ten. */
+static void columns_are_as_wide_as_their_cells(void **state)
 {
     (void)state;
-    static const double values[] = {NAN, INFINITY, -INFINITY, 0, 1, -1, 1e20, -1e20, 1e300, -1e300, 1e-300};
+    static const double values[] = {NAN, INFINITY, -INFINITY, 0, 1, -1, 1e20, -1e20, 1e300, -1e300, 1e-300, 1234.567, -0.001};
+    char *made = NULL;
+    size_t length, width = 0;
+    FILE *stream = open_memstream(&made, &length);
+    struct table *table = table_open(&test_pool, "");
+    assert_non_null(stream);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        assert_int_equal(strlen(printed_cell(number_cell, 12, 2, values[i])), 12);
-        assert_int_equal(strlen(printed_cell(signed_cell, 12, 2, values[i])), 12);
-        assert_int_equal(strlen(printed_cell(digits_cell, 12, 4, values[i])), 12);
-        assert_int_equal(strlen(printed_cell(power_cell, 12, 4, values[i])), 12);
+        table_row(table);
+        number_column(table, "fixed", NULL, SHOW_FIXED(2), values[i]);
+        number_column(table, "signed", NULL, SHOW_SIGNED(2), values[i]);
+        number_column(table, "digits", NULL, SHOW_DIGITS(4), values[i]);
     }
-    assert_string_equal(printed_cell(number_cell, 8, 2, 1234.567), " 1234.57");
-    assert_string_equal(printed_cell(number_cell, 8, 2, 123456789), " 1.2e+08");
-    assert_string_equal(printed_cell(signed_cell, 9, 1, -2.5e20), " -2.5e+20");
-    assert_string_equal(printed_cell(number_cell, 0, 2, 123456.789), "123456.79");
-    assert_string_equal(printed_cell(digits_cell, 5, 3, NAN), "    -");
-    assert_string_equal(printed_cell(digits_cell, 8, 4, 44459), "   44459"); /* 4.446e+04 would touch its neighbour */
-    assert_string_equal(printed_cell(digits_cell, 8, 4, -4445900), "-4.4e+06");
-    assert_string_equal(printed_cell(digits_cell, 10, 4, 44459), " 4.446e+04");
-    assert_string_equal(printed_cell(digits_cell, 9, 4, 1.2346e-7), "1.235e-07");
+    table_write_text(stream, table, 100);
+    assert_int_equal(fclose(stream), 0);
+    for (const char *line = made; *line; line += strcspn(line, "\n") + 1) {
+        width = width ? width : strcspn(line, "\n");
+        assert_int_equal(strcspn(line, "\n"), width);
+    }
+    assert_non_null(strstr(made, "\n  1.0e20   +1.0e20    1.000e20\n"));
+    assert_non_null(strstr(made, "\n 1234.57  +1234.57        1235\n"));
+    assert_non_null(strstr(made, "\n    0.00      0.00   -0.001000\n")); /* no negative zero */
+    assert_null(strstr(made, "nan"));
+    assert_null(strstr(made, "inf"));
+    free(made);
 }
 
 int main(void)
@@ -280,8 +275,8 @@ int main(void)
         cmocka_unit_test(modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error),
         cmocka_unit_test(sensitivity_shows_table_1_beside_the_paper),
         cmocka_unit_test(what_is_no_number_is_a_dash),
-        cmocka_unit_test(cells_keep_their_width),
+        cmocka_unit_test(columns_are_as_wide_as_their_cells),
         cmocka_unit_test(check_shows_mass_mesh_and_groups),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
 }

@@ -5,6 +5,7 @@
 
 #include "deck/deck.h"
 #include "folder.h"
+#include "reading.h"
 #include "run/run.h"
 #include "support.h"
 
@@ -76,14 +77,6 @@ static int read_fields(const char *const *field, struct message_list *messages, 
     return status;
 }
 
-static const rotid_message *find(const struct message_list *messages, const char *text)
-{
-    for (size_t i = 0; i < messages->count; i++)
-        if (strstr(messages->item[i].text, text))
-            return &messages->item[i];
-    return NULL;
-}
-
 /* ---- one number in another unit: the warning stands at its line and says what to write */
 
 static const struct {
@@ -122,7 +115,7 @@ static void a_number_in_another_unit_is_noticed_with_its_cure(void **state)
         memcpy(field, si, sizeof field);
         field[mistakes[i].field] = mistakes[i].value;
         (void)read_fields(field, &messages, &job);
-        const rotid_message *found = find(&messages, mistakes[i].says);
+        const rotid_message *found = find_message(&messages, mistakes[i].says);
         if (!found)
             print_error("%s: nothing said\n", mistakes[i].says);
         assert_non_null(found);
@@ -171,9 +164,9 @@ static void right_decks_get_no_warning_of_units(void **state)
         (void)snprintf(path, sizeof path, INPUT "%s.inp", decks[i]);
         message_open(&messages, &test_pool);
         assert_status(deck_read(&test_pool, path, 0, NULL, &messages, &job), ROTID_OK);
-        assert_null(find(&messages, "rotors have"));
-        assert_null(find(&messages, "percent"));
-        assert_null(find(&messages, "another unit"));
+        assert_null(find_message(&messages, "rotors have"));
+        assert_null(find_message(&messages, "percent"));
+        assert_null(find_message(&messages, "another unit"));
         if (job.options.solid) /* as fine, and slow */
             continue;
         assert_status(spectrum_compute_parts(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN,
@@ -196,9 +189,9 @@ static void right_decks_get_no_warning_of_units(void **state)
         for (size_t m = 0; m < messages.count; m++)
             if (messages.item[m].line)
                 print_error("deck %zu: %s\n", i, messages.item[m].text);
-        assert_null(find(&messages, "rotors have"));
-        assert_null(find(&messages, "percent"));
-        assert_null(find(&messages, "another unit"));
+        assert_null(find_message(&messages, "rotors have"));
+        assert_null(find_message(&messages, "percent"));
+        assert_null(find_message(&messages, "another unit"));
     }
 }
 
@@ -281,7 +274,7 @@ static void a_deck_in_other_units_is_the_same_rotor(void **state)
     (void)state;
     assert_status(read_fields(si, &messages, &job[0]), ROTID_OK);
     assert_status(read_fields(mm, &messages, &job[1]), ROTID_OK);
-    assert_null(find(&messages, "rotors have"));
+    assert_null(find_message(&messages, "rotors have"));
     const struct rotor *a = &job[0].rotor, *b = &job[1].rotor;
     for (int g = 0; g < 2; g++) {
         assert_close(b->group[g].material.e, a->group[g].material.e, 1e-14, 0);
@@ -319,7 +312,7 @@ static void units_that_cannot_be_are_refused(void **state)
         memcpy(field, si, sizeof field);
         field[HEAD] = wrong[i].card;
         assert_status(read_fields(field, &messages, &job), ROTID_ERROR_SYNTAX);
-        assert_non_null(find(&messages, wrong[i].says));
+        assert_non_null(find_message(&messages, wrong[i].says));
     }
 }
 
@@ -396,7 +389,7 @@ static void a_common_factor_of_all_frequencies_is_named(void **state)
             message_open(&messages, &test_pool);
             assert_close(doubt_units(&job, &spectrum, 0, &messages), cases[i].says ? cases[i].factor : 0, 1e-6, 0);
             if (cases[i].says)
-                assert_non_null(find(&messages, cases[i].says));
+                assert_non_null(find_message(&messages, cases[i].says));
         }
 }
 

@@ -13,7 +13,7 @@ int command_refuse_csv(const struct command *command, const struct csv_part *par
         return EXIT_USAGE;
     }
     pool_open(&pool, NULL);
-    for (int i = 0; i < CSV_MOST_FILES && command->csv && !code; i++) {
+    for (int i = 0; i < CSV_MOST_FILES && part[i].write && command->csv && !code; i++) {
         const char *path = csv_path(&pool, command->csv, &part[i]), *wrong = NULL;
         if (!path)
             continue; /* writing will say so */
@@ -45,8 +45,13 @@ int command_write_csv(struct command *command, const struct csv_part *part, cons
     }
     if (status)
         return command_fail(command, status);
-    if (command_wants_table(command))
-        (void)fprintf(terminal_out(), "\n%s.%s.csv and %s.%s.csv are written\n", command->csv, part[0].suffix, command->csv,
-                      part[1].suffix);
+    for (int i = 0; i < CSV_MOST_FILES && part[i].write && command_wants_table(command); i++) {
+        int last = i + 1 == CSV_MOST_FILES || !part[i + 1].write;
+        (void)fprintf(terminal_out(), "%s%s.%s.csv%s",
+                      !i     ? "\n"
+                      : last ? " and "
+                             : ", ",
+                      command->csv, part[i].suffix, last ? " are written\n" : "");
+    }
     return code;
 }

@@ -22,7 +22,8 @@ static int judge_condensed(struct command *command, const struct job *job, const
     }
     for (int i = 0; i < c->count && alone; i++)
         if (export_master_id(model, i) > DMIG_MOST_ID) {
-            message_add(&command->messages, SEVERITY_ERROR, NULL, 0, 0,
+            struct job_place place = job_sensor_place(job, i);
+            message_add(&command->messages, SEVERITY_ERROR, place.file, place.line, place.column,
                         "sensor %d cannot be the id of a GRID, expected at most %d", export_master_id(model, i), DMIG_MOST_ID);
             return 1;
         }

@@ -55,11 +55,17 @@ static int report(struct command *command, const char *path, int code)
 {
     struct study_result summary;
     struct header header;
-    int status = summary_read(&command->pool, path, &command->messages, &header, &summary);
+    const struct screen to = command_screen(command);
+    struct table *runs = command->csv ? table_open(&command->pool, "") : NULL;
+    int status = summary_read(&command->pool, path, &command->messages, &header, runs, &summary);
     if (status)
         return refuse_study(command, status);
     if (command_wants_table(command))
-        summary_table(terminal_out(), &summary);
+        screen_study(&to, &summary);
+    const struct csv_study tables = {&summary, runs};
+    int written = command_write_csv(command, csv_study_parts, &tables, code);
+    if (written == EXIT_INTERNAL)
+        return written;
     command->head.seed = (double)header.seed;
     if (summary.failed || summary.missing)
         code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
@@ -70,7 +76,9 @@ static int report(struct command *command, const char *path, int code)
 int study_prepare(struct command *command, struct study *study)
 {
     struct plan *plan = POOL_NEW(&command->pool, struct plan);
-    int plans = 0;
+    int plans = 0, wrong = command_refuse_csv(command, csv_study_parts);
+    if (wrong)
+        return wrong;
     if (!plan)
         return command_fail(command, ROTID_ERROR_MEMORY);
     for (int i = 0; i < command->nfile; i++) {
@@ -156,6 +164,9 @@ static int merge(struct command *command)
 int command_study(struct command *command)
 {
     struct study study;
+    int refused = command->study.merge || command->study.summary ? command_refuse_csv(command, csv_study_parts) : EXIT_DONE;
+    if (refused)
+        return refused;
     if (command->study.merge)
         return merge(command);
     if (command->study.summary) {

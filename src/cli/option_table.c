@@ -33,8 +33,8 @@ const struct option_row option_table[] = {
     {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
      .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
 
-    {.name = "csv", .commands = "modes identify uff", .kind = OPTION_WRITES, AT(csv), .value = "NAME",
-     .help = "tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv)",
+    {.name = "csv", .commands = "modes identify uff study", .kind = OPTION_WRITES, AT(csv), .value = "NAME",
+     .help = "tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv; study: also .cells.csv, .runs.csv)",
      .more = "FILE of *MODES, *SENSORS and *SHAPE reads them. Of a universal file they hold its modes as real shapes, in the "
              "direction in which they move most."},
 

@@ -1,11 +1,119 @@
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "deck/deck.h"
 
 #include <string.h>
 
-static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL}, *const axes[] = {"X", "Y", "Z", NULL};
+static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
+                         *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL}, *const ties[] = {"E:G", NULL},
+                         *const discretisations[] = {"BEAM", "SOLID", NULL};
 
 /* clang-format off */
+
+/* ---- the model */
+
+const struct deck_row deck_elastic_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio nu")},
+    LAST};
+const struct deck_row deck_shear_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E [Pa]")},
+    {ABOVE_0(struct material, g, "shear modulus G [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio nu")},
+    LAST};
+const struct deck_row deck_laminated_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E along the axis [Pa]")},
+    {ABOVE_0(struct material, g, "shear modulus G along the axis [Pa]")},
+    {ABOVE_0(struct material, sheet_e, "Young's modulus of a sheet [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio of a sheet")},
+    {ABOVE_0(struct material, stacking, "stacking factor"), OPTIONAL},
+    LAST};
+const struct deck_row deck_density_rows[] = {
+    {ABOVE_0(struct material, rho, "density [kg/m3]")},
+    LAST};
+const struct deck_row deck_shaft_rows[] = {
+    {ABOVE_0(struct segment, length, "length [m]")},
+    {ABOVE_0(struct segment, outer, "outer diameter [m]")},
+    {FROM_0(struct segment, inner, "inner diameter [m]")},
+    ELEMENTS(struct segment),
+    {ABOVE_0(struct segment, stiff_outer, "outer diameter that carries stiffness [m]"), OPTIONAL,
+     .as = offsetof(struct segment, outer)},
+    LAST};
+const struct deck_row deck_beam_rows[] = {
+    {ABOVE_0(struct segment, length, "length [m]")},
+    {ABOVE_0(struct segment, height, "height in the bending plane [m]")},
+    {ABOVE_0(struct segment, width, "width [m]")},
+    ELEMENTS(struct segment),
+    LAST};
+const struct deck_row deck_layer_rows[] = {
+    {ABOVE_0(struct ring, outer, "outer diameter [m]")},
+    {FROM_0(struct ring, inner, "inner diameter [m]")},
+    LAST};
+const struct deck_row deck_perforation_rows[] = {
+    {WHOLE(struct group, holes, "number of holes"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct group, hole_diameter, "hole diameter [m]")},
+    {ABOVE_0(struct group, hole_pitch, "pitch radius [m]")},
+    LAST};
+const struct deck_row deck_tierod_rows[] = {
+    NAME(struct tierod),
+    MATERIAL(struct tierod),
+    {.option = "FROM", POSITION(struct tierod, from)},
+    {.option = "TO", POSITION(struct tierod, to)},
+    {.option = "MODEL", WORD(struct tierod, model, models)},
+    {.option = "SELF_EQUILIBRATED", WORD(struct tierod, self_equilibrated, deck_answers), .standard = 1},
+    {WHOLE(struct tierod, number, "number of rods"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct tierod, diameter, "diameter [m]")},
+    {ABOVE_0(struct tierod, pitch, "pitch radius [m]")},
+    {NUMBER(struct tierod, tension, "tension per rod [N]")},
+    {WHOLE(struct tierod, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL},
+    LAST};
+const struct deck_row deck_bars_rows[] = {
+    NAME(struct bars),
+    MATERIAL(struct bars),
+    {.option = "CENTER", POSITION(struct bars, center)},
+    {.option = "LENGTH", ABOVE_0(struct bars, length, "length [m]")},
+    {.option = "MODEL", WORD(struct bars, model, models)},
+    {WHOLE(struct bars, number, "number of bars"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct bars, diameter, "diameter [m]")},
+    {ABOVE_0(struct bars, pitch, "pitch radius [m]")},
+    {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS)},
+    LAST};
+const struct deck_row deck_sling_rows[] = {
+    {.option = "LENGTH", ABOVE_0(struct rotor, sling, "length [m]")},
+    LAST};
+
+/* ---- measured data, causes, identification, transfer functions */
+
+const struct deck_row deck_noise_rows[] = {
+    {.option = "FREQUENCY", ABOVE_0(struct deck_reader, noise_frequency, ""), OPTIONAL},
+    {.option = "SHAPE", ABOVE_0(struct deck_reader, noise_shape, ""), OPTIONAL},
+    {.option = "FLOOR_FREQUENCY", FROM_0(struct deck_reader, floor_frequency, "(0)"), OPTIONAL},
+    {.option = "FLOOR_SHAPE", FROM_0(struct deck_reader, floor_shape, "(0)"), OPTIONAL},
+    LAST};
+const struct deck_row deck_fit_rows[] = {
+    {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functional_words), OPTIONAL, .standard = -1},
+    {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
+    OTHER("MODES", .what = ""),
+    OTHER("HOLDOUT", .what = ""),
+    OTHER("STATE", .what = ""),
+    {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivative_words), OPTIONAL},
+    OTHER("TIE", .words = ties, .standard = -1),
+    OTHER("MODEL", .words = discretisations),
+    LAST};
+const struct deck_row deck_frf_rows[] = {
+    OTHER("FILE", .what = ""),
+    {.option = "LOW", ABOVE_0(struct frf_request, low_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "HIGH", ABOVE_0(struct frf_request, high_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "STEP", ABOVE_0(struct frf_request, step_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "LINES", WHOLE(struct frf_request, nline, "(1601)"), FROM_TO(2, FRF_MOST_LINES),
+     .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    OTHER("QUANTITY", .words = quantities, .standard = 2),
+    OTHER("DAMPING", .what = ""),
+    OTHER("AXIS", .words = axes, .standard = 2),
+    OTHER("ORIGIN", .what = "[m]"),
+    OTHER("FLIP", .words = deck_answers),
+    LAST};
+
+static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL};
 
 static const struct deck_row nothing[] = {LAST}, material[] = {NAME(struct material), LAST},
     elastic[] = {OTHER("TYPE", .words = types), LAST},
@@ -60,9 +168,9 @@ static const struct deck_row cause[] = {
 
 /* In the order of docs/deck.md. */
 const struct deck_card deck_card_table[] = {
-    {"HEADING", CARD_MODEL, 4, deck_heading, "text; see [References](#references-in-the-heading)", nothing, COMMON},
-    {"UNITS", CARD_MODEL, 0, deck_units, NULL, deck_units_rows, COMMON},
-    {"MATERIAL", CARD_MODEL, 1, deck_material, NULL, material, BY_CODE},
+    {"HEADING", CARD_MODEL, 4, deck_heading, "text; see [References](#references-in-the-heading)", nothing, COMMON, .once = 1},
+    {"UNITS", CARD_MODEL, 0, deck_units, NULL, deck_units_rows, COMMON, .instead = "options such as LENGTH=MM"},
+    {"MATERIAL", CARD_MODEL, 1, deck_material, NULL, material, BY_CODE, .instead = "*ELASTIC and *DENSITY behind it"},
     {"ELASTIC", CARD_MODEL, 1, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
     {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
     {"SHAFT", CARD_MODEL, 2, deck_shaft,
@@ -78,20 +186,20 @@ const struct deck_card deck_card_table[] = {
      .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
      LIST(spring, spring)},
-    {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES},
+    {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES, .instead = "LENGTH=length [m] on the card", .once = 1},
     {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", table, REPLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,
-     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", table, OF_STATE},
+     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", table, OF_STATE, .once = 1},
     {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, OF_STATE},
-    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE},
-    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES},
+    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE, .once = 1},
+    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES, .instead = "options on the card", .once = 1},
     {"CAUSE", CARD_CAUSE, 7, deck_cause, "parameter, value", cause, BY_CODE},
     {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
-    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON},
-    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES},
-    {"STATE", CARD_STATES, 8, deck_state, NULL, state, BY_CODE},
+    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON, .instead = "options on the card", .once = 1},
+    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES, .once = 1},
+    {"STATE", CARD_STATES, 8, deck_state, NULL, state, BY_CODE, .instead = "the cards of the state behind it"},
     {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
     {.name = NULL}};
 /* clang-format on */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "rotid.h"
 #include "run/run.h"
 
@@ -177,17 +177,20 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
-/* Of the groups, tie rods and bars, in this order. */
+/* Of the groups, tie rods, bars and sensors, in this order, and of what was measured. */
 static int keep_places(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place};
-    const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars};
-    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2]);
+    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place, reader->sensor_place};
+    const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars, rotor->nsensor};
+    const struct card *measured = reader->modes_card ? reader->modes_card : reader->measured_card;
+    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2] + count[3]);
     reader->job->part = to;
-    for (int kind = 0; kind < 3 && to; kind++)
+    for (int kind = 0; kind < 4 && to; kind++)
         for (int i = 0; i < count[kind]; i++)
             *to++ = (struct job_place){from[kind][i].file, from[kind][i].line, from[kind][i].column};
+    if (measured)
+        reader->job->measured = (struct job_place){measured->place.file, measured->place.line, measured->place.column};
     return reader->job->part ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -290,6 +293,12 @@ static void read_card(struct deck_reader *reader, const struct card *card, int p
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind || kind->phase != phase)
         return;
+    for (int i = 0; i < card->nline && kind->instead; i++)
+        deck_error(reader, card->line[i].place, "*%s has no data lines, expected %s", card->name, kind->instead);
+    if (kind->once && reader->seen[kind - deck_card_table]++) {
+        deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
+        return;
+    }
     reader->layout = kind->lines;
     if (kind->read)
         kind->read(reader, card);

@@ -5,16 +5,16 @@
  *
  * Comes in: a deck as file or text, --set overrides. Goes out: struct states, one struct job a state, in SI; all errors with
  * file, line, column. Entrances: deck_read_states, deck_read (deck.c). Steps of reading:
- *   deck_text.c          cards, options, data lines with their places, *INCLUDE; deck_override.c: --set
+ *   deck_text.c          cards, options, data lines with their places, *INCLUDE; --set
  *   deck_table.c         tables of FILE= (table_text.c) become data lines
  *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
  *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
  *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, read and written by deck_row.c
  *   deck_fields.c        one number, option or position with range and unit; deck_units.c: factors to SI
- *   deck_model.c, deck_layer.c, deck_members.c  materials, sections; rings; tie rods, bars, holes, *PRELOAD (group.preload)
- *   deck_measured.c, deck_frequencies.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
- *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
- *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
+ *   deck_model.c, deck_members.c  materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
+ *   deck_measured.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
+ *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; deck_state.c: *SET, what a state has of its own
+ *   deck_cause.c         *CAUSE: effects and suspects, faults of the data taken out of them
  *
  * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
  * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
@@ -176,6 +176,7 @@ struct deck_reader {
     struct job *job;
     int nmaterial;
     size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
+    int seen[DECK_MOST_KINDS];         /* of cards that may stand once */
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
     long taken;               /* rows of tables, by all cards */
@@ -189,7 +190,7 @@ struct deck_reader {
     const char *layout;             /* what a data line of the card at hand holds */
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
-    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
+    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
     const char *tie;           /* FIT, TIE=E:G */
     int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
     const char *state;         /* that the cards are of, NULL in a deck without *STATE */
@@ -269,36 +270,23 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
-/* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
-int deck_add_group(struct deck_reader *reader, const struct card *card);
+/* Index of the first `count` groups that is called so [length], -1 where there is none. */
+int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length);
+/* The group that an option names, -1 after an error. */
+int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option);
 
 #define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS ROTOR_MOST_ELEMENTS /* of a segment, of a bundle of rods, of the rotor with its bundles */
 #define DECK_MOST_STATES   100                 /* each is read with all common cards */
 #define DECK_MOST_LINES    10000               /* of a card, and sensors of the rotor: they are compared with each other */
 
-/* The readers of the cards, by file. */
-void deck_units(struct deck_reader *reader, const struct card *card);
-void deck_material(struct deck_reader *reader, const struct card *card);
-void deck_elastic(struct deck_reader *reader, const struct card *card);
-void deck_density(struct deck_reader *reader, const struct card *card);
-void deck_shaft(struct deck_reader *reader, const struct card *card);
-void deck_beam(struct deck_reader *reader, const struct card *card);
-void deck_layer(struct deck_reader *reader, const struct card *card);
-void deck_perforation(struct deck_reader *reader, const struct card *card);
-void deck_tierod(struct deck_reader *reader, const struct card *card);
-void deck_bars(struct deck_reader *reader, const struct card *card);
-void deck_preload(struct deck_reader *reader, const struct card *card);
-void deck_sling(struct deck_reader *reader, const struct card *card);
+/* The readers of the cards (card_table.c). */
+typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
+deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
+    deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
+    deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set;
 /* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
-void deck_heading(struct deck_reader *reader, const struct card *card);
-void deck_sensors(struct deck_reader *reader, const struct card *card);
-void deck_modes(struct deck_reader *reader, const struct card *card);
-void deck_shape(struct deck_reader *reader, const struct card *card);
-void deck_frequencies(struct deck_reader *reader, const struct card *card);
-void deck_noise(struct deck_reader *reader, const struct card *card);
-void deck_cause(struct deck_reader *reader, const struct card *card);
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
@@ -321,12 +309,6 @@ const char *deck_whole_state(struct deck_reader *reader, const char **rest);
  * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
 int deck_read_tables(struct deck_reader *reader, int *nread);
 
-void deck_identify(struct deck_reader *reader, const struct card *card);
-void deck_fit(struct deck_reader *reader, const struct card *card);
-/* The universal file of MEASURED: sensors, modes and shapes. */
-void deck_measured(struct deck_reader *reader, const struct card *card);
-void deck_frf(struct deck_reader *reader, const struct card *card);
-
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);
 /* Takes the faults that CAUSE cards state out of the data, in the order of the cards; the noise is known by then. */
@@ -335,34 +317,15 @@ void deck_apply_corrections(struct deck_reader *reader);
  * data, which this reports, or of a card that was refused, which has been reported. */
 int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place);
 
-/* --------------------------------------------------------------------------------------------- deck cause, deck extended */
-
-/* The reader of CAUSE cards, by file: the card and its values, its target, what corrections do to the data. */
-
-struct cause_card {
-    struct deck_reader *reader;
-    const struct card *card;
-    const char *name;
-    const struct cause_kind *kind;
-    int suspect;
-    struct effect effect;
-    struct correction correction;
-};
-
-/* What a target is called by on the card: its option, NULL where it has none, and what that expects. */
-const char *cause_target_option(enum cause_target target);
-const char *cause_target_expected(enum cause_target target);
-
-/* Reads the target into effect.target or the sensors and the block of the correction; the variant is known. 0, or 1 after an
- * error. */
-int cause_read_target(struct cause_card *c);
-
 /* ------------------------------------------------------------------------------------------------------ deck frequencies */
 
 /* Frequencies at single sensors, from a card or a universal file. */
 
 /* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
 #define POINT_FREQUENCY_RANGE 0.05
+
+/* Values that are not known, NaN; NULL where memory is out. */
+double *deck_new_values(struct deck_reader *reader, size_t count);
 
 /* Room for them in the job, once its sensors and modes are known. 0, or 1 where memory is out. */
 int deck_new_points(struct deck_reader *reader);
@@ -384,9 +347,6 @@ void deck_settle_noise(struct deck_reader *reader);
  * otherwise new. Errors go to the list, of the common cards once; no section: as in the reader. */
 void deck_read_all_states(struct deck_reader *reader, int nread, struct states *states);
 
-/* Cards: *STATE itself, with the modes of that state; *SET. */
-void deck_state(struct deck_reader *reader, const struct card *card);
-void deck_set(struct deck_reader *reader, const struct card *card);
 /* What *SET says of lengths, before anything refers to positions. */
 void deck_set_lengths(struct deck_reader *reader);
 
@@ -461,20 +421,23 @@ struct deck_origin {
     const struct override *override;
 };
 
+/* Of *RUNNING and what stands behind it: the machine in operation ends a deck. */
+#define DECK_BEHIND_STATES DECK_MOST_CARDS
+
 /* A card with all lines up to the next one, comments among them. */
 struct deck_part {
     const char *text, *file; /* file: that it stands in */
     size_t length;
     const struct deck_card *card; /* NULL: not known, and what stands before the first card */
     int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
-    int state;                    /* which *STATE it stands behind, from 0; -1: none */
+    int state;                    /* which *STATE it stands behind, from 0; -1: none; DECK_BEHIND_STATES */
     int changed;
 };
 
 struct deck_edit {
     struct pool *pool;
     const struct deck_origin *origin;
-    int npart, nstate, status;
+    int npart, nstate, running, status; /* running: of the part at hand, *RUNNING has been met */
     size_t room;
     struct deck_part *part;
 };
@@ -611,40 +574,5 @@ int table_is_number(const char *text);
 
 /* "C7" of row 7 and column 3, as spreadsheets name it. Returns `name`. */
 const char *table_cell_name(int row, int column, char name[TABLE_CELL_LENGTH]);
-
-/* --------------------------------------------------------------------------------------------------------- table columns */
-
-/* Which column of a table holds what: by the names in its first row, or, where that begins with a number, by their order. */
-
-#define TABLE_MOST_VALUES 8
-
-struct csv_column {
-    const char *names; /* in lower case, separated by bars; the first is that of messages */
-    const char *si;    /* unit that its numbers have inside, as for deck_unit_factor; NULL: none */
-    int may_lack;
-};
-
-/* What the columns of a card are called. */
-struct table_kind {
-    const char *card;
-    int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
-    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
-    struct csv_column key[3];                   /* what else a row says; ended by one without names */
-};
-
-/* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
-struct table_numbered {
-    int number;
-    int of_mode, of_sensor, is_std; /* as the name says */
-};
-
-struct table_columns {
-    int header;                   /* the first row names the columns */
-    int value[TABLE_MOST_VALUES]; /* index of a column, -1: there is none */
-    int key[3];
-    double in_si[TABLE_MOST_VALUES]; /* of a unit in the header, 0: none there */
-};
-
-extern const struct table_kind table_kinds[]; /* ended by one without card */
 
 #endif

@@ -1,6 +1,6 @@
 /* Two jobs field by field: what a deck was meant to say, and what it is read as. Fields are those of the rows of the cards
- * (card_rows.c), so a field that is read is compared. */
-#include "deck/card_table.h"
+ * (card_table.c), so a field that is read is compared. */
+#include "deck/deck_row.h"
 
 #include <math.h>
 #include <stddef.h>

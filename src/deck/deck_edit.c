@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 
 static size_t line_length(const char *line, const char *stop)
 {
@@ -190,6 +190,9 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
             .text = text, .file = file, .length = (size_t)(end - text), .card = deck_card_find(name), .state = e->nstate - 1};
         if (part->card && !strcmp(name, "STATE"))
             part->state = e->nstate++;
+        e->running |= !strcmp(name, "RUNNING");
+        if (e->running)
+            part->state = DECK_BEHIND_STATES;
         if (strcmp(name, "INCLUDE") != 0)
             continue;
         part->include = 1;

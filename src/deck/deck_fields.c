@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "rotid.h"
 
@@ -123,16 +124,24 @@ int deck_count(struct deck_reader *reader, const struct data_line *line, int mos
     return 1;
 }
 
-static int find_group(const struct deck_reader *reader, const char *name, size_t length)
+int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length)
 {
-    for (int g = 0; g < reader->job->rotor.ngroup; g++) {
-        const char *candidate = reader->job->rotor.group[g].name;
-        char copy[DECK_LINE_LENGTH + 1];
-        (void)snprintf(copy, sizeof copy, "%.*s", (int)length, name);
-        if (same_text(copy, candidate))
+    for (int g = 0; g < count; g++) {
+        const char *known = reader->job->rotor.group[g].name;
+        if (strlen(known) == length && !strncasecmp(known, name, length))
             return g;
     }
     return -1;
+}
+
+int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option)
+{
+    static const char expected[] = "name of a *SHAFT, *BEAM or *LAYER";
+    const char *name = deck_option(reader, card, option, expected);
+    int group = name ? deck_find_group(reader, reader->job->rotor.ngroup, name, strlen(name)) : -1;
+    if (name && group < 0)
+        deck_error(reader, card_option(card, option)->value_place, "group %s is not defined, expected the %s", name, expected);
+    return group;
 }
 
 int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z)
@@ -146,7 +155,7 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
     *z = strtod(text, &end) * in_si;
     if (end == text || *end) {
         const char *which = text;
-        int group = dot ? find_group(reader, text, (size_t)(dot - text)) : -1;
+        int group = dot ? deck_find_group(reader, reader->job->rotor.ngroup, text, (size_t)(dot - text)) : -1;
         if (group >= 0) {
             rotor_group_span(&reader->job->rotor, group, &from, &to);
             which = dot + 1;

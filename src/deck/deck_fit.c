@@ -229,13 +229,7 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     static const char *const ties[] = {"E:G", NULL}, *const models[] = {"BEAM", "SOLID", NULL};
     struct job *job = reader->job;
     const struct card_option *option;
-    if (reader->fit_card) {
-        deck_error(reader, card->place, "*FIT is given twice, expected once");
-        return;
-    }
     reader->fit_card = card;
-    for (int i = 0; i < card->nline; i++)
-        deck_error(reader, card->line[i].place, "*FIT has no data lines, expected options on the card");
     job->options.fit.functional = -1;
     (void)deck_read_options(reader, card, deck_fit_rows, &job->options.fit);
     job->options.has_fit = job->options.fit.functional >= 0;

@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "deck/deck.h"
 #include "deck/deck_row.h"
+#include "diagnose/causes/causes.h"
 
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */
 static const char *measured_file(struct deck_reader *reader, const struct card *card, const struct card_option *option)
@@ -67,14 +68,6 @@ static void read_nodes_of_file(struct deck_reader *reader, const struct card *ca
         deck_error(reader, any->place, "%s places the nodes of a file, expected FILE beside it", any->name);
 }
 
-static int is_sensor(const struct rotor *rotor, int id)
-{
-    for (int s = 0; s < rotor->nsensor; s++)
-        if (rotor->sensor[s].id == id)
-            return 1;
-    return 0;
-}
-
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */
 static void read_pairs(struct deck_reader *reader, const struct card *card)
 {
@@ -87,7 +80,7 @@ static void read_pairs(struct deck_reader *reader, const struct card *card)
         bad |= deck_integer(reader, line, 0, "response sensor id", 1, 1000000000, &pair.response);
         bad |= deck_integer(reader, line, 1, "reference sensor id", 1, 1000000000, &pair.reference);
         for (int f = 0; f < 2 && !bad && !card_option(card, "FILE"); f++)
-            if (!is_sensor(&reader->job->rotor, f ? pair.reference : pair.response)) {
+            if (sensor_find(reader->job, f ? pair.reference : pair.response) < 0) {
                 deck_error(reader, line->field[f].place, "sensor %d is not among *SENSORS, expected one that is",
                            f ? pair.reference : pair.response);
                 bad = 1;
@@ -108,11 +101,6 @@ void deck_frf(struct deck_reader *reader, const struct card *card)
     struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *option;
     int word;
-    if (reader->frf_card) {
-        deck_error(reader, card->place, "*FRF is given twice, expected once");
-        return;
-    }
-    reader->frf_card = card;
     *frf = (struct frf_request){.given = 1, .quantity = FRF_ACCELERATION};
     if ((option = card_option(card, "FILE")))
         frf->file = measured_file(reader, card, option);

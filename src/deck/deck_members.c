@@ -6,15 +6,8 @@
 
 static struct group *named_group(struct deck_reader *reader, const struct card *card)
 {
-    struct rotor *rotor = &reader->job->rotor;
-    const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT, *BEAM or *LAYER");
-    for (int g = 0; name && g < rotor->ngroup; g++)
-        if (same_text(rotor->group[g].name, name))
-            return &rotor->group[g];
-    if (name)
-        deck_error(reader, card_option(card, "GROUP")->value_place,
-                   "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
-    return NULL;
+    int group = deck_option_group(reader, card, "GROUP");
+    return group < 0 ? NULL : &reader->job->rotor.group[group];
 }
 
 /* 0, or 1 after an error */
@@ -182,9 +175,5 @@ int deck_check_disk(struct deck_reader *reader, const struct data_line *line, co
 
 void deck_sling(struct deck_reader *reader, const struct card *card)
 {
-    if (reader->job->rotor.sling > 0)
-        deck_error(reader, card->place, "*SLING is given twice, expected once");
-    for (int i = 0; i < card->nline; i++)
-        deck_error(reader, card->line[i].place, "*SLING has no data lines, expected LENGTH=length [m] on the card");
     (void)deck_read_options(reader, card, deck_sling_rows, &reader->job->rotor);
 }

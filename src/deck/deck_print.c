@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "diagnose/causes/causes.h"
 #include "rotid.h"
 

@@ -1,4 +1,4 @@
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -77,20 +77,26 @@ enum card_states {
 
 struct deck_card {
     const char *name;
-    enum card_section section; /* of docs/deck.md */
-    int phase;                 /* cards are read by phases: what a later one refers to comes first, wherever it stands */
-    void (*read)(struct deck_reader *reader, const struct card *card); /* NULL: into a list of structs of the rotor */
+    enum card_section section;  /* of docs/deck.md */
+    int phase;                  /* cards are read by phases: what a later one refers to comes first, wherever it stands */
+    deck_card_reader *read;     /* NULL: into a list of structs of the rotor */
     const char *lines;          /* what a data line holds, in messages too; NULL: there is none */
     const struct deck_row *row; /* ended by one without option and what */
     enum card_states states;
     size_t size, list, count; /* of a list: a struct, and where in struct rotor pointer and number stand */
     int (*check)(struct deck_reader *reader, const struct data_line *line, const void *one); /* of a list: what no row says */
+    int once;                                                                                /* it may stand once */
+    const char *instead; /* of a card without data lines, what is expected in their place */
 };
 
 /* Rows of cards that have code of their own. */
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
     deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[];
+
+/* The cards there are, ended by one without a name; that of a name, NULL where there is none. */
+extern const struct deck_card deck_card_table[];
+const struct deck_card *deck_card_find(const char *name);
 
 int deck_row_is_last(const struct deck_row *row);
 

@@ -10,13 +10,44 @@
 
 #define NAME_LENGTH 64
 
+/* Which column of a table holds what: by the names in its first row, or, where that begins with a number, by their order. */
+
+#define TABLE_MOST_VALUES 8
+
+struct csv_column {
+    const char *names; /* in lower case, separated by bars; the first is that of messages */
+    const char *si;    /* unit that its numbers have inside, as for deck_unit_factor; NULL: none */
+    int may_lack;
+};
+
+/* What the columns of a card are called. */
+struct table_kind {
+    const char *card;
+    int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
+    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
+    struct csv_column key[3];                   /* what else a row says; ended by one without names */
+};
+
+/* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
+struct table_numbered {
+    int number;
+    int of_mode, of_sensor, is_std; /* as the name says */
+};
+
+struct table_columns {
+    int header;                   /* the first row names the columns */
+    int value[TABLE_MOST_VALUES]; /* index of a column, -1: there is none */
+    int key[3];
+    double in_si[TABLE_MOST_VALUES]; /* of a unit in the header, 0: none there */
+};
+
 #define NOTHING                                                                                                                  \
     {                                                                                                                            \
         NULL, NULL, 0                                                                                                            \
     }
 
 /* clang-format off */
-const struct table_kind table_kinds[] = {
+static const struct table_kind table_kinds[] = { /* ended by one without card */
     {"MODES", 0,
      {{"mode|mode number|number|no", NULL, 0},
       {"frequency|f|freq|natural frequency|eigenfrequency", "Hz", 0},

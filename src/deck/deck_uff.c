@@ -291,16 +291,12 @@ static int choose_modes(struct import *import, const struct uff_shape **chosen)
 
 static void place_components(struct import *import, const struct uff_shape *shape, const double *value, double *target)
 {
-    const struct rotor *rotor = &import->reader->job->rotor;
     int missing = 0;
     for (int i = 0; i < shape->node_count; i++) {
-        int found = 0;
-        for (int s = 0; s < rotor->nsensor && !found; s++)
-            if (rotor->sensor[s].id == shape->node[i]) {
-                target[s] = value[i];
-                found = 1;
-            }
-        missing += !found;
+        int s = sensor_find(import->reader->job, shape->node[i]);
+        if (s >= 0)
+            target[s] = value[i];
+        missing += s < 0;
     }
     if (missing)
         deck_error(import->reader, in_file(import, shape->line),
@@ -358,11 +354,10 @@ static int import_hammer(struct import *import, const struct uff_shape *mode)
     if (!option)
         return 0;
     long id = strtol(option->value, &end, 10);
-    for (int s = 0; s < job->rotor.nsensor && end != option->value && !*end; s++)
-        if (job->rotor.sensor[s].id == id) {
-            job->measurement.hammer = (int)id;
-            return 0;
-        }
+    if (end != option->value && !*end && sensor_find(job, (int)id) >= 0) {
+        job->measurement.hammer = (int)id;
+        return 0;
+    }
     deck_error(import->reader, option->value_place, "HAMMER is %s, expected the id of a sensor of %s", option->value,
                import->path);
     return 1;
@@ -383,15 +378,13 @@ static int import_modes(struct import *import)
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, count);
     job->measurement.damping = POOL_ARRAY(reader->pool, double, count);
     job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, count);
-    job->measurement.shape = POOL_ARRAY(reader->pool, double, components);
-    job->measurement.shape_std = POOL_ARRAY(reader->pool, double, components);
+    job->measurement.shape = deck_new_values(reader, components);
+    job->measurement.shape_std = deck_new_values(reader, components);
     if (!chosen || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
         !job->measurement.frequency_std || !job->measurement.shape || !job->measurement.shape_std) {
         reader->out_of_memory = 1;
         return 1;
     }
-    for (size_t i = 0; i < components; i++)
-        job->measurement.shape[i] = job->measurement.shape_std[i] = NAN;
     int bad = 0, numbered = uff_modes_are_numbered(count, chosen);
     for (int k = 0; k < count; k++) {
         job->measurement.number[k] = numbered ? chosen[k]->number : k + 1;
@@ -413,10 +406,6 @@ static int import_modes(struct import *import)
 void deck_measured(struct deck_reader *reader, const struct card *card)
 {
     struct import import = {.reader = reader, .card = card};
-    if (reader->measured_card) {
-        deck_error(reader, card->place, "*MEASURED is given twice, expected once");
-        return;
-    }
     reader->measured_card = card;
     if (reader->modes_card) {
         deck_error(reader, card->place, "modes are given by *MODES and by *MEASURED, expected one of them");

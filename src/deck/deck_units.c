@@ -236,8 +236,6 @@ void deck_doubt_rotor(struct deck_reader *reader)
 
 void deck_units(struct deck_reader *reader, const struct card *card)
 {
-    for (int i = 0; i < card->nline; i++)
-        deck_error(reader, card->line[i].place, "*UNITS has no data lines, expected options such as LENGTH=MM");
     for (int q = 0; q < DECK_QUANTITIES; q++) {
         const struct card_option *option = card_option(card, quantity[q].option);
         int unit = option ? deck_option_word(reader, option, quantity[q].word) : -1;

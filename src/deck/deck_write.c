@@ -6,7 +6,7 @@
  *   2 compose   edits of the parts (deck_edit.c): starts, suspects that were named, and what step 4 asked for; then what is new
  *   3 read      the whole text as any deck is read
  *   4 compare   deck_compare.c: nothing differs: done; else step 2 with more, as long as there is more that can be stated */
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,6 +124,40 @@ static void share_mesh(struct states *meant)
                 if (b->segment[i].elements > a->segment[i].elements)
                     a->segment[i].elements = b->segment[i].elements;
         }
+}
+
+/* Whether all states have it, with the same values: a place may lie beyond the end of a shorter one. */
+static int is_in_all(const struct writing *w, const struct effect *effect)
+{
+    int all = 0;
+    for (int s = 0; s < w->meant.nstate; s++)
+        for (int i = 0; i < w->meant.state[s].job.rotor.neffect; i++) {
+            const struct effect *other = &w->meant.state[s].job.rotor.effect[i];
+            int same = same_text(other->name, effect->name);
+            for (int p = 0; p < effect_parameters(effect) && same; p++)
+                same = deck_is_near(other->value[p], effect->value[p]);
+            all += same;
+        }
+    return all == w->meant.nstate;
+}
+
+/* The unknowns of a cause that some states lack are each state's own, as the reader names those. */
+static int name_unknowns(struct writing *w)
+{
+    for (int s = 0; s < w->meant.nstate && w->meant.nstate > 1; s++) {
+        const struct job *job = &w->meant.state[s].job;
+        for (int p = 0; p < job->unknowns.nparameter; p++) {
+            const struct parameter *parameter = &job->unknowns.parameter[p];
+            rotid_parameter *bounds = &job->unknowns.bounds[p];
+            if (parameter->kind != PARAMETER_EFFECT || strchr(bounds->name, ':') ||
+                is_in_all(w, &job->rotor.effect[parameter->index]))
+                continue;
+            bounds->name = pool_format(w->pool, "%s:%s", w->meant.state[s].name, bounds->name);
+            if (!bounds->name)
+                return ROTID_ERROR_MEMORY;
+        }
+    }
+    return ROTID_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------ where things stand */
@@ -537,21 +571,6 @@ static void edit_names(struct writing *w, int s, const char *card)
 
 /* ------------------------------------------------------------------------------------------------ what is new */
 
-/* Whether all states have it, with the same values: a place may lie beyond the end of a shorter one. */
-static int is_in_all(const struct writing *w, const struct effect *effect)
-{
-    int all = 0;
-    for (int s = 0; s < w->meant.nstate; s++)
-        for (int i = 0; i < w->meant.state[s].job.rotor.neffect; i++) {
-            const struct effect *other = &w->meant.state[s].job.rotor.effect[i];
-            int same = same_text(other->name, effect->name);
-            for (int p = 0; p < effect_parameters(effect) && same; p++)
-                same = deck_is_near(other->value[p], effect->value[p]);
-            all += same;
-        }
-    return all == w->meant.nstate;
-}
-
 /* What state s has besides: of the causes and unknowns those that are common to all, or those of its own. */
 static void put_new(struct writing *w, int s, int common, struct deck_writer *out)
 {
@@ -711,8 +730,10 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
         return w.todo && w.of ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
     for (int s = 0; s < meant->nstate && !status; s++)
         status = prepare_state(&w, s);
-    if (!status)
+    if (!status) {
         share_mesh(&w.meant);
+        status = name_unknowns(&w);
+    }
     const char *path = given->state->job.deck, *card = "";
     for (int attempt = 0; attempt < ATTEMPTS && !status && left > 0; attempt++) {
         struct states read;

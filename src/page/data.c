@@ -102,8 +102,8 @@ static void write_key(FILE *out, const char *key)
 /* The keys of a run that figures show. */
 static void write_run(FILE *out, const cJSON *run)
 {
-    static const char *const keys[] = {"run",          "cell",       "replicate", "start",    "status",  "objective",
-                                       "chi2_per_dof", "parameters", "modes",     "history", "truth", "verdict", "score"};
+    static const char *const keys[] = {"run",        "cell",  "replicate", "start", "status",  "objective", "chi2_per_dof",
+                                       "parameters", "modes", "history",   "truth", "verdict", "score"};
     int first = 1;
     (void)fputc('{', out);
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {

@@ -49,7 +49,7 @@ static void read_lines(const struct json_place *lines, struct result *result)
                                         .blas = ""};
     if (reader->status)
         return;
-    int status = study ? summary_read(reader->pool, reader->file, reader->messages, &header, study) : ROTID_ERROR_MEMORY;
+    int status = study ? summary_read(reader->pool, reader->file, reader->messages, &header, NULL, study) : ROTID_ERROR_MEMORY;
     result->study = study;
     if (status)
         reader->status = status == ROTID_ERROR_MEMORY ? status : ROTID_ERROR_SYNTAX;

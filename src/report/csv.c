@@ -39,11 +39,13 @@ int csv_write(struct pool *pool, const char *path, const struct csv_part part[CS
 {
     struct output output[CSV_MOST_FILES];
     const char *name[CSV_MOST_FILES];
-    int count = 0, status = ROTID_OK, which = 0;
-    for (int i = 0; i < CSV_MOST_FILES; i++)
+    int files = 0, count = 0, status = ROTID_OK, which = 0;
+    for (; files < CSV_MOST_FILES && part[files].write; files++)
+        ;
+    for (int i = 0; i < files; i++)
         if (!(name[i] = csv_path(pool, path, &part[i])))
             return ROTID_ERROR_MEMORY;
-    while (count < CSV_MOST_FILES && !status) {
+    while (count < files && !status) {
         *failed = name[count];
         status = output_open(&output[count], name[count]);
         if (status)
@@ -55,7 +57,7 @@ int csv_write(struct pool *pool, const char *path, const struct csv_part part[CS
         output_abandon(&output[i]);
     if (status)
         return status;
-    status = output_close_all(CSV_MOST_FILES, output, &which);
+    status = output_close_all(files, output, &which);
     *failed = status ? name[which] : NULL;
     return status;
 }

@@ -482,7 +482,7 @@ static void print_axis(const struct screen *to, const rotid_diagnosis *d)
     wrap_close(&wrap);
 }
 
-static void table_misfit(const struct screen *to, const rotid_diagnosis *d)
+static void print_misfit(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_identification *base = d->base;
     if (!base)
@@ -528,7 +528,7 @@ static void print_round(const struct screen *to, const rotid_diagnosis *d, int n
                       round->required_margin);
 }
 
-static void table_evidence(const struct screen *to, const rotid_diagnosis *d)
+static void print_evidence(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->nrounds)
         (void)fprintf(to->out,
@@ -537,7 +537,7 @@ static void table_evidence(const struct screen *to, const rotid_diagnosis *d)
         print_round(to, d, i);
 }
 
-static void table_shares(const struct screen *to, const rotid_diagnosis *d)
+static void print_shares(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
     if (!v->nexplanations)
@@ -550,7 +550,7 @@ static void table_shares(const struct screen *to, const rotid_diagnosis *d)
     table_write_text(to->out, table, to->width);
 }
 
-static void table_parameters(const struct screen *to, const rotid_diagnosis *d)
+static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
     char figure[32];
@@ -755,7 +755,7 @@ static void print_foot(const struct screen *to, const struct result_head *head, 
     wrap_close(&wrap);
 }
 
-static void table_gain(const struct screen *to, const rotid_diagnosis *d)
+static void print_gain(const struct screen *to, const rotid_diagnosis *d)
 {
     const struct {
         const rotid_identification *fit;
@@ -777,7 +777,7 @@ static void table_gain(const struct screen *to, const rotid_diagnosis *d)
                           IN_DIGITS(3, fits[i].fit->intervals_widened_by));
 }
 
-static void table_detection_limits(const struct screen *to, const rotid_diagnosis *d)
+static void print_detection_limits(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->ndetectable)
         (void)fprintf(to->out,
@@ -790,14 +790,14 @@ void screen_diagnose(const struct screen *to, const struct result *result)
     const rotid_diagnosis *d = result->diagnose;
     print_heading(to, &result->head);
     print_verdict(to, d);
-    table_shares(to, d);
-    table_parameters(to, d);
+    print_shares(to, d);
+    print_parameters(to, d);
     print_today(to, d);
     print_numerical(to, d);
     print_data(to, d);
-    table_misfit(to, d);
-    table_evidence(to, d);
-    table_gain(to, d);
-    table_detection_limits(to, d);
+    print_misfit(to, d);
+    print_evidence(to, d);
+    print_gain(to, d);
+    print_detection_limits(to, d);
     print_foot(to, &result->head, d);
 }

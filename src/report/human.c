@@ -85,7 +85,7 @@ const char *human_column(struct pool *pool, double value, int decimals, const ch
     if (!isfinite(value))
         return DASH;
     if (fabs(value) >= WIDEST)
-        return human_digits(pool, value, 2);
+        return or_nothing(pool_format(pool, "%s%s", value > 0 ? plus : "", human_digits(pool, value, 2)));
     (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     int zero = strspn(digits, "0.") == strlen(digits);
     return or_nothing(pool_format(pool, "%s%s", value < 0 && !zero ? MINUS : zero ? "" : plus, digits));

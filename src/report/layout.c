@@ -6,49 +6,6 @@
 
 #include "base/base.h"
 
-static void put_number(FILE *out, int width, const char *text)
-{
-    (void)fprintf(out, "%*s", width, text);
-}
-
-/* A text of a number, and one of few digits where that is wider than its cell. */
-static void put_wide(FILE *out, int width, const char *text, double value)
-{
-    char few[32];
-    (void)snprintf(few, sizeof few, "%.1e", value);
-    put_number(out, width, width > 0 && (int)strlen(text) > width ? few : text);
-}
-
-void number_cell(FILE *out, int width, int decimals, double value)
-{
-    char text[400]; /* the largest number has 309 digits before its point */
-    (void)snprintf(text, sizeof text, "%.*f", decimals, value);
-    put_wide(out, width, isfinite(value) ? text : "-", value);
-}
-
-void signed_cell(FILE *out, int width, int decimals, double value)
-{
-    char text[400];
-    (void)snprintf(text, sizeof text, "%+.*f", decimals, value);
-    put_wide(out, width, isfinite(value) ? text : "-", value);
-}
-
-void digits_cell(FILE *out, int width, int digits, double value)
-{
-    char text[64];
-    (void)layout_number(text, digits, value);
-    if (strlen(text) >= (size_t)width && strchr(text, 'e') && fabs(value) >= 1) /* else it touches its neighbour: 4.446e+04 */
-        (void)snprintf(text, sizeof text, fabs(value) < 1e6 ? "%.0f" : "%.1e", value);
-    put_number(out, width, text);
-}
-
-void power_cell(FILE *out, int width, int decimals, double value)
-{
-    char text[64];
-    (void)snprintf(text, sizeof text, "%.*e", decimals, value);
-    put_number(out, width, isfinite(value) ? text : "-");
-}
-
 const char *layout_number(char text[64], int digits, double value)
 {
     if (isfinite(value))
@@ -66,14 +23,6 @@ const char *layout_unit(const char *unit)
 const char *layout_gap(const char *unit)
 {
     return *layout_unit(unit) ? " " : "";
-}
-
-void chance_cell(FILE *out, int width, double value)
-{
-    if (value < 0.001)
-        put_number(out, width, "<0.001");
-    else
-        number_cell(out, width, 3, value);
 }
 
 /* Bytes of the next column: of a character, or one that is shown in its place. */

@@ -6,16 +6,15 @@
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
  *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
- *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*), and
- *                     what the command shows on the screen (screen_*); chart.c: bars, strips along the axis
- *   screen.c          heading, notes, name of a state, a table on the screen
- *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
- *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
- *   layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped
- *   csv.c, csv_uff.c  --csv: the files of a command, all or none; quoting, formulas made harmless; universal files
- *   frf_file.c        frf_write_file: synthesised functions as sets 58
- *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
- *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
+ *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*),
+ * and what the command shows on the screen (screen_*); chart.c: bars, strips along the axis screen.c          heading, notes,
+ * name of a state, a table on the screen result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that
+ * have no struct in rotid.h human.c           numbers for people: human_value: prefix of the unit, four significant digits;
+ * human_interval: 95 % layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped csv.c, csv_uff.c
+ * --csv: the files of a command, all or none; quoting, formulas made harmless; universal files frf_file.c        frf_write_file:
+ * synthesised functions as sets 58 output.c          output_open, output_close: a file is written beside its name, then renamed;
+ * several at once, all or none terminal.c        standard output and error: memory until terminal_flush; one filter makes control
+ * characters harmless
  *
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
@@ -65,11 +64,11 @@ void strip_print(const struct strip *strip, FILE *out, int width, const char *la
 
 /* Results as tables for a spreadsheet: commas, a decimal point, names in the first row, which `FILE=` of a deck reads. */
 
-#define CSV_MOST_FILES 2
+#define CSV_MOST_FILES 3
 
 struct table;
 
-/* A file NAME.suffix; `from` is handed to `write`. */
+/* A file NAME.suffix.csv; `from` is handed to `write`. The last ones of a list may have none. */
 struct csv_part {
     const char *suffix;
     int (*write)(FILE *out, struct pool *pool, const void *from); /* a status */
@@ -173,21 +172,12 @@ const char *human_seconds(struct pool *pool, double seconds);
 
 /* Cells of tables and running text of a given width. A text may be UTF-8: columns are counted, not bytes. */
 
-/* A number in the width given, or a dash where there is none; one that is too large for it with an exponent. Width 0:
- * as wide as it is. */
-void number_cell(FILE *out, int width, int decimals, double value);
-void signed_cell(FILE *out, int width, int decimals, double value);
-/* The same with a number of significant digits, and with decimals before a power of ten. */
-void digits_cell(FILE *out, int width, int digits, double value);
-void power_cell(FILE *out, int width, int decimals, double value);
 /* A number within a sentence, or a dash. Returns text. */
 const char *layout_number(char text[64], int digits, double value);
 #define IN_DIGITS(digits, value) layout_number((char[64]){""}, (digits), (value))
 /* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
 const char *layout_unit(const char *unit);
 const char *layout_gap(const char *unit);
-/* A probability: three decimals, "<0.001" below. */
-void chance_cell(FILE *out, int width, double value);
 /* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
 void text_cell(FILE *out, int width, const char *text);
 /* The same of any length, with at least `width` columns. */

@@ -142,7 +142,8 @@ void screen_uff(const struct screen *to, const char *path, const struct listing 
                       listing->units->length, listing->units->force);
     screen_table(to, table_of_sets(to->pool, listing, to->verbose));
     if (listing->function_count)
-        screen_say(to, "from and step in s or Hz; min and max of the modulus where values are complex; values in the unit of the file");
+        screen_say(
+            to, "from and step in s or Hz; min and max of the modulus where values are complex; values in the unit of the file");
     if (listing->doubt_count)
         (void)fprintf(out, "\ndoubtful places\n");
     for (size_t i = 0; i < listing->doubt_count; ++i) {

@@ -3,7 +3,7 @@
 #include "result/result.h"
 #include "run/run.h"
 
-static const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
+const char *const study_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
 
 static const struct record_field value_fields[] = {
     TEXT(struct run_value, name, 0),
@@ -85,7 +85,7 @@ static const struct record_field run_fields[] = {
     STRUCT(struct study_run, cell, 0, study_axes_record),
     INTEGER(struct study_run, replicate, FROM_0),
     INTEGER(struct study_run, start, FROM_0),
-    WORD(struct study_run, status, 0, run_status_words),
+    WORD(struct study_run, status, 0, study_status_words),
     TEXT(struct study_run, error, MAY_BE_NULL),
     INTEGER(struct study_run, sensors, IF_KNOWN | FROM_0),
     MAP(struct study_run, truth, IF_KNOWN),

@@ -470,7 +470,7 @@ const rotid_noise *noise_of_result(const struct result *result);
 enum { STUDY_CONVERGED, STUDY_AT_BOUND, STUDY_NOT_CONVERGED, STUDY_FAILED };
 enum { STUDY_VERDICTS = 4, STUDY_SCORES = 8 };
 /* The words of the enum above, and of enum score; NULL behind the last. */
-extern const char *const score_words[];
+extern const char *const study_status_words[], *const score_words[];
 
 /* of what the parts mean: 16 hexadecimal digits each; comments, blanks and places of files do not count */
 struct study_digests {

@@ -94,7 +94,7 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     int clash = pair_modes(nmode, candidates, correlation, c->number, c->basis, used);
     if (clash) {
         c->clash = clash - 1;
-        message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
+        message_add(notes, SEVERITY_ERROR, job->measured.file, job->measured.line, job->measured.column,
                     "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
                     "that differ; a mode of the rotor on its supports is none of them (leave it out: rotid ema --band)",
                     job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1]);

@@ -149,9 +149,11 @@ static void pass_on(const struct message_list *from, const char *name, struct me
 {
     for (size_t i = 0; i < from->count; i++)
         if (name)
-            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s (state %s)", from->item[i].text, name);
+            message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column,
+                        "%s (state %s)", from->item[i].text, name);
         else
-            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s", from->item[i].text);
+            message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column, "%s",
+                        from->item[i].text);
 }
 
 /* A state while it is fitted. */

@@ -10,6 +10,12 @@ struct job_place job_part_place(const struct job *job, int failed)
     return job->part[failed < rotor->ngroup + rotor->ntierod + rotor->nbars ? failed : 0];
 }
 
+struct job_place job_sensor_place(const struct job *job, int sensor)
+{
+    const struct rotor *rotor = &job->rotor;
+    return job->part ? job->part[rotor->ngroup + rotor->ntierod + rotor->nbars + sensor] : (struct job_place){job->deck, 1, 1};
+}
+
 int job_knows_frequency_noise(const struct job *job)
 {
     for (int k = 0; k < job->measurement.nmode; k++)

@@ -142,7 +142,8 @@ struct job {
     rotid_reference *reference; /* lines "paper error_percent = -3.83, 8.38, ..." of the heading */
 
     struct rotor rotor;
-    const struct job_place *part; /* [ngroup + ntierod + nbars] of the rotor, or NULL where nobody stated them */
+    const struct job_place *part; /* [ngroup + ntierod + nbars + nsensor] of the rotor, or NULL where nobody stated them */
+    struct job_place measured;    /* card of the measured modes, file NULL where there is none */
     struct models *models;        /* of it, as far as they are built, or NULL */
     struct job_measurement measurement;
     struct job_unknowns unknowns;
@@ -154,6 +155,7 @@ struct job {
 /* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line
  * of the deck where nobody stated parts. */
 struct job_place job_part_place(const struct job *job, int failed);
+struct job_place job_sensor_place(const struct job *job, int sensor);
 
 /* Whether the noise of every measured frequency, and of every shape component, is known. */
 int job_knows_frequency_noise(const struct job *job);

@@ -11,59 +11,66 @@
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */
 
-struct part {
-    const char *path;
-    int descriptor;
-    struct header header;
-    struct result_place *place; /* [runs] */
+/* A line of a part. */
+struct part_line {
+    long run;
+    int part; /* index of the path */
+    struct result_place place;
 };
 
 struct merger {
     struct pool *pool;
     struct message_list *messages;
-    int count;
-    struct part *part;
-    int *source;   /* [runs] part that a run is taken from, -1: none */
-    char *text[2]; /* room for the longest line, twice */
-    size_t most;
+    char *const *path;
+    struct header header; /* of the first part */
+    int nentry;
+    size_t entry_room, most; /* most: bytes of the longest line */
+    struct part_line *entry;
+    struct result_place *place; /* [runs] of the line that is taken */
 };
 
-static int open_part(struct merger *m, const char *path, struct part *part)
+/* By runs; those that did not fail first, then by parts. */
+static int by_run(const void *left, const void *right)
 {
+    const struct part_line *a = left, *b = right;
+    if (a->run != b->run)
+        return a->run < b->run ? -1 : 1;
+    return a->place.failed != b->place.failed ? a->place.failed - b->place.failed : a->part - b->part;
+}
+
+/* The lines of a part, which has to be of the same study as the first one. */
+static int add_part(struct merger *m, int part, int *descriptor)
+{
+    const char *path = m->path[part], *difference = NULL;
     struct stat about;
+    struct header header;
+    struct result_place *place;
     size_t most;
-    part->path = path;
-    part->descriptor = file_descriptor(path, &about);
-    if (part->descriptor < 0) {
+    *descriptor = file_descriptor(path, &about);
+    if (*descriptor < 0) {
         message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
     }
-    int status = results_index(m->pool, part->descriptor, path, m->messages, &part->header, &part->place, &most);
-    m->most = !status && most > m->most ? most : m->most;
-    return status;
-}
-
-/* Two parts of one study. */
-static int compare(struct merger *m, const struct part *first, const struct part *part)
-{
-    const char *difference;
-    int status = header_difference(m->pool, &part->header, &first->header, &difference);
+    int status = results_index(m->pool, *descriptor, path, m->messages, &header, &place, &most);
+    m->header = part ? m->header : header;
+    if (!status)
+        status = header_difference(m->pool, &header, &m->header, &difference);
     if (!status && difference) {
-        message_add(m->messages, SEVERITY_ERROR, part->path, 1, 1, "this file is not of the same study as %s: %s", first->path,
+        message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "this file is not of the same study as %s: %s", m->path[0],
                     difference);
         status = ROTID_ERROR_ARGUMENT;
     }
-    return status;
-}
-
-static int fetch(struct merger *m, const struct part *part, long run, char *text)
-{
-    if (!results_fetch(part->descriptor, part->place[run], text)) {
-        text[part->place[run].length] = 0;
-        return ROTID_OK;
+    for (long run = 0; !status && run < header.runs; run++) {
+        if (!place[run].length)
+            continue;
+        struct part_line *grown = pool_grow(m->pool, m->entry, (size_t)m->nentry, &m->entry_room, sizeof *grown);
+        if (!grown)
+            return ROTID_ERROR_MEMORY;
+        m->entry = grown;
+        grown[m->nentry++] = (struct part_line){run, part, place[run]};
     }
-    message_add(m->messages, SEVERITY_ERROR, part->path, 1, 1, "reading failed: %s", strerror(errno));
-    return ROTID_ERROR_IO;
+    m->most = !status && most > m->most ? most : m->most;
+    return status;
 }
 
 /* Length of a line without its time, which stands last. */
@@ -76,45 +83,47 @@ static size_t timeless(const char *line)
     return at ? (size_t)(at - line) : strlen(line);
 }
 
-/* A run that stands in two parts: which one counts. */
-static int settle(struct merger *m, long run, int other)
+/* Whether two lines of a run that did not fail say the same. */
+static int compare(struct merger *m, const struct part_line *one, const struct part_line *other, char *text[2])
 {
-    struct part *first = &m->part[m->source[run]], *second = &m->part[other];
-    int status = fetch(m, first, run, m->text[0]);
-    if (!status)
-        status = fetch(m, second, run, m->text[1]);
-    if (status)
-        return status;
-    size_t length[2] = {timeless(m->text[0]), timeless(m->text[1])};
-    if (length[0] == length[1] && !memcmp(m->text[0], m->text[1], length[0]))
-        return ROTID_OK;
-    int failed[2] = {result_failed(m->text[0]), result_failed(m->text[1])};
-    if (failed[0] || failed[1]) {
-        m->source[run] = failed[0] ? other : m->source[run];
-        return ROTID_OK;
+    const struct part_line *both[2] = {one, other};
+    size_t length[2];
+    for (int i = 0; i < 2; i++) {
+        if (results_fetch(both[i]->place, text[i])) {
+            message_add(m->messages, SEVERITY_ERROR, m->path[both[i]->part], 1, 1, "reading failed: %s", strerror(errno));
+            return ROTID_ERROR_IO;
+        }
+        text[i][both[i]->place.length] = 0;
+        length[i] = timeless(text[i]);
     }
-    message_add(m->messages, SEVERITY_ERROR, second->path, 1, 1,
+    if (length[0] == length[1] && !memcmp(text[0], text[1], length[0]))
+        return ROTID_OK;
+    message_add(m->messages, SEVERITY_ERROR, m->path[other->part], 1, 1,
                 "run %ld has another result in %s, expected the same: were both computed by one program on machines of one kind?",
-                run, first->path);
+                one->run, m->path[one->part]);
     return ROTID_ERROR_ARGUMENT;
 }
 
-static int choose(struct merger *m)
+/* Of the lines of each run the first one; the others that did not fail have to say the same. */
+static int choose(struct merger *m, struct merge *merge)
 {
-    long runs = m->part[0].header.runs;
+    char *text[2] = {pool_get(m->pool, m->most + 1, 1), pool_get(m->pool, m->most + 1, 1)};
+    const struct part_line *first = NULL;
     int status = ROTID_OK;
-    m->source = POOL_ARRAY(m->pool, int, runs);
-    m->text[0] = pool_get(m->pool, m->most + 1, 1);
-    m->text[1] = pool_get(m->pool, m->most + 1, 1);
-    if (!m->source || !m->text[0] || !m->text[1])
+    m->place = POOL_ARRAY(m->pool, struct result_place, m->header.runs);
+    if (!text[0] || !text[1] || !m->place)
         return ROTID_ERROR_MEMORY;
-    for (long run = 0; run < runs; run++) {
-        m->source[run] = -1;
-        for (int p = 0; p < m->count && !status; p++)
-            if (m->part[p].place[run].length && m->source[run] < 0)
-                m->source[run] = p;
-            else if (m->part[p].place[run].length)
-                status = settle(m, run, p);
+    if (m->nentry)
+        qsort(m->entry, (size_t)m->nentry, sizeof *m->entry, by_run);
+    for (int i = 0; i < m->nentry && !status; i++) {
+        const struct part_line *entry = &m->entry[i];
+        if (!first || first->run != entry->run) {
+            first = entry;
+            m->place[entry->run] = entry->place;
+            merge->failed += entry->place.failed;
+        } else if (!entry->place.failed) {
+            status = compare(m, first, entry, text);
+        }
     }
     return status;
 }
@@ -122,14 +131,13 @@ static int choose(struct merger *m)
 /* "3, 7-9", and how many there are. */
 static int list_missing(struct merger *m, struct merge *merge)
 {
-    long runs = m->part[0].header.runs;
     int stretches = 0;
     merge->list = "";
-    for (long run = 0; run < runs && merge->list; run++) {
-        long last = run;
-        if (m->source[run] >= 0)
+    for (long run = 0, last; run < m->header.runs && merge->list; run = last + 1) {
+        last = run;
+        if (m->place[run].length)
             continue;
-        while (last + 1 < runs && m->source[last + 1] < 0)
+        while (last + 1 < m->header.runs && !m->place[last + 1].length)
             last++;
         merge->missing += last - run + 1;
         if (stretches < MOST_LISTED)
@@ -138,63 +146,35 @@ static int list_missing(struct merger *m, struct merge *merge)
         else if (stretches == MOST_LISTED)
             merge->list = pool_format(m->pool, "%s, ...", merge->list);
         stretches++;
-        run = last;
     }
     return merge->list ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
-static int write_all(struct merger *m, const char *path, struct merge *merge)
-{
-    struct header header = m->part[0].header;
-    struct output output;
-    header.shard = header.shards = 1;
-    char *first = header_text(&header);
-    int status = first ? output_open(&output, path) : ROTID_ERROR_MEMORY;
-    if (status) {
-        json_free(first);
-        return status;
-    }
-    int failed = fputs(first, output.stream) < 0;
-    json_free(first);
-    for (long run = 0; run < header.runs && !failed && !status; run++) {
-        if (m->source[run] < 0)
-            continue;
-        status = fetch(m, &m->part[m->source[run]], run, m->text[0]);
-        if (status)
-            continue;
-        merge->failed += result_failed(m->text[0]);
-        failed = fputs(m->text[0], output.stream) < 0;
-    }
-    return output_close(&output, failed && !status ? ROTID_ERROR_IO : status);
 }
 
 int merge_results(struct pool *pool, int count, char *const *path, const char *to, struct message_list *messages,
                   struct merge *merge)
 {
-    struct merger m = {.pool = pool, .messages = messages, .part = POOL_ARRAY(pool, struct part, count)};
-    int status = m.part ? ROTID_OK : ROTID_ERROR_MEMORY;
+    struct merger m = {.pool = pool, .messages = messages, .path = path};
+    int *descriptor = POOL_ARRAY(pool, int, count), status = descriptor ? ROTID_OK : ROTID_ERROR_MEMORY, opened = 0;
     *merge = (struct merge){0};
     if (!status && access(to, F_OK) == 0) {
         message_add(messages, SEVERITY_ERROR, to, 1, 1, "exists, expected the name of a new file for all parts together");
         return ROTID_ERROR_ARGUMENT;
     }
-    for (; m.count < count && !status; m.count++) {
-        status = open_part(&m, path[m.count], &m.part[m.count]);
-        if (!status)
-            status = compare(&m, &m.part[0], &m.part[m.count]);
-    }
+    for (; opened < count && !status; opened++)
+        status = add_part(&m, opened, &descriptor[opened]);
     if (!status)
-        status = choose(&m);
+        status = choose(&m, merge);
     if (!status)
         status = list_missing(&m, merge);
     if (!status) {
-        merge->runs = m.part[0].header.runs;
-        status = write_all(&m, to, merge);
-        if (status == ROTID_ERROR_IO && !messages->errors)
+        m.header.shard = m.header.shards = 1;
+        merge->runs = m.header.runs;
+        status = results_write(to, &m.header, m.place, m.most);
+        if (status == ROTID_ERROR_IO)
             message_add(messages, SEVERITY_ERROR, to, 1, 1, "cannot be written: %s", output_error());
     }
-    for (int p = 0; p < m.count; p++)
-        if (m.part[p].descriptor >= 0)
-            (void)close(m.part[p].descriptor);
+    for (int p = 0; p < opened; p++)
+        if (descriptor[p] >= 0)
+            (void)close(descriptor[p]);
     return status;
 }

@@ -268,29 +268,10 @@ int record_finish(struct pool *pool, struct study_record *record)
     struct message_list unheard; /* it has been read before */
     struct result_place *place;
     struct header header;
-    struct output output;
     size_t most;
     message_open(&unheard, pool);
     int status = results_index(pool, record->descriptor, record->path, &unheard, &header, &place, &most);
-    char *first = header_text(&record->header), *text = status ? NULL : malloc(most + 1);
-    if (!status && (!first || !text))
-        status = ROTID_ERROR_MEMORY;
-    if (!status)
-        status = output_open(&output, record->path);
-    if (status) {
-        json_free(first);
-        free(text);
-        return status;
-    }
-    int failed = fputs(first, output.stream) < 0;
-    for (long run = 0; run < record->header.runs && !failed; run++)
-        failed = results_fetch(record->descriptor, place[run], text) ||
-                 fwrite(text, 1, place[run].length, output.stream) != place[run].length;
-    int reason = errno;
-    json_free(first);
-    free(text);
-    errno = reason;
-    return output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
+    return status ? status : results_write(record->path, &record->header, place, most);
 }
 
 void record_close(struct study_record *record)

@@ -146,6 +146,8 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
         record_read(&place, &study_run_record, run);
     if (!reader.status && run->status != STUDY_FAILED && !run->fit)
         place_wrong(&place, "it has no functional, expected the result of a run that did not fail");
+    if (!reader.status && run->diagnosis && run->diagnosis->verdict.kind < 0)
+        place_wrong(&place, "it has no verdict, expected that of a diagnosis that came to its end");
     cJSON_Delete(json);
     return !reader.status ? NULL : messages.count ? messages.item[0].text : "";
 }
@@ -191,7 +193,7 @@ int results_index(struct pool *pool, int descriptor, const char *path, struct me
     if (!status && !(*place = POOL_ARRAY(pool, struct result_place, header->runs)))
         status = ROTID_ERROR_MEMORY;
     while (!status && !(status = results_next(&results, &line))) {
-        (*place)[line.run] = (struct result_place){line.offset, line.length};
+        (*place)[line.run] = (struct result_place){descriptor, line.failed, line.offset, line.length};
         *most = line.length > *most ? line.length : *most;
     }
     results_close(&results);
@@ -208,11 +210,11 @@ int result_failed(const char *line)
     return failed;
 }
 
-int results_fetch(int descriptor, struct result_place place, char *text)
+int results_fetch(struct result_place place, char *text)
 {
     size_t have = 0;
     while (have < place.length) {
-        ssize_t got = pread(descriptor, text + have, place.length - have, place.offset + (off_t)have);
+        ssize_t got = pread(place.descriptor, text + have, place.length - have, place.offset + (off_t)have);
         if (got == 0)
             errno = EIO; /* it was longer when it was looked at */
         if (got == 0 || (got < 0 && errno != EINTR))
@@ -220,4 +222,22 @@ int results_fetch(int descriptor, struct result_place place, char *text)
         have += got > 0 ? (size_t)got : 0;
     }
     return ROTID_OK;
+}
+
+int results_write(const char *path, const struct header *header, const struct result_place *place, size_t most)
+{
+    char *first = header_text(header), *text = malloc(most + 1);
+    struct output output;
+    int status = first && text ? output_open(&output, path) : ROTID_ERROR_MEMORY;
+    if (!status) {
+        int failed = fputs(first, output.stream) < 0;
+        for (long run = 0; run < header->runs && !failed; run++)
+            failed = results_fetch(place[run], text) || fwrite(text, 1, place[run].length, output.stream) != place[run].length;
+        status = output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
+    }
+    int reason = errno;
+    json_free(first);
+    free(text);
+    errno = reason;
+    return status;
 }

@@ -315,7 +315,7 @@ struct modes { /* elastic ones of a model at the sensors of its rotor */
     double *hz, *shape; /* [count], [nsensor * count] */
 };
 
-static int modes_new(struct pool *pool, int count, int nsensor, struct modes *modes)
+static int modes_room(struct pool *pool, int count, int nsensor, struct modes *modes)
 {
     *modes =
         (struct modes){count, nsensor, POOL_ARRAY(pool, double, count), POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)count)};
@@ -358,9 +358,9 @@ static int solve_moving(struct pool *pool, struct models *models, const struct r
     struct rotor with = *rotor;
     struct modes bare, loaded;
     with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
-    status = with.effect ? modes_new(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
+    status = with.effect ? modes_room(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = modes_new(pool, modes->count, n, &loaded);
+        status = modes_room(pool, modes->count, n, &loaded);
     if (status)
         return status;
     memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
@@ -420,7 +420,7 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
     for (int k = 0; k < job->measurement.nmode; k++)
         highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     if (!status)
-        status = modes_new(pool, highest, source.rotor.nsensor, &modes);
+        status = modes_room(pool, highest, source.rotor.nsensor, &modes);
     /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
     int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
     int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;

@@ -30,6 +30,7 @@
 #include "deck/deck.h"
 #include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
+#include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"
 
@@ -449,6 +450,7 @@ int results_next(struct results *results, struct result_line *line);
 void results_close(struct results *results);
 
 struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
+    int descriptor, failed;
     off_t offset;
     size_t length;
 };
@@ -456,6 +458,9 @@ struct result_place { /* of the line that counts for a run, the last one; length
 /* Where the runs of a file stand: *place [header->runs]; *most: the length of the longest line. Statuses of results_next. */
 int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
                   struct result_place **place, size_t *most);
+/* Writes the file `path` whole: the header and the lines at place [header->runs] in order of the runs, none longer than `most`.
+ * ROTID_OK, ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: then nothing is written. */
+int results_write(const char *path, const struct header *header, const struct result_place *place, size_t most);
 
 /* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
@@ -464,7 +469,7 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
 int result_failed(const char *line);
 
 /* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
-int results_fetch(int descriptor, struct result_place place, char *text);
+int results_fetch(struct result_place place, char *text);
 
 /* ------------------------------------------------------------------------------------------------------------------- run */
 
@@ -504,13 +509,27 @@ enum score score_make(const struct experiment *experiment, const struct diagnosi
 /* What a file of results says as a whole: for each cell how its runs ended, what they found and how far that is from the truth.
  */
 
-/* Reads a file of results, finished or not, with its header. ROTID_OK; ROTID_ERROR_SYNTAX where it is something else,
- * ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header,
+/* Reads a file of results, finished or not, with its header. runs: NULL, or takes a row of every run. ROTID_OK;
+ * ROTID_ERROR_SYNTAX where it is something else, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header, struct table *runs,
                  struct study_result *summary);
 
-/* For a person. */
-void summary_table(FILE *out, const struct study_result *summary);
+/* The summary and the runs as tables; on a page and a screen an axis on which cells do not differ is left away. */
+struct table *table_of_cells(struct pool *pool, const struct study_result *summary);
+struct table *table_of_cell_parameters(struct pool *pool, const struct study_result *summary);
+struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *summary);
+/* A row for each parameter of a run, one for a run that failed. */
+void table_add_run(struct table *table, const struct study_run *run);
+void screen_study(const struct screen *to, const struct study_result *summary);
+
+struct csv_study {
+    const struct study_result *summary;
+    const struct table *runs; /* as summary_read has filled it */
+};
+extern const struct csv_part csv_study_parts[CSV_MOST_FILES];
+
+/* What a parameter is in truth; NaN where that is not known. */
+double study_run_truth(const struct study_run *run, const char *name);
 
 /* Whether two runs are of one cell. */
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);

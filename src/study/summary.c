@@ -164,7 +164,7 @@ static void add_value(struct parameter_sums *p, const rotid_fitted_parameter *pa
     }
 }
 
-static double truth_of(const struct study_run *run, const char *name)
+double study_run_truth(const struct study_run *run, const char *name)
 {
     for (int i = 0; i < run->ntruth; i++)
         if (!strcmp(run->truth[i].name, name))
@@ -260,7 +260,7 @@ static void add_run(struct sums *s, const struct study_run *run)
     for (int p = 0; p < fit->nparameters; p++) {
         struct parameter_sums *parameter = find_parameter(s, cell, &fit->parameters[p]);
         if (parameter)
-            add_value(parameter, &fit->parameters[p], truth_of(run, fit->parameters[p].name));
+            add_value(parameter, &fit->parameters[p], study_run_truth(run, fit->parameters[p].name));
     }
     if (run->diagnosis)
         add_diagnosis(s, cell, run);
@@ -341,7 +341,7 @@ static void finish(struct sums *s)
     s->out->missing = s->out->runs - s->out->done;
 }
 
-static int read_all(struct pool *pool, int descriptor, struct message_list *messages, struct header *header,
+static int read_all(struct pool *pool, int descriptor, struct message_list *messages, struct header *header, struct table *runs,
                     struct study_result *out)
 {
     struct result_place *place;
@@ -352,19 +352,21 @@ static int read_all(struct pool *pool, int descriptor, struct message_list *mess
     if (!status && !text)
         status = ROTID_ERROR_MEMORY;
     for (long run = 0; run < header->runs && !status; run++) { /* in their order: sums do not depend on who was faster */
-        struct pool own;
+        struct pool own, *of = runs ? pool : &own;             /* the table keeps its texts */
         struct study_run said;
         out->runs += run % header->shards == header->shard - 1;
         if (!place[run].length)
             continue;
-        status = results_fetch(descriptor, place[run], text);
+        status = results_fetch(place[run], text);
         if (status)
             message_add(messages, SEVERITY_ERROR, out->results, 1, 1, "reading failed: %s", strerror(errno));
         pool_open(&own, NULL);
         if (!status)
-            status = results_line_read(&own, text, place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
+            status = results_line_read(of, text, place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
         if (!status)
             add_run(&sums, &said);
+        if (!status && runs)
+            table_add_run(runs, &said);
         pool_close(&own);
         status = sums.failed ? ROTID_ERROR_MEMORY : status;
     }
@@ -373,7 +375,7 @@ static int read_all(struct pool *pool, int descriptor, struct message_list *mess
     return !status && sums.failed ? ROTID_ERROR_MEMORY : status;
 }
 
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header,
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header, struct table *runs,
                  struct study_result *out)
 {
     struct stat about;
@@ -383,7 +385,7 @@ int summary_read(struct pool *pool, const char *path, struct message_list *messa
         message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
     }
-    int status = read_all(pool, descriptor, messages, header, out);
+    int status = read_all(pool, descriptor, messages, header, runs, out);
     (void)close(descriptor);
     out->plan = header->plan;
     out->studies = header->studies;

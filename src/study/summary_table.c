@@ -1,3 +1,4 @@
+/* The summary and the runs of a study as tables. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -5,73 +6,213 @@
 #include "report/report.h"
 #include "study/study.h"
 
-#define WIDTH      100
-#define WIDEST     28 /* of a column of names */
-#define MOST_ERROR 10 /* different reasons that are listed */
+#define MOST_ERROR 10   /* different reasons that are listed */
+#define ROUNDING   1e-9 /* relative, or of an error in per cent: below it stands nothing but that */
 
-enum { DECK, VARIANT, MODES, SENSORS, NOISE, HIDE, AXES };
-
-static const char *const titles[AXES] = {"deck", "variant", "modes", "sensors", "noise", "hidden"};
-
-/* Where a cell stands on an axis, "" where the plan does not have it. */
-static const char *place(const struct study_cell_result *cell, int axis, char room[64])
+static int equal_texts(const char *a, const char *b)
 {
-    const char *text = axis == DECK      ? cell->cell.deck
-                       : axis == VARIANT ? cell->cell.variant
-                       : axis == MODES   ? cell->cell.modes
-                       : axis == SENSORS ? cell->cell.sensors
-                       : axis == HIDE    ? cell->cell.hide
-                                         : NULL;
-    if (axis != NOISE || !isfinite(cell->cell.noise_frequency))
-        return text ? text : "";
-    if (isfinite(cell->cell.noise_shape))
-        (void)snprintf(room, 64, "%g, %g", cell->cell.noise_frequency, cell->cell.noise_shape);
-    else
-        (void)snprintf(room, 64, "%g", cell->cell.noise_frequency);
-    return room;
+    return a == b || (a && b && !strcmp(a, b));
 }
 
-static const struct cell_diagnoses none; /* of a cell that has none */
-
-struct shown_columns { /* those axes on which cells differ */
-    int width[AXES];
-    int parameter; /* width of their names */
-    int has_truth, has_starts, has_holdout, has_diagnoses, has_scores;
-};
-
-static struct shown_columns find_columns(const struct study_result *s)
+static int equal_numbers(double a, double b)
 {
-    struct shown_columns c = {.parameter = (int)sizeof "parameter" - 1};
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* The axes on which runs of a study may differ. */
+static const struct axis {
+    const char *name;
+    size_t offset; /* of the member of struct study_axes */
+    int is_number;
+} axes[] = {{"deck", offsetof(struct study_axes, deck), 0},
+            {"variant", offsetof(struct study_axes, variant), 0},
+            {"modes", offsetof(struct study_axes, modes), 0},
+            {"sensors", offsetof(struct study_axes, sensors), 0},
+            {"hidden", offsetof(struct study_axes, hide), 0},
+            {"noise", offsetof(struct study_axes, noise_frequency), 1},
+            {"shape noise", offsetof(struct study_axes, noise_shape), 1}};
+#define AXES (int)(sizeof axes / sizeof *axes)
+
+static const char *text_at(const struct axis *axis, const struct study_axes *cell)
+{
+    return *(const char *const *)((const char *)cell + axis->offset);
+}
+
+static double number_at(const struct axis *axis, const struct study_axes *cell)
+{
+    return *(const double *)((const char *)cell + axis->offset);
+}
+
+static int cells_differ(const struct axis *axis, const struct study_result *s)
+{
+    int differ = 0;
+    for (int c = 1; c < s->ncells; c++) {
+        const struct study_axes *a = &s->cells[0].cell, *b = &s->cells[c].cell;
+        differ |= axis->is_number ? !equal_numbers(number_at(axis, a), number_at(axis, b))
+                                  : !equal_texts(text_at(axis, a), text_at(axis, b));
+    }
+    return differ;
+}
+
+/* An axis on which cells do not differ is in CSV alone. */
+static void axes_columns(struct table *table, const struct study_result *all, const struct study_axes *at)
+{
+    for (const struct axis *axis = axes; axis < axes + AXES; axis++) {
+        unsigned same = cells_differ(axis, all) ? 0 : IN_CSV_ONLY;
+        if (axis->is_number)
+            number_column(table, axis->name, NULL, SHOW_TRIMMED(3) | same, number_at(axis, at));
+        else
+            text_column(table, axis->name, MAY_BE_CUT | same, text_at(axis, at));
+    }
+}
+
+/* "; deck paper.inp, noise 0.001": what all cells have. */
+static const char *common(struct pool *pool, const struct study_result *s)
+{
+    const char *text = "";
+    for (const struct axis *axis = axes; axis < axes + AXES && s->ncells && text; axis++) {
+        const struct study_axes *cell = &s->cells[0].cell;
+        const char *value = axis->is_number ? NULL : text_at(axis, cell);
+        if (axis->is_number && isfinite(number_at(axis, cell)))
+            value = pool_format(pool, "%g", number_at(axis, cell));
+        if (value && !cells_differ(axis, s))
+            text = pool_format(pool, "%s%s%s %s", text, *text ? ", " : "; ", axis->name, value);
+    }
+    return text ? text : "";
+}
+
+static double above_rounding(double value, double rounding)
+{
+    return fabs(value) < rounding ? 0 : value;
+}
+
+struct table *table_of_cells(struct pool *pool, const struct study_result *s)
+{
+    struct table *table =
+        table_open(pool, pool_format(pool, "Cells: runs that differ in replicate and start alone%s", common(pool, s)));
+    int starts = 0;
+    for (int i = 0; i < s->ncells; i++)
+        starts |= s->cells[i].reached_best != ROTID_NONE;
     for (int i = 0; i < s->ncells; i++) {
         const struct study_cell_result *cell = &s->cells[i];
-        char room[2][64];
-        for (int a = 0; a < AXES; a++)
-            if (strcmp(place(cell, a, room[0]), place(&s->cells[0], a, room[1])) != 0)
-                c.width[a] = (int)strlen(titles[a]);
-        for (int p = 0; p < cell->nparameters; p++) {
-            int wide = text_columns(cell->parameters[p].name);
-            c.has_truth |= isfinite(cell->parameters[p].rms_error);
-            c.parameter = wide > c.parameter ? wide < WIDEST ? wide : WIDEST : c.parameter;
-        }
-        c.has_starts |= cell->reached_best != ROTID_NONE;
-        c.has_holdout |= isfinite(cell->holdout_frequency_rms_percent);
-        c.has_diagnoses |= cell->diagnoses != NULL;
-        c.has_scores |= summary_is_scored(cell);
+        int best = cell->reached_best == ROTID_NONE ? cell->converged + cell->at_bound : cell->reached_best;
+        table_row(table);
+        axes_columns(table, s, &cell->cell);
+        number_column(table, "runs", NULL, SHOW_COUNT, cell->runs);
+        number_column(table, "failed", NULL, SHOW_COUNT, cell->failed);
+        number_column(table, "at bound", NULL, SHOW_COUNT, cell->at_bound);
+        number_column(table, "no conv", NULL, SHOW_COUNT, cell->not_converged);
+        number_column(table, "not ad.", NULL, SHOW_COUNT, cell->not_adequate);
+        number_column(table, "at best", NULL, SHOW_COUNT, starts ? best : (double)NAN);
+        number_column(table, "rms", "%", SHOW_FIXED(3), above_rounding(cell->frequency_rms_percent, ROUNDING));
+        number_column(table, "held out", "%", SHOW_FIXED(3), above_rounding(cell->holdout_frequency_rms_percent, ROUNDING));
+        number_column(table, "chi2/dof", NULL, SHOW_DIGITS(3) | DETAIL, cell->chi2_per_dof);
+        number_column(table, "evaluations", NULL, SHOW_DIGITS(3) | DETAIL, cell->evaluations);
     }
-    for (int i = 0; i < s->ncells; i++)
-        for (int a = 0; a < AXES; a++) {
-            char room[64];
-            int wide = text_columns(place(&s->cells[i], a, room));
-            if (c.width[a] && wide > c.width[a])
-                c.width[a] = wide < WIDEST ? wide : WIDEST;
-        }
-    return c;
+    if (table)
+        table->note = "rms: error of the fitted frequencies; at best: runs that came to the best objective of their replicate";
+    return table;
 }
 
-static void print_head(FILE *out, const struct study_result *s, const struct shown_columns *c)
+struct table *table_of_cell_parameters(struct pool *pool, const struct study_result *s)
 {
-    char room[64];
-    int any = 0;
+    struct table *table = table_open(pool, "Parameters by cells");
+    for (int i = 0; i < s->ncells; i++)
+        for (int p = 0; p < s->cells[i].nparameters; p++) {
+            const struct cell_parameter *q = &s->cells[i].parameters[p];
+            double scatter = isfinite(q->std_error) ? q->std_error : q->std;
+            table_row(table);
+            axes_columns(table, s, &s->cells[i].cell);
+            text_column(table, "parameter", MAY_BE_CUT, q->name);
+            unit_column(table, q->mean, NAN, q->unit);
+            number_column(table, "runs", NULL, SHOW_COUNT, q->count);
+            number_column(table, "mean", ROW_UNIT, SHOW_DIGITS(6), q->mean);
+            number_column(table, "std", ROW_UNIT, SHOW_DIGITS(3), above_rounding(scatter, 1e3 * ROUNDING * fabs(q->mean)));
+            number_column(table, "stated", ROW_UNIT, SHOW_DIGITS(3), q->mean_stated_std);
+            number_column(table, "bias", ROW_UNIT, SHOW_DIGITS(3), q->bias);
+            number_column(table, "rms error", ROW_UNIT, SHOW_DIGITS(3) | IN_CSV_ONLY, q->rms_error);
+            number_column(table, "in95%", "%", SHOW_FIXED(1), 100 * q->coverage95);
+            number_column(table, "intervals", NULL, SHOW_COUNT | IN_CSV_ONLY, q->intervals);
+            number_column(table, "min", ROW_UNIT, SHOW_DIGITS(6) | DETAIL, q->min);
+            number_column(table, "max", ROW_UNIT, SHOW_DIGITS(6) | DETAIL, q->max);
+        }
+    if (table)
+        table->note =
+            "std: scatter of the runs, about the truth where it is known; stated: mean standard deviation of the fits; bias: "
+            "mean difference to the truth; in95%: share of the 95 % intervals that hold it";
+    return table;
+}
+
+/* What was named, with its number of runs. */
+static const char *named(struct pool *pool, const struct cell_diagnoses *d)
+{
+    const char *text = "";
+    for (int k = 0; k < d->nnamed && text; k++)
+        text = pool_format(pool, "%s%s%s %.0f", text, k ? ", " : "", d->named[k].name, d->named[k].value);
+    return text;
+}
+
+/* Verdicts, and where the plan hid something the scores. */
+struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_result *s)
+{
+    static const char *const scores[] = {"quiet", "false alarm", "right", "in set", "other set", "silent", "no cause", "wrong"};
+    struct table *table = table_open(pool, "Diagnoses");
+    for (int i = 0; i < s->ncells; i++) {
+        const struct study_cell_result *cell = &s->cells[i];
+        const struct cell_diagnoses *d = cell->diagnoses;
+        int scored = summary_is_scored(cell);
+        if (!d)
+            continue;
+        table_row(table);
+        axes_columns(table, s, &cell->cell);
+        number_column(table, "runs", NULL, SHOW_COUNT, d->count);
+        for (int k = 0; k < STUDY_VERDICTS; k++)
+            number_column(table, verdict_words[k], NULL, SHOW_COUNT, d->verdicts[k]);
+        for (int k = 0; k < SCORE_COUNT; k++)
+            number_column(table, scores[k], NULL, SHOW_COUNT, scored ? d->scores[k] : (double)NAN);
+        number_column(table, "false faults", NULL, SHOW_COUNT, scored ? d->false_findings : (double)NAN);
+        text_column(table, "causes and faults named", SHOW_TEXT, named(pool, d));
+    }
+    return table;
+}
+
+void table_add_run(struct table *table, const struct study_run *run)
+{
+    static const struct study_result none;
+    static const rotid_fitted_parameter nothing = {
+        .name = "", .unit = "1", .value = NAN, .start = NAN, .std = NAN, .ci95 = {NAN, NAN}};
+    const rotid_identification *fit = run->fit;
+    int count = fit && fit->nparameters ? fit->nparameters : 1;
+    for (int p = 0; p < count; p++) {
+        const rotid_fitted_parameter *is = fit && fit->nparameters ? &fit->parameters[p] : &nothing;
+        double truth = study_run_truth(run, is->name);
+        table_row(table);
+        number_column(table, "run", NULL, SHOW_COUNT, run->run);
+        axes_columns(table, &none, &run->cell);
+        number_column(table, "replicate", NULL, SHOW_COUNT, run->replicate);
+        number_column(table, "start", NULL, SHOW_COUNT, run->start);
+        text_column(table, "status", SHOW_TEXT,
+                    run->status == STUDY_FAILED ? "failed"
+                    : fit                       ? study_status_words[run->status]
+                                                : "");
+        number_column(table, "objective", NULL, SHOW_DIGITS(6), fit ? fit->objective : (double)NAN);
+        number_column(table, "chi2/dof", NULL, SHOW_DIGITS(3), fit ? fit->chi2_per_dof : (double)NAN);
+        text_column(table, "verdict", SHOW_TEXT, run->diagnosis ? verdict_words[run->diagnosis->verdict.kind] : "");
+        text_column(table, "score", SHOW_TEXT, run->diagnosis && run->score >= 0 ? score_words[run->score] : "");
+        text_column(table, "parameter", SHOW_TEXT, is->name);
+        unit_column(table, is->value, NAN, is->unit);
+        number_column(table, "value", ROW_UNIT, SHOW_DIGITS(6), is->value);
+        number_column(table, "std", ROW_UNIT, SHOW_DIGITS(3), is->std);
+        number_column(table, "lower 95 %", ROW_UNIT, SHOW_DIGITS(6), is->ci95[0]);
+        number_column(table, "upper 95 %", ROW_UNIT, SHOW_DIGITS(6), is->ci95[1]);
+        number_column(table, "truth", ROW_UNIT, SHOW_DIGITS(6), truth);
+        text_column(table, "error", SHOW_TEXT, run->error);
+    }
+}
+
+void screen_study(const struct screen *to, const struct study_result *s)
+{
+    FILE *out = to->out;
     (void)fputs("study ", out);
     name_cell(out, 0, s->plan ? s->plan : "of decks");
     (void)fprintf(out, ": %d of %d runs of ", s->done, s->runs);
@@ -82,143 +223,36 @@ static void print_head(FILE *out, const struct study_result *s, const struct sho
     if (s->done)
         (void)fprintf(out, ", %.3g s each", s->seconds / (double)s->done);
     (void)fputc('\n', out);
-    for (int a = 0; a < AXES && s->ncells; a++) {
-        const char *text = place(&s->cells[0], a, room);
-        if (c->width[a] || !*text)
-            continue;
-        (void)fprintf(out, "%s%s ", any++ ? ", " : "", titles[a]);
-        name_cell(out, 0, text);
-    }
-    (void)fputs(any ? "\n\n" : "\n", out);
-}
-
-static void print_place(FILE *out, const struct shown_columns *c, const struct study_cell_result *cell)
-{
-    char room[64];
-    for (int a = 0; a < AXES; a++)
-        if (c->width[a]) {
-            text_cell(out, c->width[a], cell ? place(cell, a, room) : titles[a]);
-            (void)fputs("  ", out);
-        }
-}
-
-static void print_blank(FILE *out, const struct shown_columns *c)
-{
-    for (int a = 0; a < AXES; a++)
-        if (c->width[a])
-            (void)fprintf(out, "%*s", c->width[a] + 2, "");
-}
-
-static void print_parameter(FILE *out, const struct shown_columns *c, const struct cell_parameter *p)
-{
-    (void)fputs("  ", out);
-    text_cell(out, c->parameter, p->name);
-    digits_cell(out, 13, 6, p->mean);
-    digits_cell(out, 10, 3, isfinite(p->rms_error) ? p->std_error : p->std);
-    digits_cell(out, 10, 3, p->mean_stated_std);
-    if (c->has_truth) {
-        digits_cell(out, 11, 3, p->bias);
-        number_cell(out, 7, 1, 100 * p->coverage95);
-    }
-}
-
-static void print_cells(FILE *out, const struct study_result *s, const struct shown_columns *c)
-{
-    print_place(out, c, NULL);
-    (void)fprintf(out, "%6s%5s%6s%8s%8s%s%s%9s  %-*s%13s%10s%10s%s\n", "runs", "fail", "bound", "no conv", "not ad.",
-                  c->has_starts ? "  at best" : "", c->has_holdout ? "    held" : "", "rms[%]", c->parameter, "parameter", "mean",
-                  "std", "stated", c->has_truth ? "       bias in95%" : "");
-    for (int i = 0; i < s->ncells; i++) {
-        const struct study_cell_result *cell = &s->cells[i];
-        print_place(out, c, cell);
-        (void)fprintf(out, "%6d%5d%6d%8d%8d", cell->runs, cell->failed, cell->at_bound, cell->not_converged, cell->not_adequate);
-        if (c->has_starts)
-            (void)fprintf(out, "%9d", cell->reached_best == ROTID_NONE ? cell->converged + cell->at_bound : cell->reached_best);
-        if (c->has_holdout)
-            number_cell(out, 8, 3, cell->holdout_frequency_rms_percent);
-        number_cell(out, 9, 3, cell->frequency_rms_percent);
-        for (int p = 0; p < cell->nparameters; p++) {
-            if (p) {
-                print_blank(out, c);
-                (void)fprintf(out, "%*s", 42 + (c->has_starts ? 9 : 0) + (c->has_holdout ? 8 : 0), "");
-            }
-            print_parameter(out, c, &cell->parameters[p]);
-            (void)fputc('\n', out);
-        }
-        if (!cell->nparameters)
-            (void)fputc('\n', out);
-    }
-    (void)fprintf(
-        out, "\nrms: error of the fitted frequencies; std: scatter of the runs%s; stated: mean standard deviation of the fits\n",
-        c->has_truth ? " about the truth" : "");
-    if (c->has_holdout)
-        (void)fputs("held: rms error [%] of the frequencies that were not fitted\n", out);
-    if (c->has_truth)
-        (void)fputs("bias: mean difference to the truth; in95%: share of the 95 % intervals that hold it [%]\n", out);
-    if (c->has_starts)
-        (void)fputs("at best: runs that came to the best objective of their replicate\n", out);
-}
-
-static void print_diagnoses(FILE *out, const struct study_result *s, const struct shown_columns *c)
-{
-    (void)fputc('\n', out);
-    print_place(out, c, NULL);
-    (void)fprintf(out, "%6s%10s%7s%11s%13s  %s\n", "runs", "adequate", "named", "ambiguous", "unexplained",
-                  "causes and faults named");
-    for (int i = 0; i < s->ncells; i++) {
-        const struct study_cell_result *cell = &s->cells[i];
-        const struct cell_diagnoses *d = cell->diagnoses ? cell->diagnoses : &none;
-        print_place(out, c, cell);
-        (void)fprintf(out, "%6d%10d%7d%11d%13d ", d->count, d->verdicts[ROTID_ADEQUATE], d->verdicts[ROTID_NAMED],
-                      d->verdicts[ROTID_AMBIGUOUS], d->verdicts[ROTID_UNEXPLAINED]);
-        for (int k = 0; k < d->nnamed; k++) {
-            (void)fputs(k ? ", " : " ", out);
-            name_cell(out, 0, d->named[k].name);
-            (void)fprintf(out, " %.0f", d->named[k].value);
-        }
-        (void)fputc('\n', out);
-    }
-}
-
-static void print_scores(FILE *out, const struct study_result *s, const struct shown_columns *c)
-{
-    (void)fputc('\n', out);
-    print_place(out, c, NULL);
-    (void)fprintf(out, "%6s%7s%8s%11s%8s%13s%7s%8s%13s%14s\n", "runs", "right", "in set", "other set", "silent", "unexplained",
-                  "wrong", "quiet", "false alarm", "false faults");
-    for (int i = 0; i < s->ncells; i++) {
-        const struct study_cell_result *cell = &s->cells[i];
-        const struct cell_diagnoses *d = summary_is_scored(cell) ? cell->diagnoses : &none;
-        const int *n = d->scores;
-        int scored = 0;
-        for (int k = 0; k < SCORE_COUNT; k++)
-            scored += n[k];
-        print_place(out, c, cell);
-        (void)fprintf(out, "%6d%7d%8d%11d%8d%13d%7d%8d%13d%14d\n", scored, n[SCORE_RIGHT], n[SCORE_IN_SET], n[SCORE_OTHER_SET],
-                      n[SCORE_SILENT], n[SCORE_UNEXPLAINED], n[SCORE_WRONG], n[SCORE_QUIET], n[SCORE_FALSE_ALARM],
-                      d->false_findings);
-    }
-}
-
-void summary_table(FILE *out, const struct study_result *s)
-{
-    const struct shown_columns c = find_columns(s);
-    print_head(out, s, &c);
-    if (s->ncells)
-        print_cells(out, s, &c);
-    if (c.has_diagnoses)
-        print_diagnoses(out, s, &c);
-    if (c.has_scores)
-        print_scores(out, s, &c);
-    if (s->nerrors)
-        (void)fputc('\n', out);
+    screen_table(to, table_of_cells(to->pool, s));
+    screen_table(to, table_of_cell_parameters(to->pool, s));
+    screen_table(to, table_of_cell_diagnoses(to->pool, s));
     for (int i = 0; i < s->nerrors && i < MOST_ERROR; i++) {
         char head[64];
-        (void)snprintf(head, sizeof head, "failed %d, first run %d: ", s->errors[i].runs, s->errors[i].first_run);
-        wrap_text(out, 4, WIDTH, head, s->errors[i].error);
+        (void)snprintf(head, sizeof head, "%sfailed %d, first run %d: ", i ? "" : "\n", s->errors[i].runs,
+                       s->errors[i].first_run);
+        wrap_text(out, 4, to->width, head, s->errors[i].error);
     }
     if (s->nerrors > MOST_ERROR)
         (void)fprintf(out, "and %d other reasons\n", s->nerrors - MOST_ERROR);
     if (s->done < s->runs)
         (void)fprintf(out, "\n%d runs are missing\n", s->missing);
 }
+
+static int write_cells(FILE *out, struct pool *pool, const void *from)
+{
+    return csv_table(out, table_of_cells(pool, ((const struct csv_study *)from)->summary));
+}
+
+static int write_parameters(FILE *out, struct pool *pool, const void *from)
+{
+    return csv_table(out, table_of_cell_parameters(pool, ((const struct csv_study *)from)->summary));
+}
+
+static int write_runs(FILE *out, struct pool *pool, const void *from)
+{
+    (void)pool;
+    return csv_table(out, ((const struct csv_study *)from)->runs);
+}
+
+const struct csv_part csv_study_parts[CSV_MOST_FILES] = {
+    {"cells", write_cells}, {"parameters", write_parameters}, {"runs", write_runs}};

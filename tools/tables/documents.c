@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "generated.h"
 
 /* ---- docs/rotid.1 */

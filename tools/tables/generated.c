@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 
 #define SHELL(PATH, WRITE)                                                                                                       \
     {                                                                                                                            \

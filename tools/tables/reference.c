@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "deck/card_table.h"
+#include "deck/deck_row.h"
 #include "diagnose/causes/causes.h"
 #include "generated.h"
 
