@@ -14,6 +14,7 @@
  *   deck_model.c, deck_layer.c, deck_members.c  materials, sections; rings; tie rods, bars, holes, *PRELOAD (group.preload)
  *   deck_measured.c, deck_frequencies.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
  *   deck_fit.c, deck_set.c  *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *SET: what a state has of its own
+ *   deck_running.c       *RUNNING and what stands behind it: struct machine of src/running
  *   deck_cause.c         *CAUSE: effects and suspects; deck_correction.c: faults of the data taken out of them
  *
  * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
@@ -199,7 +200,11 @@ struct deck_reader {
     int held_out;              /* HOLDOUT=STATE: all its modes are */
     int no_section;            /* the one error is that of a section that cannot be */
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
-    unsigned doubted;          /* kinds of numbers that a warning was given for */
+    int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
+    struct card *running;
+    size_t running_room[8];
+    struct machine *machine; /* that they make */
+    unsigned doubted;        /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -326,6 +331,22 @@ void deck_fit(struct deck_reader *reader, const struct card *card);
 /* The universal file of MEASURED: sensors, modes and shapes. */
 void deck_measured(struct deck_reader *reader, const struct card *card);
 void deck_frf(struct deck_reader *reader, const struct card *card);
+
+/* Takes *RUNNING and what stands behind it out of the text, of whose cards *nread were read. */
+void deck_split_running(struct deck_reader *reader, int *nread);
+/* These cards into states->machine, once all states are read without an error. */
+void deck_read_machine(struct deck_reader *reader, struct states *states);
+/* Errors of a card or an option that is not known. */
+void deck_check_names(struct deck_reader *reader, const struct card *card);
+void deck_running(struct deck_reader *reader, const struct card *card);
+void deck_bearing(struct deck_reader *reader, const struct card *card);
+void deck_pedestal(struct deck_reader *reader, const struct card *card);
+void deck_loss(struct deck_reader *reader, const struct card *card);
+void deck_pull(struct deck_reader *reader, const struct card *card);
+void deck_change(struct deck_reader *reader, const struct card *card);
+void deck_unbalance(struct deck_reader *reader, const struct card *card);
+void deck_probe(struct deck_reader *reader, const struct card *card);
+void deck_operation(struct deck_reader *reader, const struct card *card);
 
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);

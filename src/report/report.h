@@ -6,16 +6,15 @@
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
  *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
- *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*), and
- *                     what the command shows on the screen (screen_*); chart.c: bars, strips along the axis
- *   screen.c          heading, notes, name of a state, a table on the screen
- *   result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that have no struct in rotid.h
- *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
- *   layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped
- *   csv.c, csv_uff.c  --csv: the files of a command, all or none; quoting, formulas made harmless; universal files
- *   frf_file.c        frf_write_file: synthesised functions as sets 58
- *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
- *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
+ *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*),
+ * and what the command shows on the screen (screen_*); chart.c: bars, strips along the axis screen.c          heading, notes,
+ * name of a state, a table on the screen result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that
+ * have no struct in rotid.h human.c           numbers for people: human_value: prefix of the unit, four significant digits;
+ * human_interval: 95 % layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped csv.c, csv_uff.c
+ * --csv: the files of a command, all or none; quoting, formulas made harmless; universal files frf_file.c        frf_write_file:
+ * synthesised functions as sets 58 output.c          output_open, output_close: a file is written beside its name, then renamed;
+ * several at once, all or none terminal.c        standard output and error: memory until terminal_flush; one filter makes control
+ * characters harmless
  *
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
@@ -397,6 +396,14 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
+struct speeds;
+struct critical_speed;
+struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_shares(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_campbell(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_response(struct pool *pool, const struct speeds *speeds);
+/* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
+const char *speeds_judgement(struct pool *pool, const struct critical_speed *critical, const struct speeds *speeds);
 
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 
@@ -425,6 +432,7 @@ void screen_check(const struct screen *to, const struct result *result, const st
 void screen_modes(const struct screen *to, const struct result *result);
 void screen_suggest(const struct screen *to, const struct result *result);
 void screen_sensitivity(const struct screen *to, const struct result *result);
+void screen_speeds(const struct screen *to, const struct result *result);
 /* baseline: NLopt was asked for */
 void screen_identify(const struct screen *to, const struct result *result, int baseline);
 /* The summary, the sets, the doubtful places; sets that are alike share a row, at most about forty. */
