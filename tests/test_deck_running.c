@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "deck/deck.h"
 #include "folder.h"
 #include "running_case.h"
 #include "support.h"
@@ -141,6 +142,24 @@ static void a_bearing_that_is_not_what_it_seems_is_warned_of(void **state)
     says(SHAFT TWO "*DISK\n1, 5, 0.1\n", ROTID_WARNING, 0, "no polar one");
 }
 
+/* What a diagnosis or a suggestion writes keeps the machine, last of all. */
+static void written_decks_keep_the_machine(void **state)
+{
+    (void)state;
+    const struct deck_write_options options = {.x = NULL};
+    struct running_case c;
+    struct message_list notes;
+    char *text, *with;
+    message_open(&notes, &test_pool);
+    assert_int_equal(running_case_open(SHAFT TWO "*DISK, NAME=fan\n1, 5, 0.1, 0.2\n", 3000, 3, 0, &c), ROTID_OK);
+    struct states states = *deck_states_of(c.deck);
+    assert_int_equal(deck_write(&test_pool, &states, &states, &options, &notes, &text), ROTID_OK);
+    assert_non_null(strstr(text, TWO "*DISK, NAME=fan\n1, 5, 0.1, 0.2\n"));
+    assert_int_equal(deck_add_state(&test_pool, c.job->origin, NULL, "*STATE, NAME=next\n*SPRING\nend, 1e4\n", &with), ROTID_OK);
+    assert_true(strstr(with, "*STATE, NAME=next") && strstr(with, "*RUNNING") > strstr(with, "*STATE, NAME=next"));
+    running_case_close(&c);
+}
+
 static void what_does_not_hold_the_rotor_is_refused(void **state)
 {
     (void)state;
@@ -162,6 +181,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_does_not_hold_the_rotor_is_refused, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -483,12 +483,14 @@ struct deck_origin {
 };
 
 /* A card with all lines up to the next one, comments among them. */
+#define DECK_OF_MACHINE (-2)
+
 struct deck_part {
     const char *text, *file; /* file: that it stands in */
     size_t length;
     const struct deck_card *card; /* NULL: not known, and what stands before the first card */
     int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
-    int state;                    /* which *STATE it stands behind, from 0; -1: none */
+    int state;                    /* which *STATE it stands behind, from 0; -1: none; or DECK_OF_MACHINE: *RUNNING */
     int changed;
 };
 
@@ -496,6 +498,7 @@ struct deck_edit {
     struct pool *pool;
     const struct deck_origin *origin;
     int npart, nstate, status;
+    int machine; /* there is a *RUNNING, which stands last */
     size_t room;
     struct deck_part *part;
 };

@@ -190,6 +190,9 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
             .text = text, .file = file, .length = (size_t)(end - text), .card = deck_card_find(name), .state = e->nstate - 1};
         if (part->card && !strcmp(name, "STATE"))
             part->state = e->nstate++;
+        e->machine |= !strcmp(name, "RUNNING");
+        if (e->machine)
+            part->state = DECK_OF_MACHINE;
         if (strcmp(name, "INCLUDE") != 0)
             continue;
         part->include = 1;
@@ -389,7 +392,7 @@ static void apply(struct deck_edit *e, const struct override *o)
         }
     const struct deck_card *card = deck_card_find(o->card);
     int at = 0;
-    while (at < e->npart && e->part[at].state < 0)
+    while (at < e->npart && e->part[at].state == -1)
         at++;
     for (const struct deck_card *k = deck_card_table; k->name && !card; k++)
         card = same_text(k->name, o->card) ? k : NULL;

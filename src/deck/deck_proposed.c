@@ -150,7 +150,7 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
 
 /* ------------------------------------------------------------------------------------------------ the deck with it */
 
-enum { COMMON = 1, MEASURED = 2 };
+enum { COMMON = 1, MEASURED = 2, MACHINE = 4 };
 
 static int is_called(struct deck_edit *e, const struct deck_part *part, const char *name)
 {
@@ -224,9 +224,11 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
     if (status || !card || !name || !which)
         return status ? status : card ? ROTID_ERROR_MEMORY : ROTID_ERROR_ARGUMENT;
     for (int i = 0; i < e.npart; i++)
-        which[i] = e.part[i].card && e.part[i].card->states == CARD_OF_STATE ? MEASURED : COMMON;
+        which[i] = e.part[i].state == DECK_OF_MACHINE                          ? MACHINE
+                   : e.part[i].card && e.part[i].card->states == CARD_OF_STATE ? MEASURED
+                                                                               : COMMON;
     if (e.nstate) {
-        deck_edit_text(&e, &w, NULL, 0);
+        deck_edit_text(&e, &w, e.machine ? which : NULL, COMMON | MEASURED);
     } else {
         deck_edit_text(&e, &w, which, COMMON);
         deck_put(&w, "*STATE, NAME=measured%s%s%s%s\n", modes ? ", MODES=" : "", modes ? modes : "", holdout ? ", HOLDOUT=" : "",
@@ -237,6 +239,8 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
     if (e.nstate && home)
         put_cards_of(&e, &w, home);
     deck_put(&w, "%s", rest + (*rest == '\n'));
+    if (e.machine) /* behind all states */
+        deck_edit_text(&e, &w, which, MACHINE);
     status = e.status ? e.status : w.status;
     *text = status ? NULL : w.text;
     return status;

@@ -131,7 +131,7 @@ static void share_mesh(struct states *meant)
 /* The text state of a part that says something of state s: its own one, or -1 of what is common. */
 static int is_in(const struct writing *w, const struct deck_part *part, int s)
 {
-    return part->state < 0 || part->state == w->of[s];
+    return part->state == -1 || part->state == w->of[s];
 }
 
 static int is_card(const struct deck_part *part, const char *name)
