@@ -14,14 +14,13 @@
  *                  speed by the vector
  *   criticals      critical.c: Newton on Im lambda(W) = h W; onset of instability by bisection
  *   response       response.c: unbalance response, peaks, amplification by half power; sag and bearing loads
- *   derivatives    rates.c: of a critical speed by every uncertain number, by left and right vectors
- *   bands          bands.c: draws from the posterior of the fit, the bearings, losses, pull; every critical solved again
- *   all of it      speeds.c (speeds_run)
+ *   bands          bands.c: derivatives by every uncertain number, by left and right vectors; draws from the posterior of the
+ * fit, the bearings, losses, pull; every critical solved again all of it      speeds.c (speeds_run)
  *
  * Loss factors: x + iy = f e^{iwt} + conj(b) e^{-iwt}; the elastic K of the group is multiplied by 1 + i eta sgn(w - W) on f and
  * by 1 + i eta on b, sgn 0 = 0.
  *
- * Callers: deck fills struct machine; cli runs; result, report and export read struct speeds. Only model/model.h is asked for
+ * Callers: deck fills struct machine; cli runs; result, report and page read struct speeds. Only model/model.h is asked for
  * matrices: the room must not know what discretises a rotor. */
 
 #include <complex.h>
@@ -135,7 +134,6 @@ struct system {
     double *axis;   /* [columns * naxis] rows of V at the places of the axis */
     double total_mass;
     double highest;   /* rad/s: of the modes in the basis */
-    double stiffness; /* smallest eigenvalue sign of K with the bearings: below 0 the pull is too strong */
     int hysteretic;   /* a loss factor is there */
     double *own_mass; /* [columns^2] V' M V on the basis of another system; NULL: 1 */
     double *mass;     /* [size^2] */
