@@ -26,7 +26,7 @@ _rotid_options=(
     '-h --help:check modes sensitivity identify diagnose suggest speeds frf ema export uff report study::'
     '--json:check modes sensitivity identify diagnose suggest speeds frf export ema uff study:files:json'
     '--set:check modes sensitivity identify diagnose suggest speeds frf export study:value:'
-    '--csv:modes identify uff:value:'
+    '--csv:modes identify uff study:value:'
     '--compare:modes::'
     '--at:sensitivity:value:'
     '--step:sensitivity:value:'

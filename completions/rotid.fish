@@ -39,7 +39,7 @@ complete -c rotid -l version -d 'version, commit and BLAS, and whether NLopt is 
 complete -c rotid -s h -l help -d 'the commands; behind a command: its options and examples'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema uff study' -l json -r -F -d 'the result as JSON; - for standard output, which then carries nothing else'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export study' -l set -x -a $overrides -d 'another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated'
-complete -c rotid -n '__fish_seen_subcommand_from modes identify uff' -l csv -x -d 'tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv)'
+complete -c rotid -n '__fish_seen_subcommand_from modes identify uff study' -l csv -x -d 'tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv; study: also .cells.csv, .runs.csv)'
 complete -c rotid -n '__fish_seen_subcommand_from modes' -l compare -d 'the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'these parameters instead of those of *IDENTIFY, at these values or those of the deck'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l step -x -d 'relative step of the differences'
