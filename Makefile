@@ -94,7 +94,7 @@ PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(if $(LAPACKE_AR
 # the rooms that public routines reach, and those of the program alone
 LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose suggest file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
+PROGRAM_SOURCES := $(foreach room,running signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
@@ -382,7 +382,7 @@ coverage:
 	@sh tools/coverage $(BUILD)/coverage
 
 # docs/schema, from the tables of src/record and src/result and the comments of the structs that they describe
-SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/run.h
+SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/run.h src/running/running.h
 $(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
 $(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(call tell,LD,$@)

@@ -3,7 +3,7 @@
 set -l overrides 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY= NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
 complete -c rotid -f
 # what follows is written by make tables
-set -l commands check modes sensitivity identify diagnose suggest frf ema export uff report study
+set -l commands check modes sensitivity identify diagnose suggest speeds frf ema export uff report study
 set -l none "not __fish_seen_subcommand_from $commands"
 complete -c rotid -n $none -a check -d 'parse a deck; mass, centre of mass, length, mesh, sensors, warnings'
 complete -c rotid -n '__fish_seen_subcommand_from check' -k -a '(__fish_complete_suffix .inp; )'
@@ -17,6 +17,8 @@ complete -c rotid -n $none -a diagnose -d 'what the model gets wrong, the cause,
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a suggest -d 'what to measure next: sensors, modes and intervals before a test, tests that end an ambiguous diagnosis'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -k -a '(__fish_complete_suffix .inp; )'
+complete -c rotid -n $none -a speeds -d 'the machine in operation (*RUNNING): critical speeds, stability, unbalance response, margins, with bands'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a frf -d 'synthesised transfer functions with measured damping, beside measured ones'
 complete -c rotid -n '__fish_seen_subcommand_from frf' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a ema -d 'time records or transfer functions (58, 58b) to modes for *MEASURED'
@@ -30,13 +32,13 @@ complete -c rotid -n '__fish_seen_subcommand_from report' -k -a '(__fish_complet
 complete -c rotid -n $none -a study -d 'many runs from one plan, or of many decks, resumable'
 complete -c rotid -n '__fish_seen_subcommand_from study' -k -a '(__fish_complete_suffix .inp; __fish_complete_suffix .jsonl; )'
 complete -c rotid -l quiet -d 'no tables, no warnings and no progress; errors are always printed'
-complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest frf export ema uff' -l verbose -d 'more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)'
-complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest frf export ema study' -l threads -x -d 'threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)'
-complete -c rotid -n '__fish_seen_subcommand_from sensitivity diagnose suggest study' -l seed -x -d 'of the random numbers'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema uff' -l verbose -d 'more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema study' -l threads -x -d 'threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)'
+complete -c rotid -n '__fish_seen_subcommand_from sensitivity diagnose suggest speeds study' -l seed -x -d 'of the random numbers'
 complete -c rotid -l version -d 'version, commit and BLAS, and whether NLopt is missing'
 complete -c rotid -s h -l help -d 'the commands; behind a command: its options and examples'
-complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest frf export ema uff study' -l json -r -F -d 'the result as JSON; - for standard output, which then carries nothing else'
-complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest frf export study' -l set -x -a $overrides -d 'another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema uff study' -l json -r -F -d 'the result as JSON; - for standard output, which then carries nothing else'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export study' -l set -x -a $overrides -d 'another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated'
 complete -c rotid -n '__fish_seen_subcommand_from modes identify uff study' -l csv -x -d 'tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv; study: also .cells.csv, .runs.csv)'
 complete -c rotid -n '__fish_seen_subcommand_from modes' -l compare -d 'the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'these parameters instead of those of *IDENTIFY, at these values or those of the deck'
@@ -54,6 +56,11 @@ complete -c rotid -n '__fish_seen_subcommand_from suggest' -l frequency-noise -x
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l shape-noise -x -d 'of their shapes, of the largest component (default: that of the deck, else 2)'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l set-up-cost -x -d 'of hanging, mounting or moving something, where measuring a point costs 1'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose suggest' -l replicates -x -d 'of the bootstrap that tells a cause from chance (default: 1000)'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l speeds -x -d 'of the Campbell diagram [rpm] (default: 0 to 1.3 times the running range in 41 steps)'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l harmonic -x -d 'critical speeds by an excitation of H per revolution'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l draws -x -d 'of the bands, each with its critical speeds solved again'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l campbell -r -F -d 'the Campbell diagram as a table'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l response -r -F -d 'the unbalance response at the probes as a table'
 complete -c rotid -n '__fish_seen_subcommand_from frf' -s o -l output -r -F -d 'the synthesised functions as a universal file'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -s o -l output -r -F -d 'the modes as a universal file, for *MEASURED'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l band -x -d 'in hertz (default: all lines)'

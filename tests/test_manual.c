@@ -184,6 +184,11 @@ static const char *value_of(const char *command, const char *option)
                                             {"--shard", "1/2"},
                                             {"--state", "a"},
                                             {"--timeout", "1"},
+                                            {"--speeds", "0:100"},
+                                            {"--harmonic", "2"},
+                                            {"--draws", "10"},
+                                            {"--campbell", "/x/y"},
+                                            {"--response", "/x/z"},
                                             {NULL, NULL}};
     const char *of_command = pool_format(&test_pool, "%s %s", command, option);
     int i = 0;

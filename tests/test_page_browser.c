@@ -18,6 +18,7 @@ static const struct {
     {"solid", "modes " INPUT "paper_rotor_solid.inp --json", {"motion", "frequencies", "meridian"}},
     {"states", "modes " INPUT "strip_states.inp --json", {"rotor", "frequencies", "rotor-2", "frequencies-2"}},
     {"sensitivity", "sensitivity " INPUT "paper_rotor.inp --json", {"sensitivity", "sensitivity-curves", "growth"}},
+    {"speeds", "speeds " INPUT "motor_running.inp --draws 30 --json", {"campbell", "response", "speed-map", "critical-shapes"}},
     {"frf", "frf " INPUT "paper_rotor.inp --json", {"transfer"}},
     {"identify",
      "identify " INPUT "solid_rotor.inp --json",

@@ -55,7 +55,7 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
-         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, frf, ema "
+         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, speeds, frf, ema "
          "or study"},
         {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},

@@ -15,6 +15,7 @@
  *                  (theta_from, theta_to) for RODS; cylinder.c: the equivalent cylinder (6) for TUBE
  *   joints         hinge.c (hinge_condense): K := K - g g' c/(1 + c k), a rotational spring in series, condensed
  *   masses, springs at any place   lumped.c (lumped_add): carried by the static shapes of the element
+ *   spin           gyroscopic.c (beam_gyroscopic): polar inertia P; beam_spread: a stiffness spread over a group
  *   assembly       assembly.c (beam_assemble, beam_differentiate); deflection.c: deflection between nodes and in members
  *
  * Callers: model/discrete.c; solid/members.c for the elements of rods; export. The room must not know modes, data or causes. */
@@ -138,6 +139,14 @@ void beam_set(struct beam *beam, const double *x);
 
 /* dK/dx_p and dM/dx_p at the values of the last beam_assemble. */
 void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm);
+
+/* p += P: the polar inertia of what turns, in the place of the rotary inertia of M: twice that of sections, rods and bars, that
+ * of disks as stated. With theta = -dv/dz in both planes the gyroscopic terms of a rotor that spins at W from x to y are W P y'
+ * on x and -W P x' on y. At the values of the last beam_assemble. */
+void beam_gyroscopic(const struct beam *beam, rotid_matrix *p);
+
+/* s += S: a lateral stiffness > 0 to the ground [N/m] evenly over the length of a group, with the shapes of the mass matrix. */
+void beam_spread(const struct beam *beam, int group, double stiffness, rotid_matrix *s);
 
 /* u [2 ndof]: v = 1, theta = 0, and v = -z, theta = 1. */
 void beam_rigid_motions(const struct beam *beam, double *u);

@@ -10,8 +10,8 @@
  *   arguments.c         arguments_parse: the rows of option_table.c to struct command; --help
  *   arguments_refuse.c  options that do not go together, files that would be lost
  *   command_deck.c      command_read_deck: the deck by rotid_deck_read; states; command_fit_deck: fits before frf, export, ...
- *   command_NAME.c      command_check, _modes, _sensitivity, _identify, _diagnose, _suggest, _frf, _ema, _uff, _report, _export,
- *                       _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command_csv.c)
+ *   command_NAME.c      command_check, _modes, _sensitivity, _speeds, _identify, _diagnose, _suggest, _frf, _ema, _uff, _report,
+ * _export, _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command_csv.c)
  *   command_table.c     the list of the commands; option_table.c: the options, a row each, from which `make tables` writes the
  *                       completions and the lists of docs/rotid.1
  *   command.c           messages, head of the result, failures, environment of a long call
@@ -59,6 +59,13 @@ struct suggest_arguments {
     int sensors, modes;
 };
 
+/* Of `speeds`. */
+struct speeds_arguments {
+    const char *range, *campbell, *response;
+    double harmonic;
+    int draws;
+};
+
 struct given_option {
     const char *name, *value; /* value: "" where it has none */
 };
@@ -73,6 +80,7 @@ struct command {
     unsigned long seed;
     double step, range;
     struct suggest_arguments suggest;
+    struct speeds_arguments speeds;
     int ngiven, noverride;
     struct given_option *given; /* [ngiven] in their order */
     struct override *override;
@@ -168,6 +176,7 @@ int command_cancelled(void *unused);
 int command_check(struct command *command);
 int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
+int command_speeds(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
 int command_suggest(struct command *command);

@@ -26,6 +26,10 @@ const struct command_entry command_table[] = {
      "rotid suggest plan.inp --sensors 10 --interval 1\n"
      "rotid suggest rotor.inp --extended next.inp",
      "inp", command_suggest, READS_DECK | PARALLEL},
+    {"speeds", "the machine in operation (*RUNNING): critical speeds, stability, unbalance response, margins, with bands",
+     "rotid speeds machine.inp\n"
+     "rotid speeds machine.inp --speeds 0:12000:61 --campbell campbell.csv",
+     "inp", command_speeds, READS_DECK | PARALLEL},
     {"frf", "synthesised transfer functions with measured damping, beside measured ones",
      "rotid frf rotor.inp\n"
      "rotid frf rotor.inp --set FRF.FILE=measured.unv -o synthesised.unv",

@@ -4,7 +4,7 @@
 
 #include "result/result.h"
 
-#define DECKS       "check modes sensitivity identify diagnose suggest frf export"
+#define DECKS       "check modes sensitivity identify diagnose suggest speeds frf export"
 #define UNIVERSAL   "unv|uff|uf"
 #define AT(MEMBER)  .offset = offsetof(struct command, MEMBER)
 #define FROM(A, B)  .least = (A), .most = (B)
@@ -22,7 +22,7 @@ const struct option_row option_table[] = {
     {.name = "threads", .commands = DECKS " ema study", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
      .help = "threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
      .more = "The result does not depend on it."},
-    {.name = "seed", .commands = "sensitivity diagnose suggest study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
+    {.name = "seed", .commands = "sensitivity diagnose suggest speeds study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
      .standard = 1, .value = "N",
      .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
     {.name = "version", .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
@@ -79,6 +79,18 @@ const struct option_row option_table[] = {
      .value = "POINTS", .help = "of hanging, mounting or moving something, where measuring a point costs 1"},
     {.name = "replicates", .commands = "diagnose suggest", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
      .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
+
+    {.name = "speeds", .commands = "speeds", .kind = OPTION_TEXT, AT(speeds.range), .value = "FROM:TO[:N]",
+     .help = "of the Campbell diagram [rpm] (default: 0 to 1.3 times the running range in 41 steps)",
+     .more = "Without a running range it ends beyond the third critical speed."},
+    {.name = "harmonic", .commands = "speeds", .kind = OPTION_REAL, AT(speeds.harmonic), FROM(0.01, 100), .standard = 1,
+     .value = "H", .help = "critical speeds by an excitation of H per revolution"},
+    {.name = "draws", .commands = "speeds", .kind = OPTION_WHOLE, AT(speeds.draws), FROM(1, 1000000), .standard = 2000,
+     .value = "N", .help = "of the bands, each with its critical speeds solved again"},
+    {.name = "campbell", .commands = "speeds", .kind = OPTION_WRITES, AT(speeds.campbell), .value = "FILE", .files = "csv",
+     .help = "the Campbell diagram as a table"},
+    {.name = "response", .commands = "speeds", .kind = OPTION_WRITES, AT(speeds.response), .value = "FILE", .files = "csv",
+     .help = "the unbalance response at the probes as a table"},
 
     {OUTPUT(.commands = "frf", .value = "FILE", .files = UNIVERSAL, .help = "the synthesised functions as a universal file")},
 

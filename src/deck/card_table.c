@@ -160,10 +160,18 @@ static const struct deck_row cause[] = {
     OTHER("SUSPECT", .words = deck_answers),
     LAST};
 
+static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL};
+static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
+    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), LAST},
+    pedestal[] = {OTHER("BEARING", .what = ""), LAST}, loss[] = {OTHER("TYPE", .words = losses), LAST},
+    pull[] = {OTHER("GROUP", .what = ""), OTHER("STD", .what = "(0)"), LAST}, probe[] = {OTHER("NAME", .what = ""), LAST},
+    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST};
+
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
 #define REPLACES   BY_CODE, .states = CARD_REPLACES
 #define OF_STATE   BY_CODE, .states = CARD_OF_STATE
+#define OF_MACHINE BY_CODE, .states = CARD_OF_MACHINE
 #define LIST(S, M) .size = sizeof(struct S), .list = offsetof(struct rotor, M), .count = offsetof(struct rotor, n##M)
 
 /* In the order of docs/deck.md. */
@@ -201,6 +209,15 @@ const struct deck_card deck_card_table[] = {
     {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES, .once = 1},
     {"STATE", CARD_STATES, 8, deck_state, NULL, state, BY_CODE, .instead = "the cards of the state behind it"},
     {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
+    {"RUNNING", CARD_RUNNING, 9, deck_running, "names of supports and masses that were left at the test", running, OF_MACHINE},
+    {"BEARING", CARD_RUNNING, 9, deck_bearing, "position, k [N/m], c [N.s/m]; or kxx, kyy, cxx, cyy; or kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy; with FILE: position", bearing, OF_MACHINE},
+    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]", pedestal, OF_MACHINE},
+    {"LOSS", CARD_RUNNING, 10, deck_loss, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]", loss, OF_MACHINE},
+    {"PULL", CARD_RUNNING, 10, deck_pull, "stiffness of the magnetic pull, without its sign [N/m]", pull, OF_MACHINE},
+    {"CHANGE", CARD_RUNNING, 10, deck_change, "parameter, factor [, standard deviation of its logarithm]", nothing, OF_MACHINE},
+    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]", nothing, OF_MACHINE},
+    {"PROBE", CARD_RUNNING, 10, deck_probe, "position [, angle from x [deg]]", probe, OF_MACHINE},
+    {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
     {.name = NULL}};
 /* clang-format on */
 

@@ -25,7 +25,7 @@ static const char *nearest_card(const char *name)
     return nearest;
 }
 
-static void check_names(struct deck_reader *reader, const struct card *card)
+void deck_check_names(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind) {
@@ -310,7 +310,7 @@ void deck_read_cards(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     for (int c = 0; c < reader->text.ncard; c++)
-        check_names(reader, &reader->text.card[c]);
+        deck_check_names(reader, &reader->text.card[c]);
     for (int phase = 0; phase <= LAST_PHASE && !reader->out_of_memory; phase++) {
         if (phase == 3) {
             deck_set_lengths(reader);
@@ -392,8 +392,11 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
+    deck_split_running(&reader, &nread);
     if (!bad_tables && !reader.out_of_memory)
         deck_read_all_states(&reader, nread, states);
+    if (!messages->errors && !reader.out_of_memory && states->nstate)
+        deck_read_machine(&reader, states);
     if (reader.out_of_memory || messages->out_of_memory || !job.deck)
         return ROTID_ERROR_MEMORY;
     if (messages->errors)

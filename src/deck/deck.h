@@ -15,6 +15,7 @@
  *   deck_measured.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
  *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; deck_state.c: *SET, what a state has of its own
  *   deck_cause.c         *CAUSE: effects and suspects, faults of the data taken out of them
+ *   deck_running.c       *RUNNING and what stands behind it: struct machine of src/running
  *
  * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
  * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
@@ -200,7 +201,11 @@ struct deck_reader {
     int held_out;              /* HOLDOUT=STATE: all its modes are */
     int no_section;            /* the one error is that of a section that cannot be */
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
-    unsigned doubted;          /* kinds of numbers that a warning was given for */
+    int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
+    struct card *running;
+    size_t running_room[8];
+    struct machine *machine; /* that they make */
+    unsigned doubted;        /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -284,7 +289,8 @@ int deck_option_group(struct deck_reader *reader, const struct card *card, const
 typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
     deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
-    deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set;
+    deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set, deck_running, deck_bearing,
+    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation;
 /* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
 
@@ -308,6 +314,13 @@ const char *deck_whole_state(struct deck_reader *reader, const char **rest);
 /* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
  * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
 int deck_read_tables(struct deck_reader *reader, int *nread);
+
+/* Takes *RUNNING and what stands behind it out of the text, of whose cards *nread were read. */
+void deck_split_running(struct deck_reader *reader, int *nread);
+/* These cards into states->machine, once all states are read without an error. */
+void deck_read_machine(struct deck_reader *reader, struct states *states);
+/* Errors of a card or an option that is not known. */
+void deck_check_names(struct deck_reader *reader, const struct card *card);
 
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);

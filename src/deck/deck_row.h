@@ -65,14 +65,15 @@ struct deck_row {
         .option = NULL, .what = NULL                                                                                             \
     }
 
-enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF, CARD_STATES };
+enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF, CARD_STATES, CARD_RUNNING };
 
 /* Where a card stands in a deck with *STATE. */
 enum card_states {
-    CARD_ANYWHERE, /* what a state has adds to what is common */
-    CARD_REPLACES, /* a state that has one has it in place of the common one */
-    CARD_COMMON,   /* before the first *STATE */
-    CARD_OF_STATE  /* behind it */
+    CARD_ANYWHERE,  /* what a state has adds to what is common */
+    CARD_REPLACES,  /* a state that has one has it in place of the common one */
+    CARD_COMMON,    /* before the first *STATE */
+    CARD_OF_STATE,  /* behind it */
+    CARD_OF_MACHINE /* behind *RUNNING */
 };
 
 struct deck_card {

@@ -165,7 +165,7 @@ static int name_unknowns(struct writing *w)
 /* The text state of a part that says something of state s: its own one, or -1 of what is common. */
 static int is_in(const struct writing *w, const struct deck_part *part, int s)
 {
-    return part->state < 0 || part->state == w->of[s];
+    return part->state == -1 || part->state == w->of[s];
 }
 
 static int is_card(const struct deck_part *part, const char *name)

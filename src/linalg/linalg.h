@@ -14,12 +14,14 @@
  *   condensed pairs   eigen_dense.c, dsygvx on M phi = mu (K - s M) phi; eigen_guyan.c: Guyan's without K~ and M~, on arrow.c,
  *                     bordered band factors of four shifts at once; shift.c: the shift s < 0
  *   dense kernels     least_squares.c: damped step min |J h + r|^2 + mu |D h|^2, singular values; cholesky.c, positive.c,
- *                     symmetric.c (indefinite), product.c, roots.c (polynomial by its companion matrix)
+ *                     symmetric.c (indefinite), product.c, roots.c (polynomial by its companion matrix), quadratic.c
+ *                     (lambda^2 M + lambda C + K without symmetry, complex systems)
  *   public doors      eigenpairs.c, condense.c, matrix_entry.c: rotid_eigenpairs, rotid_condense, rotid_matrix_*
  *
  * Callers: every room that computes. The only room that calls LAPACKE. It must not know what a degree of freedom or parameter is;
  * derivatives of eigenvectors (Nelson) are in src/modal. */
 
+#include <complex.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -663,6 +665,25 @@ double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *
  * columns of y are not independent or not finite. */
 int ritz_pairs(int n, int count, const rotid_matrix *k, const rotid_matrix *m, double *y, double *value, double *vector,
                double *product, double *squares, double *work);
+
+/* ------------------------------------------------------------------------------------------------------------- quadratic */
+
+/* The quadratic eigenvalue problem (lambda^2 M + lambda C + K) u = 0 of real matrices without symmetry, small and dense, and the
+ * complex systems of its iterations (LAPACK dgeev, zgetrf, zgetrs). */
+
+size_t quadratic_workspace(int n); /* doubles */
+
+/* lambda [2 n] and u [n * 2 n] of m, c, k [n * n], in no order, vectors in any scale; m regular, overwritten by its factors; rate
+ * > 0: the size of the lambda that are wanted. work [quadratic_workspace(n)], pivot [n]. Returns 0, or 1 where a number is not
+ * finite, M is singular or the iteration did not converge. */
+int quadratic_pairs(int n, double rate, double *m, const double *c, const double *k, double complex *lambda, double complex *u,
+                    double *work, int *pivot);
+
+/* a [n * n] := P L U; pivot [n]. Returns 0, or 1 where A is singular or not finite. */
+int complex_factor(int n, double complex *a, int *pivot);
+
+/* b [n] := A^-1 b, or A^-H b where adjoint is not 0. */
+void complex_solve(int n, int adjoint, const double complex *factor, const int *pivot, double complex *b);
 
 /* ----------------------------------------------------------------------------------------------------------------- roots */
 

@@ -1,5 +1,7 @@
 #include "model/model.h"
 
+#include <string.h>
+
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 #include "solid/solid.h"
@@ -76,6 +78,41 @@ void discrete_mass_properties(const struct discrete *discrete, struct mass_prope
         beam_mass_properties(&discrete->beam, properties);
 }
 
+void discrete_gyroscopic(const struct discrete *discrete, rotid_matrix *p)
+{
+    if (discrete->as == AS_SOLID)
+        solid_gyroscopic(&discrete->solid, p);
+    else
+        beam_gyroscopic(&discrete->beam, p);
+}
+
+void discrete_spread(const struct discrete *discrete, int group, double stiffness, rotid_matrix *s)
+{
+    if (discrete->as == AS_SOLID)
+        solid_spread(&discrete->solid, group, stiffness, s);
+    else
+        beam_spread(&discrete->beam, group, stiffness, s);
+}
+
+void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
+{
+    rotid_matrix structure;
+    discrete_structure(discrete, &structure);
+    memset(v, 0, (size_t)structure.n * sizeof *v);
+    if (discrete->as == AS_SOLID)
+        solid_spring_motion(&discrete->solid, i, v);
+    else
+        v[2 * discrete->beam.mesh.spring_node[i]] = 1;
+}
+
+void discrete_rigid_motions(const struct discrete *discrete, double *u)
+{
+    if (discrete->as == AS_SOLID)
+        solid_rigid_motions(&discrete->solid, u);
+    else
+        beam_rigid_motions(&discrete->beam, u);
+}
+
 static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
 {
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
@@ -123,10 +160,7 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     if (status)
         return status;
     double *rigid = work + n, *mass_rigid = work + 3 * (ptrdiff_t)n, *elastic = work + 5 * (ptrdiff_t)n;
-    if (discrete->as == AS_SOLID)
-        solid_rigid_motions(&discrete->solid, rigid);
-    else
-        beam_rigid_motions(&discrete->beam, rigid);
+    discrete_rigid_motions(discrete, rigid);
     matrix_multiply(&m, 2, rigid, mass_rigid);
     matrix_zero(&k);
     matrix_zero(&m);

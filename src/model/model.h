@@ -60,6 +60,17 @@ void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix 
 void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm);
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties);
 
+/* *p: the polar inertia P of what turns; *s: a lateral stiffness > 0 to the ground [N/m] evenly over the length of a group. Both
+ * are added, at the values of the last discrete_assemble. */
+void discrete_gyroscopic(const struct discrete *discrete, rotid_matrix *p);
+void discrete_spread(const struct discrete *discrete, int group, double stiffness, rotid_matrix *s);
+
+/* v [n]: the deflection of the section where spring i of the rotor is attached is v'u. */
+void discrete_spring_motion(const struct discrete *discrete, int i, double *v);
+
+/* u [2 n]: all of the rotor moves by 1; turns by theta = 1 about the left end. */
+void discrete_rigid_motions(const struct discrete *discrete, double *u);
+
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
  * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
  * Nothing is left on the pool. Statuses of eigen_full_solve. */

@@ -8,9 +8,16 @@
 static const struct {
     const char *command, *words;
     int judged; /* it says how far it can be relied on */
-} kinds[] = {{"diagnose", "Diagnosis", 1},     {"identify", "Identification", 1},  {"study", "Study", 1},
-             {"ema", "Modal analysis", 1},     {"suggest", "Next measurement", 0}, {"modes", "Modes", 0},
-             {"frf", "Transfer functions", 0}, {"sensitivity", "Sensitivity", 0},  {"check", "Check", 0}};
+} kinds[] = {{"diagnose", "Diagnosis", 1},
+             {"identify", "Identification", 1},
+             {"study", "Study", 1},
+             {"ema", "Modal analysis", 1},
+             {"suggest", "Next measurement", 0},
+             {"modes", "Modes", 0},
+             {"speeds", "Critical speeds", 0},
+             {"frf", "Transfer functions", 0},
+             {"sensitivity", "Sensitivity", 0},
+             {"check", "Check", 0}};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
 
 static int rank_of(const struct result *result)
@@ -162,6 +169,8 @@ static void compose_result(struct document *document, const struct result *resul
         section_ema(document, result);
     if (result->suggest)
         section_suggest(document, result);
+    if (result->speeds)
+        section_speeds(document, result);
     if (result->study)
         section_study(document, result);
     if (page_state_count(result))

@@ -253,6 +253,8 @@ void answer_plain(struct document *document, const struct result *result)
                         human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
     } else if (result->suggest) {
         text = result->suggest->sentence;
+    } else if (result->speeds) {
+        text = answer_of_speeds(pool, result->speeds);
     } else if (result->sensitivity) {
         text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz,
                            result->sensitivity->nparameters,

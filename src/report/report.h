@@ -389,6 +389,14 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
+struct speeds;
+struct critical_speed;
+struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_shares(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_campbell(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_response(struct pool *pool, const struct speeds *speeds);
+/* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
+const char *speeds_judgement(struct pool *pool, const struct critical_speed *critical, const struct speeds *speeds);
 
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 
@@ -417,6 +425,7 @@ void screen_check(const struct screen *to, const struct result *result, const st
 void screen_modes(const struct screen *to, const struct result *result);
 void screen_suggest(const struct screen *to, const struct result *result);
 void screen_sensitivity(const struct screen *to, const struct result *result);
+void screen_speeds(const struct screen *to, const struct result *result);
 /* baseline: NLopt was asked for */
 void screen_identify(const struct screen *to, const struct result *result, int baseline);
 /* The summary, the sets, the doubtful places; sets that are alike share a row, at most about forty. */

@@ -29,6 +29,7 @@ static const struct record_field identify_fields[] = {
 static const struct record_field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
 static const struct record_field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
 static const struct record_field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
+static const struct record_field speeds_fields[] = {HEAD, OWN(speeds, speeds_record), WARNINGS, {0}};
 static const struct record_field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
 static const struct record_field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
 static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
@@ -43,9 +44,9 @@ static const struct {
     {"check", RECORD(struct result, check_fields), 1},       {"modes", RECORD(struct result, modes_fields), 1},
     {"identify", RECORD(struct result, identify_fields), 1}, {"diagnose", RECORD(struct result, diagnose_fields), 1},
     {"suggest", RECORD(struct result, suggest_fields), 1},   {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
-    {"frf", RECORD(struct result, frf_fields), 1},           {"ema", RECORD(struct result, ema_fields), 1},
-    {"uff", RECORD(struct result, uff_fields), 0},           {"export", RECORD(struct result, export_fields), 0},
-    {"study", RECORD(struct result, study_fields), 1},
+    {"speeds", RECORD(struct result, speeds_fields), 1},     {"frf", RECORD(struct result, frf_fields), 1},
+    {"ema", RECORD(struct result, ema_fields), 1},           {"uff", RECORD(struct result, uff_fields), 0},
+    {"export", RECORD(struct result, export_fields), 0},     {"study", RECORD(struct result, study_fields), 1},
 };
 #define COMMANDS (int)(sizeof commands / sizeof *commands)
 

@@ -294,6 +294,8 @@ double frf_sums_level(const struct frf_sums *sums);
 /* The states of a deck: a structure that was measured more than once is a job for each time, complete by itself, over unknowns
  * that they share. What works on one job works on that of one state. */
 
+struct machine;
+
 struct state {
     const char *name; /* NULL in a deck without *STATE */
     struct job job;
@@ -307,6 +309,7 @@ struct states {
     struct state *state; /* [nstate] at least one; several have the same options but for transfer functions */
     int nparameter;
     rotid_parameter *bounds; /* [nparameter] those of the common cards, then those of each state alone, "bearings:front.k" */
+    const struct machine *machine; /* the rotor in operation, of src/running, or NULL */
 };
 
 /* A job as the only state, at *state, which has no name. Leans on both. */

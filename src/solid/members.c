@@ -182,6 +182,40 @@ void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_m
     }
 }
 
+void members_gyroscopic(const struct solid *solid, rotid_matrix *p)
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct solid_mesh *mesh = &solid->mesh;
+    double k[16], m[16];
+    for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
+        struct member member = member_of(solid, i);
+        int from, to;
+        solid_mesh_member(rotor, mesh, i, &from, &to);
+        struct element turning = element_of(solid, &member, 1);
+        turning.rhos = turning.force = 0;
+        turning.rhoi *= 2;
+        if (solid_mesh_follows(rotor, i)) {
+            for (int l = from; l <= to; l++) {
+                double length = ((l < to ? mesh->z[l + 1] : mesh->z[l]) - (l > from ? mesh->z[l - 1] : mesh->z[l])) / 2;
+                motion_add(p, turning.rhoi * length, &solid->line[l].theta, &solid->line[l].theta);
+            }
+        } else {
+            for (int l = from; l < to; l++) {
+                turning.length = mesh->z[l + 1] - mesh->z[l];
+                element_matrices(&turning, k, m);
+                add_between(solid, i, l, m, p);
+            }
+        }
+        double length = mesh->z[to] - mesh->z[from];
+        if (i < rotor->ntierod) {
+            add_stretch(solid, i, 0, member.material->rho * member.section.stiff_area * length, NULL, p);
+        } else {
+            const struct motion *theta = &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta;
+            motion_add(p, 2 * member.material->rho * member.pitch * length, theta, theta);
+        }
+    }
+}
+
 void members_moments(const struct solid *solid, double moment[3])
 {
     const struct rotor *rotor = &solid->rotor;

@@ -92,8 +92,7 @@ static void integrals_add_stiffness(const struct integrals *integrals, int share
         }
 }
 
-/* Adds rho times those of mass to m [8 * 8], which stands for each of U, V, W. */
-static void integrals_add_mass(const struct integrals *integrals, int share, double rho, double *m)
+void solid_add_mass(const struct integrals *integrals, int share, double rho, double *m)
 {
     const double *sum = integrals->value[share][BY_MASS];
     for (int i = 0; i < SOLID_NODES * SOLID_NODES; i++)
@@ -218,7 +217,7 @@ static double axial_force(const struct solid *solid, const struct solid_element 
     return rotor_axial_force(&solid->rotor, solid->rotor.segment[element->segment].group, middle_of(solid, element));
 }
 
-static void field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out)
+void solid_field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out)
 {
     const struct material *material = &solid->rotor.group[element->group].material;
     double rho;
@@ -374,8 +373,7 @@ static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
 /* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass
  * has beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
 
-/* The i-th lumped mass or spring of all effects; *effect and *i begin at 0 and -1. Returns 0 when there are no more. */
-static int attached_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
+int solid_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
 {
     for (; *effect < solid->rotor.neffect; (*effect)++, *i = -1) {
         const struct effect *e = &solid->rotor.effect[*effect];
@@ -412,7 +410,7 @@ static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_
     double length = solid->mesh.z[solid->mesh.nslice];
     if (p >= 0 && parameter.kind != PARAMETER_EFFECT)
         return;
-    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
+    for (int effect = 0, i = -1; solid_next_point(solid, &effect, &i, &point);) {
         const struct effect *e = &solid->rotor.effect[effect];
         int rate = p >= 0 && parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d);
         if (p >= 0 && !rate)
@@ -456,7 +454,7 @@ static void attached_moments(const struct solid *solid, double moment[3])
         moment[1] += mass * z;
         moment[2] += mass * z * z + rotor->disk[i].diametral;
     }
-    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
+    for (int effect = 0, i = -1; solid_next_point(solid, &effect, &i, &point);) {
         double z = fmin(fmax(point.z, 0), mesh->z[mesh->nslice]),
                radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
         moment[0] += point.mass;
@@ -630,7 +628,7 @@ static void tie_columns(const struct solid *solid, const struct solid_element *e
     }
 }
 
-static void add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a)
+void solid_add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a)
 {
     int dof[SOLID_DOFS], stride = a->kd + 1;
     tie_columns(solid, element, e, SOLID_DOFS, 1);
@@ -664,7 +662,7 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
     *has_k = *has_m = 0;
     for (int s = 0; s < SHARES; s++) {
         if (p < 0)
-            field_of_share(solid, element, s, &share);
+            solid_field_of_share(solid, element, s, &share);
         else if (!field_derivative(solid, element, s, solid->parameter[p], &share))
             continue;
         if (share.elasticity.c33 != 0 || share.elasticity.c44 != 0 || share.stress != 0) {
@@ -672,7 +670,7 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
             *has_k = 1;
         }
         if (share.rho != 0) {
-            integrals_add_mass(&solid->integrals[index], s, share.rho, mass);
+            solid_add_mass(&solid->integrals[index], s, share.rho, mass);
             *has_m = 1;
         }
     }
@@ -688,9 +686,9 @@ static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_ma
         const struct solid_element *element = &solid->mesh.element[e];
         element_matrices_of(solid, e, p, ek, em, &has_k, &has_m);
         if (has_k)
-            add_element(solid, element, ek, k);
+            solid_add_element(solid, element, ek, k);
         if (has_m)
-            add_element(solid, element, em, m);
+            solid_add_element(solid, element, em, m);
     }
     attached_assemble(solid, p, k, m);
 }
@@ -716,8 +714,8 @@ void solid_mass_properties(const struct solid *solid, struct mass_properties *pr
         double mass[SOLID_NODES * SOLID_NODES] = {0};
         struct share share;
         for (int s = 0; s < SHARES; s++) {
-            field_of_share(solid, element, s, &share);
-            integrals_add_mass(&solid->integrals[e], s, 2 * share.rho, mass);
+            solid_field_of_share(solid, element, s, &share);
+            solid_add_mass(&solid->integrals[e], s, 2 * share.rho, mass);
         }
         for (int b = 0; b < SOLID_NODES; b++)
             for (int a = 0; a < SOLID_NODES; a++) {

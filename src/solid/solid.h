@@ -16,6 +16,7 @@
  *   tie rods, bars members.c (members_assemble): beam elements beside the solid; tension N T of the rods enters their K_G there;
  *                  stretch by W at the pitch radius (motion_axial)
  *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
+ *   spin           gyroscopic.c (solid_gyroscopic): P of the first harmonic; solid_spread: a stiffness spread over a group
  *   transfer       transfer.c (solid_transfer): a motion on another mesh, to begin an eigensolution with
  *
  * Callers: src/model; export reads the mesh. The room must not know modes, data, or the limit of two meshes. */
@@ -250,6 +251,28 @@ struct share { /* one of an element; as a derivative: its rate */
     double rho, stress; /* kg/m3; Pa, axial, tension positive */
 };
 
+/* The values of a share of an element, with the factors of the effects. */
+void solid_field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out);
+
+/* Adds rho times the integrals of mass to m [8 * 8], which stands for each of U, V, W. */
+void solid_add_mass(const struct integrals *integrals, int share, double rho, double *m);
+
+/* a += e [24 * 24] of an element, which is overwritten. */
+void solid_add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a);
+
+/* The i-th lumped mass or spring of all effects; *effect and *i begin at 0 and -1. Returns 0 when there are no more. */
+int solid_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point);
+
+/* p += P of the first harmonic, P_ij = 2 pi int rho r [(U_i + V_i)(U_j + V_j) + W_i W_j] dr dz, with the polar inertia of what is
+ * attached: zero for a translation, 2 rho I for a section that turns. Signs as of beam_gyroscopic. */
+void solid_gyroscopic(const struct solid *solid, rotid_matrix *p);
+
+/* s += S: a lateral stiffness > 0 to the ground [N/m] evenly over the length of a group, on the mean motion of its sections. */
+void solid_spread(const struct solid *solid, int group, double stiffness, rotid_matrix *s);
+
+/* v [ndof], zeros before: v'u is the deflection of the section on which spring i acts. */
+void solid_spring_motion(const struct solid *solid, int i, double *v);
+
 /* Places of mesh lines along one coordinate, graded towards some of them. */
 
 struct stop {
@@ -267,6 +290,9 @@ struct stop {
 
 /* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]; the matrices may be NULL. */
 void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m);
+
+/* Adds to P: twice the inertia of rods and bars about a diameter. */
+void members_gyroscopic(const struct solid *solid, rotid_matrix *p);
 
 /* Adds moments of mass about the left end, as attached_moments. */
 void members_moments(const struct solid *solid, double moment[3]);

@@ -25,6 +25,7 @@ const struct generated generated_parts[] = {
     CARDS("cards of the identification", CARD_IDENTIFICATION),
     CARDS("card of the transfer functions", CARD_FRF),
     CARDS("cards of the states", CARD_STATES),
+    CARDS("cards of the machine in operation", CARD_RUNNING),
     {"docs/reference.md", "<!-- commands, written by make tables -->\n", "<!-- end -->\n", write_commands, 0},
     {"docs/reference.md", "<!-- cards, written by make tables -->\n", "<!-- end -->\n", write_card_list, 0},
     {"docs/reference.md", "<!-- causes, written by make tables -->\n", "<!-- end -->\n", write_causes, 0},

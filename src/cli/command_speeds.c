@@ -1,0 +1,118 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "cli/cli.h"
+#include "report/report.h"
+#include "running/running.h"
+
+#define SPEEDS 41
+
+static int refuse_deck(struct command *command, const char *why)
+{
+    message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", why);
+    return command_fail(command, ROTID_ERROR_ARGUMENT);
+}
+
+/* FROM:TO[:N] in rpm */
+static int parse_speeds(struct command *command, struct speeds_options *options)
+{
+    double value[3] = {0, 0, SPEEDS};
+    const char *at = command->speeds.range;
+    char *end;
+    int count = 0, good = 1;
+    for (; at && good && count < 3; at = end + (*end == ':')) {
+        value[count++] = strtod(at, &end);
+        good = end != at && (!*end || *end == ':');
+        if (good && !*end)
+            break;
+    }
+    if (!command->speeds.range)
+        return EXIT_DONE;
+    if (!good || count < 2 || *end || !(value[0] >= 0) || !(value[1] > value[0]) || !(value[1] < 1e7) || !(value[2] >= 2) ||
+        value[2] > 10000 || value[2] != floor(value[2]))
+        return arguments_wrong("--speeds=%s is no range, expected FROM:TO or FROM:TO:N in rpm, upwards, with N from 2 to 10000",
+                               command->speeds.range);
+    options->from = value[0] * RPM;
+    options->to = value[1] * RPM;
+    options->count = (int)value[2];
+    return EXIT_DONE;
+}
+
+/* table: NULL where memory is out */
+static int write_csv(struct command *command, const char *path, const struct table *table, int code)
+{
+    struct output output;
+    if (!path)
+        return code;
+    int status = table && !table->failed ? output_open(&output, path) : ROTID_ERROR_MEMORY;
+    if (!status) {
+        table_write_csv(output.stream, table);
+        status = output_close(&output, ROTID_OK);
+    }
+    if (status == ROTID_ERROR_IO) {
+        terminal_say("rotid: cannot write %s: %s\n", path, output_error());
+        return EXIT_INTERNAL;
+    }
+    return status ? command_fail(command, status) : code;
+}
+
+static int run(struct command *command, const struct machine *machine, const struct fitted_state *state, int code)
+{
+    struct speeds *speeds = POOL_NEW(&command->pool, struct speeds);
+    struct speeds_options options = {.count = SPEEDS,
+                                     .harmonic = command->speeds.harmonic,
+                                     .draws = command->speeds.draws,
+                                     .seed = command->seed,
+                                     .threads = command->threads};
+    const struct job *job = state->job;
+    const rotid_fit_result *fit = state->identified.fit;
+    double last = 0, *x = POOL_ARRAY(&command->pool, double, job->unknowns.nparameter + 1);
+    const rotid_environment environment = command_environment(command, &last);
+    int wrong = parse_speeds(command, &options);
+    if (wrong)
+        return wrong;
+    if (!speeds || !x)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        x[p] = fit ? fit->x[p] : job->unknowns.bounds[p].start;
+    int status = speeds_run(&command->pool, machine, job, x, fit, &options, &environment, &command->messages, speeds);
+    if (environment.progress)
+        terminal_progress_end();
+    if (status < 0)
+        return command_fail(command, status);
+    if (status > 0) {
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "interrupted: the critical speeds have no bands");
+        code = EXIT_DOUBTFUL;
+    }
+    struct result result = {.head = command->head, .speeds = speeds};
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_speeds(&to, &result);
+        screen_notes(&to, &command->messages);
+    }
+    code = write_csv(command, command->speeds.campbell,
+                     command->speeds.campbell ? table_of_campbell(&command->pool, speeds) : NULL, code);
+    code = write_csv(command, command->speeds.response,
+                     command->speeds.response ? table_of_response(&command->pool, speeds) : NULL, code);
+    return command_write_result(command, &result, code);
+}
+
+int command_speeds(struct command *command)
+{
+    const struct machine *machine = deck_states_of(command->read)->machine;
+    struct command_fit fit = {0};
+    if (!machine)
+        return refuse_deck(command,
+                           "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
+    int code = command_fit_deck(command, command->read->nparameter != 0, &fit);
+    if (!code && command_cancelled(NULL)) {
+        terminal_say("rotid: interrupted, nothing was computed\n");
+        code = EXIT_DOUBTFUL;
+    } else if (!code) {
+        code = run(command, machine, fit.state, command_judge_fit(command, &fit, "used"));
+    }
+    rotid_fit_free(fit.fit);
+    return code;
+}

@@ -1,0 +1,562 @@
+/* Cards behind *RUNNING: the machine in operation. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/card_table.h"
+#include "deck/deck.h"
+#include "running/running.h"
+
+#define DEGREE       0.017453292519943295
+#define MOST_SPEEDS  10000 /* of a table of a bearing */
+#define COEFFICIENTS 8     /* kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy */
+
+static int is_of_machine(const struct card *card)
+{
+    const struct deck_card *kind = deck_card_find(card->name);
+    return kind && kind->states == CARD_OF_MACHINE;
+}
+
+static int is(const struct card *card, const char *name)
+{
+    return !strcmp(card->name, name);
+}
+
+void deck_split_running(struct deck_reader *reader, int *nread)
+{
+    struct deck_text *text = &reader->text;
+    int begin = -1, end = *nread, kept = 0;
+    for (int c = 0; c < *nread; c++) {
+        const struct card *card = &text->card[c];
+        if (is(card, "RUNNING") && begin >= 0)
+            deck_error(reader, card->place, "*RUNNING is given twice, expected one machine");
+        else if (is(card, "RUNNING"))
+            begin = c;
+        else if (is(card, "STATE") && begin >= 0)
+            deck_error(reader, card->place, "*STATE stands behind *RUNNING, expected the machine behind all states");
+        else if (is_of_machine(card) && begin < 0)
+            deck_error(reader, card->place, "*%s stands before *RUNNING, expected *RUNNING in front of what the machine has",
+                       card->name);
+        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK"))
+            deck_error(reader, card->place,
+                       "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, "
+                       "*BEARING and what docs/deck.md lists with them",
+                       card->name);
+    }
+    if (begin < 0)
+        return;
+    reader->nrunning = end - begin;
+    reader->running = POOL_ARRAY(reader->pool, struct card, reader->nrunning);
+    if (!reader->running) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    memcpy(reader->running, text->card + begin, (size_t)reader->nrunning * sizeof *text->card);
+    for (int c = 0; c < text->ncard; c++)
+        if (c < begin || c >= end)
+            text->card[kept++] = text->card[c];
+    text->ncard = kept;
+    *nread -= reader->nrunning;
+}
+
+/* ---- names */
+
+static int named_group(struct deck_reader *reader, const struct place place, const char *name)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    for (int g = 0; name && g < rotor->ngroup; g++)
+        if (same_text(rotor->group[g].name, name))
+            return g;
+    if (name)
+        deck_error(reader, place, "group %s is not defined, expected the name of a *SHAFT or *LAYER", name);
+    return -1;
+}
+
+static int named_bearing(struct deck_reader *reader, const struct card_option *option)
+{
+    const struct machine *machine = reader->machine;
+    for (int i = 0; option && i < machine->nbearing; i++)
+        if (machine->bearing[i].name && same_text(machine->bearing[i].name, option->value))
+            return i;
+    if (option)
+        deck_error(reader, option->value_place, "bearing %s is not defined, expected the name of a *BEARING before",
+                   option->value);
+    return -1;
+}
+
+static void leave_at_test(struct deck_reader *reader, struct place place, const char *name)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    struct machine *machine = reader->machine;
+    int found = 0, all = same_text(name, "all");
+    if (all || same_text(name, "sling")) {
+        found = rotor->sling > 0 || all;
+        machine->without_sling = 1;
+    }
+    for (int i = 0; i < rotor->nspring; i++)
+        if (all || (rotor->spring[i].name && same_text(rotor->spring[i].name, name)))
+            found = machine->without_spring[i] = 1;
+    for (int i = 0; i < rotor->ndisk && !all; i++)
+        if (rotor->disk[i].name && same_text(rotor->disk[i].name, name))
+            found = machine->without_disk[i] = 1;
+    if (!found)
+        deck_error(reader, place,
+                   "%s is no support or mass of the test, expected sling, all (the supports) or the name of a *SPRING or *DISK "
+                   "before *RUNNING",
+                   name);
+}
+
+void deck_running(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const struct rotor *rotor = &reader->job->rotor;
+    const struct card_option *without = card_option(card, "WITHOUT");
+    machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
+    machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
+    if (!machine->without_spring || !machine->without_disk) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    if (without)
+        leave_at_test(reader, without->value_place, without->value);
+    for (int i = 0; i < card->nline; i++)
+        for (int j = 0; j < card->line[i].count; j++)
+            leave_at_test(reader, card->line[i].field[j].place, card->line[i].field[j].text);
+    for (int s = 0; s < rotor->nsegment; s++)
+        if (rotor->segment[s].rectangular) {
+            deck_error(reader, card->place, "group %s is a *BEAM, expected round *SHAFT groups in a rotor that turns",
+                       rotor->group[rotor->segment[s].group].name);
+            return;
+        }
+}
+
+/* ---- bearings */
+
+static void doubt_bearing(struct deck_reader *reader, struct place place, const struct bearing *b)
+{
+    double turn = 0, size = 0;
+    int negative = 0;
+    for (int i = 0; i < b->count; i++) {
+        const double *k = b->k + 4 * (ptrdiff_t)i, *c = b->c + 4 * (ptrdiff_t)i;
+        turn = fmin(turn, k[XY] - k[YX]);
+        size = fmax(size, fabs(k[XX]) + fabs(k[YY]));
+        negative |= c[XX] < 0 || c[YY] < 0;
+    }
+    if (turn < -1e-9 * size)
+        deck_note(reader, place,
+                  "kxy - kyx of this bearing is below zero, which drives backward whirl: does the rotor spin from y to "
+                  "x, or were rows and columns exchanged?");
+    if (negative)
+        deck_note(reader, place, "the direct damping of this bearing is below zero, which drives whirl");
+}
+
+static int bearing_values(struct deck_reader *reader, const struct data_line *line, int first, struct bearing *b, int row)
+{
+    static const char *const what[COEFFICIENTS] = {"kxx [N/m]",   "kxy [N/m]",   "kyx [N/m]",   "kyy [N/m]",
+                                                   "cxx [N.s/m]", "cxy [N.s/m]", "cyx [N.s/m]", "cyy [N.s/m]"};
+    static const int of_two[2] = {0, 4}, of_four[4] = {0, 3, 4, 7}, of_all[COEFFICIENTS] = {0, 1, 2, 3, 4, 5, 6, 7};
+    int count = line->count - first, bad = 0;
+    const int *place = count == 2 ? of_two : count == 4 ? of_four : of_all;
+    double value[COEFFICIENTS] = {0};
+    if (count != 2 && count != 4 && count != COEFFICIENTS) {
+        deck_error(
+            reader, line->place,
+            "the bearing has %d coefficients, expected 2 (k, c), 4 (kxx, kyy, cxx, cyy) or 8 by rows (kxx, kxy, kyx, kyy, cxx, "
+            "cxy, cyx, cyy)",
+            count > 0 ? count : 0);
+        return 1;
+    }
+    for (int i = 0; i < count; i++)
+        bad |= deck_number(reader, line, first + i, what[place[i]], ANY, &value[place[i]]);
+    if (count == 2) {
+        value[3] = value[0];
+        value[7] = value[4];
+    }
+    if (!bad && (value[0] < 0 || value[3] < 0)) {
+        deck_error(reader, line->field[first].place,
+                   "the direct stiffness of a bearing is below zero, expected *PULL for a magnetic "
+                   "pull");
+        bad = 1;
+    }
+    memcpy(b->k + 4 * (ptrdiff_t)row, value, 4 * sizeof *value);
+    memcpy(b->c + 4 * (ptrdiff_t)row, value + 4, 4 * sizeof *value);
+    return bad;
+}
+
+static int room_of_table(struct deck_reader *reader, struct bearing *b, int count)
+{
+    b->count = count;
+    b->speed = POOL_ARRAY(reader->pool, double, 9 * (size_t)count);
+    reader->out_of_memory |= !b->speed;
+    b->k = b->speed + count;
+    b->c = b->k + 4 * (ptrdiff_t)count;
+    return reader->out_of_memory;
+}
+
+/* A column of the table by its name, -1 where there is none. */
+static int column_of(const struct data_line *head, const char *name)
+{
+    for (int j = 0; j < head->count; j++)
+        if (same_text(head->field[j].text, name))
+            return j;
+    return -1;
+}
+
+static int bearing_table(struct deck_reader *reader, const struct card *card, const struct card_option *file, struct bearing *b)
+{
+    static const char *const names[COEFFICIENTS + 1] = {"speed_rpm", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy"};
+    int column[COEFFICIENTS + 1], bad = 0;
+    const char *path = deck_path(reader, card, file);
+    struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL;
+    if (!table || table_text_read(reader->pool, path, file->value_place, reader->messages, table))
+        return 1;
+    struct table_text **kept = DECK_APPEND(reader, reader->text.table, reader->text.ntable, reader->text.table_room);
+    if (!kept)
+        return 1;
+    *kept = table;
+    reader->text.ntable++;
+    if (table->nrow < 2 || table->nrow > MOST_SPEEDS) {
+        deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients over speed",
+                   path, table->nrow, MOST_SPEEDS);
+        return 1;
+    }
+    for (int j = 0; j <= COEFFICIENTS; j++) {
+        column[j] = column_of(&table->row[0], names[j]);
+        int may_lack = j == 2 || j == 3 || j == 6 || j == 7;
+        if (column[j] < 0 && !may_lack) {
+            deck_error(reader, table->row[0].place,
+                       "the table has no column %s, expected speed_rpm, kxx, kyy, cxx, cyy and, where the "
+                       "planes are coupled, kxy, kyx, cxy, cyx",
+                       names[j]);
+            bad = 1;
+        }
+    }
+    if (bad || room_of_table(reader, b, table->nrow - 1))
+        return 1;
+    for (int i = 0; i < b->count && !bad; i++) {
+        const struct data_line *row = &table->row[i + 1];
+        double value[COEFFICIENTS + 1] = {0};
+        for (int j = 0; j <= COEFFICIENTS; j++)
+            if (column[j] >= 0)
+                bad |= deck_number(reader, row, column[j], j ? j > 4 ? "damping [N.s/m]" : "stiffness [N/m]" : "speed [rpm]",
+                                   j ? ANY : NOT_NEGATIVE, &value[j]);
+        b->speed[i] = value[0] * RPM;
+        memcpy(b->k + 4 * (ptrdiff_t)i, value + 1, 4 * sizeof *value);
+        memcpy(b->c + 4 * (ptrdiff_t)i, value + 5, 4 * sizeof *value);
+        if (!bad && i && !(b->speed[i] > b->speed[i - 1])) {
+            deck_error(reader, row->field[column[0]].place,
+                       "the speeds of the table do not rise, expected each above the one before");
+            bad = 1;
+        }
+    }
+    return bad;
+}
+
+/* STD=ln-normal deviation of k, of c */
+static int bearing_std(struct deck_reader *reader, const struct card *card, struct bearing *b)
+{
+    const struct card_option *option = card_option(card, "STD");
+    char *end;
+    if (!option)
+        return 0;
+    b->std[0] = b->std[1] = strtod(option->value, &end);
+    if (end != option->value && *end == ',')
+        b->std[1] = strtod(end + 1, &end);
+    if (end == option->value || *end || !(b->std[0] >= 0 && b->std[0] <= 3) || !(b->std[1] >= 0 && b->std[1] <= 3)) {
+        deck_error(reader, option->value_place,
+                   "STD=%s is no deviation, expected one or two numbers from 0 to 3: of ln k and of ln c", option->value);
+        return 1;
+    }
+    return 0;
+}
+
+void deck_bearing(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const struct card_option *name = card_option(card, "NAME"), *file = card_option(card, "FILE"),
+                             *like = card_option(card, "LIKE");
+    struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing};
+    if (deck_lines(reader, card, 1, 1, reader->layout) != 1)
+        return;
+    const struct data_line *line = &card->line[0];
+    for (int i = 0; i < machine->nbearing; i++)
+        if (b.name && machine->bearing[i].name && same_text(b.name, machine->bearing[i].name))
+            deck_error(reader, name->value_place, "the name %s is given twice, expected a new one", b.name);
+    int bad = bearing_std(reader, card, &b) | deck_position(reader, &line->field[0], "position", &b.z);
+    if (like) {
+        int of = named_bearing(reader, like);
+        bad |= of < 0;
+        if (of >= 0) {
+            b.like = machine->bearing[of].like;
+            memcpy(b.std, machine->bearing[of].std, sizeof b.std);
+        }
+        if (card_option(card, "STD")) {
+            deck_error(reader, card_option(card, "STD")->place, "LIKE shares the draws of %s, expected no STD beside it",
+                       like->value);
+            bad = 1;
+        }
+    }
+    if (file) {
+        bad |= deck_count(reader, line, 1, "position alone beside FILE") || bearing_table(reader, card, file, &b);
+    } else {
+        bad |= room_of_table(reader, &b, 1) || bearing_values(reader, line, 1, &b, 0);
+    }
+    struct bearing *added = bad ? NULL : DECK_APPEND(reader, machine->bearing, machine->nbearing, reader->running_room[0]);
+    if (!added)
+        return;
+    *added = b;
+    machine->nbearing++;
+    doubt_bearing(reader, card->place, added);
+}
+
+void deck_pedestal(struct deck_reader *reader, const struct card *card)
+{
+    const struct card_option *option = card_option(card, "BEARING");
+    double *value[6];
+    static const char *const what[6] = {"mass mx [kg]",       "mass my [kg]",       "stiffness kx [N/m]",
+                                        "stiffness ky [N/m]", "damping cx [N.s/m]", "damping cy [N.s/m]"};
+    int bad = 0;
+    if (!deck_option(reader, card, "BEARING", "name of a *BEARING"))
+        return;
+    int of = named_bearing(reader, option);
+    if (of < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
+        return;
+    struct bearing *b = &reader->machine->bearing[of];
+    if (b->has_pedestal)
+        deck_error(reader, option->value_place, "the pedestal of %s is given twice, expected once", option->value);
+    for (int i = 0; i < 2; i++) {
+        value[i] = &b->m[i];
+        value[2 + i] = &b->kp[i];
+        value[4 + i] = &b->cp[i];
+    }
+    bad = deck_count(reader, &card->line[0], 6, reader->layout);
+    for (int i = 0; i < 6 && !bad; i++)
+        bad |= i > 3 && !deck_has(&card->line[0], i)
+                   ? 0
+                   : deck_number(reader, &card->line[0], i, what[i], i < 4 ? POSITIVE : NOT_NEGATIVE, value[i]);
+    b->has_pedestal = 1;
+}
+
+/* ---- losses, pull, change */
+
+void deck_loss(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const struct card_option *type = card_option(card, "TYPE");
+    static const char *const types[] = {"HYSTERETIC", "VISCOUS", NULL};
+    int viscous = type ? deck_option_word(reader, type, types) : 0;
+    for (int i = 0; i < card->nline && viscous >= 0; i++) {
+        const struct data_line *line = &card->line[i];
+        struct loss loss = {.group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous};
+        int bad = loss.group < 0 || deck_count(reader, line, 3, reader->layout);
+        bad = bad || deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
+        if (!bad && deck_has(line, 2))
+            bad = deck_number(reader, line, 2, "standard deviation of the loss", NOT_NEGATIVE, &loss.std);
+        struct loss *added = bad ? NULL : DECK_APPEND(reader, machine->loss, machine->nloss, reader->running_room[1]);
+        if (added) {
+            *added = loss;
+            machine->nloss++;
+        }
+    }
+    (void)deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+}
+
+void deck_pull(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT");
+    const struct card_option *std = card_option(card, "STD");
+    struct pull pull = {.group = name ? named_group(reader, card_option(card, "GROUP")->value_place, name) : -1};
+    if (pull.group < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
+        return;
+    int bad = deck_count(reader, &card->line[0], 1, reader->layout) ||
+              deck_number(reader, &card->line[0], 0, "stiffness of the pull, without its sign [N/m]", NOT_NEGATIVE, &pull.value);
+    bad = bad || (std && deck_option_number(reader, std, "", NOT_NEGATIVE, &pull.std));
+    struct pull *added = bad ? NULL : DECK_APPEND(reader, machine->pull, machine->npull, reader->running_room[2]);
+    if (added) {
+        *added = pull;
+        machine->npull++;
+    }
+}
+
+void deck_change(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const char *unit;
+    for (int i = 0; i < card->nline; i++) {
+        const struct data_line *line = &card->line[i];
+        struct change change = {.name = line->field[0].text};
+        int found = deck_find_parameter(reader, &line->field[0], &change.parameter, &unit);
+        if (found == 1 || found == 2)
+            deck_error(reader, line->field[0].place, "%s is no parameter of this deck, expected one such as GROUP.E",
+                       change.name);
+        int bad = found || deck_count(reader, line, 3, reader->layout) ||
+                  deck_number(reader, line, 1, "factor", POSITIVE, &change.factor);
+        if (!bad && deck_has(line, 2))
+            bad = deck_number(reader, line, 2, "standard deviation of the factor", NOT_NEGATIVE, &change.std);
+        if (!bad && change.parameter.kind == PARAMETER_G && reader->job->rotor.group[change.parameter.index].material.isotropic) {
+            deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
+                       change.name);
+            bad = 1;
+        }
+        struct change *added = bad ? NULL : DECK_APPEND(reader, machine->change, machine->nchange, reader->running_room[3]);
+        if (added) {
+            *added = change;
+            machine->nchange++;
+        }
+    }
+    (void)deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+}
+
+/* ---- unbalance, probes, operation, run-up */
+
+void deck_unbalance(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    int lines = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    for (int i = 0; i < lines; i++) {
+        const struct data_line *line = &card->line[i];
+        struct unbalance u = {0};
+        int bad = deck_count(reader, line, 3, reader->layout) || deck_position(reader, &line->field[0], "position", &u.z) ||
+                  deck_number(reader, line, 1, "unbalance [kg.m]", NOT_NEGATIVE, &u.value);
+        if (!bad && deck_has(line, 2))
+            bad = deck_number(reader, line, 2, "phase [deg]", ANY, &u.phase);
+        u.phase *= DEGREE;
+        struct unbalance *added =
+            bad ? NULL : DECK_APPEND(reader, machine->unbalance, machine->nunbalance, reader->running_room[4]);
+        if (added) {
+            *added = u;
+            machine->nunbalance++;
+        }
+    }
+}
+
+void deck_probe(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const char *name = deck_option(reader, card, "NAME", "name");
+    struct probe probe = {.name = name};
+    if (!name || deck_lines(reader, card, 1, 1, reader->layout) != 1)
+        return;
+    for (int i = 0; i < machine->nprobe; i++)
+        if (same_text(machine->probe[i].name, name))
+            deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
+    int bad = deck_count(reader, &card->line[0], 2, reader->layout) ||
+              deck_position(reader, &card->line[0].field[0], "position", &probe.z);
+    if (!bad && deck_has(&card->line[0], 1))
+        bad = deck_number(reader, &card->line[0], 1, "angle [deg]", ANY, &probe.angle);
+    probe.angle *= DEGREE;
+    struct probe *added = bad ? NULL : DECK_APPEND(reader, machine->probe, machine->nprobe, reader->running_room[5]);
+    if (added) {
+        *added = probe;
+        machine->nprobe++;
+    }
+}
+
+void deck_operation(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    const struct card_option *margin = card_option(card, "MARGIN");
+    if (machine->has_operation)
+        deck_error(reader, card->place, "*OPERATION is given twice, expected one running range");
+    if (deck_lines(reader, card, 1, 1, reader->layout) != 1 || deck_count(reader, &card->line[0], 2, reader->layout) ||
+        deck_number(reader, &card->line[0], 0, "lowest speed [rpm]", POSITIVE, &machine->low) ||
+        deck_number(reader, &card->line[0], 1, "highest speed [rpm]", POSITIVE, &machine->high))
+        return;
+    if (machine->high < machine->low)
+        deck_error(reader, card->line[0].field[1].place,
+                   "the running range goes from %g down to %g rpm, expected the lowest speed "
+                   "first",
+                   machine->low, machine->high);
+    if (margin && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) && machine->margin >= 1)
+        deck_error(reader, margin->value_place, "MARGIN=%s is %g %% of the speed, expected a share below 1", margin->value,
+                   100 * machine->margin);
+    machine->low *= RPM;
+    machine->high *= RPM;
+    machine->has_operation = 1;
+}
+
+static void add_disk(struct deck_reader *reader, const struct card *card)
+{
+    const struct deck_card *kind = deck_card_find("DISK");
+    struct machine *machine = reader->machine;
+    int lines = deck_lines(reader, card, 1, DECK_MOST_LINES, kind->lines);
+    for (int i = 0; i < lines; i++) {
+        struct disk disk = {0};
+        int bad = deck_read_options(reader, card, kind->row, &disk) |
+                  deck_read_values(reader, &card->line[i], kind->row, kind->lines, &disk);
+        struct disk *added = bad || kind->check(reader, &card->line[i], &disk)
+                                 ? NULL
+                                 : DECK_APPEND(reader, machine->disk, machine->ndisk, reader->running_room[6]);
+        if (added) {
+            *added = disk;
+            machine->ndisk++;
+        }
+    }
+}
+
+/* Disks without polar inertia turn without gyroscopic moments: said once. */
+static void doubt_disks(struct deck_reader *reader, struct place place)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    int count = 0;
+    for (int i = 0; i < rotor->ndisk; i++)
+        count += rotor->disk[i].diametral > 0 && !(rotor->disk[i].polar > 0) && !reader->machine->without_disk[i];
+    for (int i = 0; i < reader->machine->ndisk; i++)
+        count += reader->machine->disk[i].diametral > 0 && !(reader->machine->disk[i].polar > 0);
+    if (count)
+        deck_note(reader, place,
+                  "%d disk%s a diametral inertia and no polar one, which gives no gyroscopic moment: expected both", count,
+                  count > 1 ? "s have" : " has");
+}
+
+void deck_read_machine(struct deck_reader *reader, struct states *states)
+{
+    struct job *job = &states->state[0].job;
+    struct deck_reader own = {.pool = reader->pool,
+                              .messages = reader->messages,
+                              .text = reader->text,
+                              .job = job,
+                              .length = rotor_length(&job->rotor)};
+    const struct card *none = NULL;
+    if (!reader->nrunning)
+        return;
+    for (int c = 0; c < reader->text.ncard; c++)
+        if (is(&reader->text.card[c], "UNITS"))
+            deck_units(&own, &reader->text.card[c]);
+    own.machine = POOL_NEW(reader->pool, struct machine);
+    reader->out_of_memory |= !own.machine;
+    for (int c = 0; c < reader->nrunning; c++)
+        deck_check_names(reader, &reader->running[c]);
+    for (int phase = 9; phase <= 10; phase++)
+        for (int c = 0; c < reader->nrunning && own.machine && !own.out_of_memory; c++) {
+            const struct card *card = &reader->running[c];
+            const struct deck_card *kind = deck_card_find(card->name);
+            none = card;
+            if (!kind || (is(card, "DISK") ? 10 : kind->phase) != phase)
+                continue;
+            own.layout = kind->lines;
+            if (is(card, "DISK"))
+                add_disk(&own, card);
+            else
+                kind->read(&own, card);
+        }
+    reader->out_of_memory |= own.out_of_memory;
+    reader->text.nfile = own.text.nfile;
+    reader->text.file = own.text.file;
+    reader->text.file_room = own.text.file_room;
+    reader->text.ntable = own.text.ntable;
+    reader->text.table = own.text.table;
+    if (reader->out_of_memory || !none)
+        return;
+    if (!own.machine->nbearing && !reader->messages->errors)
+        deck_error(reader, reader->running[0].place,
+                   "the machine has no *BEARING: a free rotor has no critical speed, expected at "
+                   "least one");
+    doubt_disks(&own, reader->running[0].place);
+    for (int s = 0; s < states->nstate; s++) {
+        states->state[s].job.nfile = own.text.nfile;
+        states->state[s].job.file = own.text.file;
+    }
+    states->machine = own.machine;
+}

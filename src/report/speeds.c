@@ -1,0 +1,146 @@
+/* Tables of the machine in operation. */
+#include <math.h>
+
+#include "report/report.h"
+#include "running/running.h"
+
+struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *s)
+{
+    struct table *t =
+        table_open(pool, s->harmonic == 1 ? "CRITICAL SPEEDS: Im lambda = speed"
+                                          : pool_format(pool, "CRITICAL SPEEDS: Im lambda = %g times the speed", s->harmonic));
+    for (int i = 0; i < s->ncritical_speeds; i++) {
+        const struct critical_speed *c = &s->critical_speeds[i];
+        table_row(t);
+        number_column(t, "no.", NULL, SHOW_COUNT, c->number);
+        number_column(t, "critical speed", "rpm", SHOW_FIXED(1), c->speed_rpm);
+        number_column(t, "from", "rpm", SHOW_FIXED(0), c->ci95[0]);
+        number_column(t, "to", "rpm", SHOW_FIXED(0), c->ci95[1]);
+        text_column(t, "whirl", SHOW_TEXT, c->whirl);
+        number_column(t, "log decrement", NULL, SHOW_DIGITS(3), c->log_decrement);
+        number_column(t, "amplification", NULL, SHOW_DIGITS(3), c->amplification);
+        number_column(t, "margin", "%", SHOW_SIGNED(1), 100 * c->margin.value);
+        number_column(t, "required", "%", SHOW_FIXED(1), 100 * c->margin.required);
+        number_column(t, "probability", NULL, SHOW_CHANCE(3), c->margin.probability);
+    }
+    return t;
+}
+
+struct table *table_of_shares(struct pool *pool, const struct speeds *s)
+{
+    struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
+    for (int i = 0; i < s->ncritical_speeds && s->critical_speeds[i].nvariance_shares; i++) {
+        table_row(t);
+        number_column(t, "no.", NULL, SHOW_COUNT, i + 1);
+        for (int j = 0; j < s->critical_speeds[i].nvariance_shares; j++)
+            number_column(t, s->critical_speeds[i].variance_shares[j].source, "%", SHOW_FIXED(1),
+                          100 * s->critical_speeds[i].variance_shares[j].share);
+    }
+    return t;
+}
+
+static struct table *table_of_peaks(struct pool *pool, const struct speeds *s)
+{
+    struct table *t = table_open(pool, "UNBALANCE RESPONSE: amplitudes zero to peak, amplification by half power");
+    for (int i = 0; i < s->ncritical_speeds; i++)
+        for (int p = 0; p < s->critical_speeds[i].npeaks; p++) {
+            const struct peak *peak = &s->critical_speeds[i].peaks[p];
+            table_row(t);
+            number_column(t, "critical speed", NULL, SHOW_COUNT, i + 1);
+            text_column(t, "probe", SHOW_TEXT, peak->probe);
+            number_column(t, "peak", "rpm", SHOW_FIXED(1), peak->speed_rpm);
+            number_column(t, "amplitude", "um", SHOW_DIGITS(4), 1e6 * peak->amplitude_m);
+            number_column(t, "amplification", NULL, SHOW_DIGITS(3), peak->amplification);
+        }
+    return t;
+}
+
+static struct table *table_of_loads(struct pool *pool, const struct speeds *s)
+{
+    struct table *t =
+        table_open(pool, pool_format(pool, "BEARING LOADS: weight %.5g N, sag %.4g mm", s->weight_n, 1000 * s->sag_m));
+    for (int i = 0; i < s->nbearing_loads; i++) {
+        const struct bearing_load *load = &s->bearing_loads[i];
+        table_row(t);
+        text_column(t, "bearing", SHOW_TEXT, load->bearing ? load->bearing : pool_format(pool, "%d", i + 1));
+        number_column(t, "position", "m", SHOW_FIXED(4), load->position_m);
+        number_column(t, "load x", "N", SHOW_DIGITS(5), load->load_x_n);
+        number_column(t, "load y", "N", SHOW_DIGITS(5), load->load_y_n);
+    }
+    return t;
+}
+
+struct table *table_of_campbell(struct pool *pool, const struct speeds *s)
+{
+    struct table *t = table_open(pool, "Campbell diagram");
+    for (int i = 0; i < s->ncampbell; i++)
+        for (int j = 0; j < s->campbell[i].nmodes; j++) {
+            const struct campbell_mode *m = &s->campbell[i].modes[j];
+            table_row(t);
+            number_column(t, "speed", "rpm", SHOW_FIXED(1), s->campbell[i].speed_rpm);
+            number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
+            number_column(t, "frequency", "Hz", SHOW_FIXED(3), m->frequency_hz);
+            number_column(t, "from", "Hz", SHOW_FIXED(3), m->ci95[0]);
+            number_column(t, "to", "Hz", SHOW_FIXED(3), m->ci95[1]);
+            number_column(t, "damping ratio", NULL, SHOW_DIGITS(4), m->damping_ratio);
+            number_column(t, "log decrement", NULL, SHOW_DIGITS(4), m->log_decrement);
+            text_column(t, "whirl", SHOW_TEXT, m->whirl);
+        }
+    return t;
+}
+
+struct table *table_of_response(struct pool *pool, const struct speeds *s)
+{
+    struct table *t = table_open(pool, "Unbalance response");
+    for (int p = 0; p < s->nunbalance; p++)
+        for (int i = 0; i < s->unbalance[p].nspeed_rpm; i++) {
+            table_row(t);
+            text_column(t, "probe", SHOW_TEXT, s->unbalance[p].probe);
+            number_column(t, "speed", "rpm", SHOW_FIXED(1), s->unbalance[p].speed_rpm[i]);
+            number_column(t, "amplitude", "m", SHOW_DIGITS(5), s->unbalance[p].amplitude_m[i]);
+            number_column(t, "phase", "deg", SHOW_FIXED(2), s->unbalance[p].phase_deg[i]);
+        }
+    return t;
+}
+
+const char *speeds_judgement(struct pool *pool, const struct critical_speed *c, const struct speeds *s)
+{
+    double judged = c->npeaks ? c->peaks[0].speed_rpm : c->speed_rpm;
+    const char *band = isfinite(c->ci95[0]) ? pool_format(pool, " (%.0f to %.0f)", c->ci95[0], c->ci95[1]) : "",
+               *peak = c->npeaks ? pool_format(pool, ", peak at %.0f rpm", judged) : "",
+               *where = c->margin.value < 0 ? "inside the running range"
+                                            : pool_format(pool, "%.0f %% %s the running range", 100 * c->margin.value,
+                                                          judged < s->low_rpm ? "below" : "above"),
+               *kept = "";
+    if (isfinite(c->margin.required) && isfinite(c->margin.probability))
+        kept = pool_format(pool, ": the margin of %.0f %% is kept with probability %.2f", 100 * c->margin.required,
+                           c->margin.probability);
+    else if (isfinite(c->margin.required))
+        kept = pool_format(pool, ": the margin of %.0f %% is %skept", 100 * c->margin.required,
+                           c->margin.value >= c->margin.required ? "" : "not ");
+    return band && peak && where && kept ? pool_format(pool, "Critical speed %d, %s, %.0f rpm%s%s, %s%s", c->number, c->whirl,
+                                                       c->speed_rpm, band, peak, where, kept)
+                                         : NULL;
+}
+
+void screen_speeds(const struct screen *to, const struct result *result)
+{
+    const struct speeds *s = result->speeds;
+    screen_heading(to, &result->head);
+    for (int i = 0; i < s->ncritical_speeds; i++) {
+        const char *text =
+            isfinite(s->critical_speeds[i].margin.value) ? speeds_judgement(to->pool, &s->critical_speeds[i], s) : NULL;
+        if (text)
+            wrap_text(to->out, 2, to->width, "", text);
+    }
+    if (isfinite(s->stability.onset_rpm))
+        screen_say(to, "Mode %d grows from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
+    else if (s->ncampbell)
+        screen_say(to, "No mode grows up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
+    if (isfinite(s->stability.probability_stable))
+        screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
+    screen_table(to, table_of_critical_speeds(to->pool, s));
+    screen_table(to, table_of_shares(to->pool, s));
+    screen_table(to, table_of_peaks(to->pool, s));
+    screen_table(to, table_of_loads(to->pool, s));
+}

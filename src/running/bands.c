@@ -1,0 +1,561 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "running/running.h"
+
+#define STEP        1e-4 /* of a logarithm, on both sides: differences of matrices to 1e-8 */
+#define REDRAWS     1000 /* until a draw lies within the bounds */
+#define FARTHEST    0.5  /* change of a critical speed in one step of a prediction */
+#define SAME        0.3  /* |u'v|^2 of a critical speed's mode at other moduli */
+#define LEAST_DRAWS 20
+
+/* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
+enum source_kind { SOURCE_MODULUS, SOURCE_BEARING_K, SOURCE_BEARING_C, SOURCE_LOSS, SOURCE_PULL, SOURCE_CHANGE };
+
+struct source {
+    enum source_kind kind;
+    int index, name; /* name: of the shares, sources of one name count as one */
+    int is_logarithm;
+    double std; /* of what is drawn; of moduli the covariance says it */
+};
+
+struct bands {
+    struct pool *pool;
+    const struct machine *machine;
+    const struct job *job;
+    const rotid_fit_result *fit;
+    const struct speeds_options *options;
+    const rotid_environment *environment;
+    const struct system *nominal;
+    struct basis_size basis; /* of the draws */
+    const struct machine_values *values;
+    int ncritical, nsource, nmodulus, nname;
+    const struct critical *critical;
+    const struct tracks *tracks;
+    struct source *source;
+    const char **name;
+    double *factor;     /* [nmodulus^2] Cholesky factor of the covariance of what is drawn */
+    double *derivative; /* [nsource * ncritical] d W/W by what is drawn */
+    double *campbell;   /* [nsource * nspeed * nmode] d f/f of the tracks */
+    double *draw;       /* [nsource * draws] deviations from the nominal */
+    double *speed;      /* [draws * ncritical] NaN where none was found */
+    int nwatched;
+    struct pair *watched; /* at the highest running speed */
+    double *growth;       /* [draws] largest real part over |lambda| */
+};
+
+/* ---- what is uncertain */
+
+static void add_source(struct bands *b, enum source_kind kind, int index, int is_logarithm, double std, const char *name)
+{
+    int own = 0;
+    while (own < b->nname && name && strcmp(b->name[own], name) != 0)
+        own++;
+    if (!(std > 0) || !name)
+        return;
+    b->name[own] = name;
+    b->nname += own == b->nname;
+    b->source[b->nsource++] = (struct source){kind, index, own, is_logarithm, std};
+}
+
+static int find_sources(struct bands *b)
+{
+    const struct machine *machine = b->machine;
+    const struct job *job = b->job;
+    int n = job->unknowns.nparameter, most = n + 2 * machine->nbearing + machine->nloss + machine->npull + machine->nchange;
+    b->source = POOL_ARRAY(b->pool, struct source, most);
+    b->name = POOL_ARRAY(b->pool, const char *, most + 1);
+    if (!b->source || !b->name)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n && b->fit; p++)
+        if (isfinite(b->fit->std[p]) && machine_has_unknown(machine, job, p))
+            add_source(b, SOURCE_MODULUS, p, job->unknowns.bounds[p].lower > 0, b->fit->std[p], "identified");
+    b->nmodulus = b->nsource;
+    for (int i = 0; i < machine->nbearing; i++) {
+        const struct bearing *own = &machine->bearing[i];
+        const char *name = own->name ? pool_format(b->pool, "bearing %s", own->name) : pool_format(b->pool, "bearing %d", i + 1);
+        if (own->like != i)
+            continue;
+        add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name);
+        add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name);
+    }
+    for (int i = 0; i < machine->nloss; i++)
+        add_source(b, SOURCE_LOSS, i, 0, machine->loss[i].std,
+                   pool_format(b->pool, "loss %s", job->rotor.group[machine->loss[i].group].name));
+    for (int i = 0; i < machine->npull; i++)
+        add_source(b, SOURCE_PULL, i, 1, machine->pull[i].std,
+                   pool_format(b->pool, "pull %s", job->rotor.group[machine->pull[i].group].name));
+    for (int i = 0; i < machine->nchange; i++)
+        add_source(b, SOURCE_CHANGE, i, 1, machine->change[i].std, pool_format(b->pool, "change %s", machine->change[i].name));
+    return b->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+/* Covariance of ln p, C_ij/(p_i p_j), of p itself where it may be zero. */
+static double covariance(const struct bands *b, int i, int j)
+{
+    int p = b->source[i].index, q = b->source[j].index, n = b->fit->n;
+    double value = b->fit->covariance[p + (ptrdiff_t)n * q];
+    value /= b->source[i].is_logarithm ? b->fit->x[p] : 1;
+    return value / (b->source[j].is_logarithm ? b->fit->x[q] : 1);
+}
+
+static int factor_covariance(struct bands *b)
+{
+    int n = b->nmodulus;
+    b->factor = POOL_ARRAY(b->pool, double, (size_t)n *(size_t)n);
+    if (!b->factor)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            b->factor[i + (ptrdiff_t)n * j] = covariance(b, i, j) * (i == j ? 1 + 1e-12 : 1);
+    return cholesky_factor(n, b->factor) ? ROTID_ERROR_FINITE : ROTID_OK;
+}
+
+/* ---- values */
+
+static int values_new(struct pool *pool, const struct bands *b, struct machine_values *values, double **x)
+{
+    int n = b->job->unknowns.nparameter;
+    *x = POOL_ARRAY(pool, double, n + 1);
+    if (!*x)
+        return ROTID_ERROR_MEMORY;
+    return machine_nominal(pool, b->machine, *x, values);
+}
+
+/* The values at deviations d [nsource] times `part`. */
+static void set_values(const struct bands *b, const double *d, double part, double *x, struct machine_values *values)
+{
+    const struct machine *machine = b->machine;
+    memcpy(x, b->values->x, (size_t)b->job->unknowns.nparameter * sizeof *x);
+    for (int j = 0; j < b->nsource; j++) {
+        const struct source *source = &b->source[j];
+        double by = exp(part * d[j]);
+        int i = source->index;
+        switch (source->kind) {
+        case SOURCE_MODULUS:
+            x[i] = source->is_logarithm ? x[i] * by : x[i] + part * d[j];
+            break;
+        case SOURCE_BEARING_K:
+            for (int other = i; other < machine->nbearing; other++)
+                if (machine->bearing[other].like == i)
+                    values->bearing_k[other] = by;
+            break;
+        case SOURCE_BEARING_C:
+            for (int other = i; other < machine->nbearing; other++)
+                if (machine->bearing[other].like == i)
+                    values->bearing_c[other] = by;
+            break;
+        case SOURCE_LOSS:
+            values->loss[i] = machine->loss[i].value > 0 ? 1 + part * d[j] / machine->loss[i].value : 1;
+            break;
+        case SOURCE_PULL:
+            values->pull[i] = by;
+            break;
+        case SOURCE_CHANGE:
+            values->change[i] = by;
+            break;
+        }
+    }
+}
+
+/* ---- derivatives: dD/dp by differences of matrices on one basis, d lambda = -l* dD u/(l* D' u), d W = Im d lambda/(h - Im d
+ * lambda/dW) */
+
+/* d lambda of a pair of the nominal machine; side [2] are `apart`. work [2 size^2 + size] */
+static double complex rate_of(struct system *nominal, struct system side[2], double apart, double speed, int turn,
+                              const struct pair *pair, double complex *work)
+{
+    size_t size = (size_t)nominal->size;
+    double complex *below = work, *above = work + size * size, *product = work + 2 * size * size;
+    for (int i = 0; i < 2; i++) {
+        system_at(&side[i], speed);
+        system_dynamic(&side[i], pair->lambda, turn, i ? above : below);
+    }
+    memset(product, 0, size * sizeof *product);
+    for (size_t col = 0; col < size; col++)
+        for (size_t row = 0; row < size; row++)
+            product[row] += (above[row + size * col] - below[row + size * col]) / apart * pair->u[col];
+    system_at(nominal, speed);
+    return -pair_share(nominal, pair, product);
+}
+
+static int differentiate(struct bands *b)
+{
+    double h = b->options->harmonic;
+    size_t tracks = (size_t)b->tracks->nspeed * (size_t)b->tracks->nmode;
+    b->derivative = POOL_ARRAY(b->pool, double, (size_t)b->nsource *(size_t)b->ncritical);
+    b->campbell = POOL_ARRAY(b->pool, double, (size_t)b->nsource *tracks);
+    if (!b->derivative || !b->campbell)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < b->nsource; j++) {
+        struct pool scratch;
+        struct system side[2];
+        struct machine_values values[2];
+        double *x, *d, step = b->source[j].is_logarithm ? STEP : STEP * fmax(b->source[j].std, 1e-12);
+        int failed, status = ROTID_OK;
+        pool_open(&scratch, b->pool->allocator);
+        d = POOL_ARRAY(&scratch, double, b->nsource);
+        for (int i = 0; i < 2 && !status; i++) {
+            status = d ? values_new(&scratch, b, &values[i], &x) : ROTID_ERROR_MEMORY;
+            if (status)
+                break;
+            d[j] = i ? step : -step;
+            set_values(b, d, 1, x, &values[i]);
+            status = system_build(&scratch, b->machine, b->job, &values[i], b->nominal, NULL, &side[i], &failed);
+        }
+        struct system nominal = *b->nominal;
+        size_t size = (size_t)nominal.size;
+        double complex *a = POOL_ARRAY(&scratch, double complex, 2 * size * size + size);
+        status = !status && !a ? ROTID_ERROR_MEMORY : status;
+        for (int i = 0; i < b->ncritical && !status; i++) {
+            const struct critical *c = &b->critical[i];
+            double complex rate = rate_of(&nominal, side, 2 * step, c->speed, 0, &c->pair, a);
+            b->derivative[j + (ptrdiff_t)b->nsource * i] = cimag(rate) / (h - cimag(pair_rate(&nominal, &c->pair))) / c->speed;
+        }
+        for (int i = 0; i < b->tracks->nspeed && !status; i++)
+            for (int m = 0; m < b->tracks->nmode; m++) {
+                const struct pair *pair = track_at(b->tracks, m, i);
+                double at = b->tracks->speed[i], w = cimag(pair->lambda);
+                if (isfinite(w))
+                    b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * m)] =
+                        cimag(rate_of(&nominal, side, 2 * step, at, w > at ? 1 : -1, pair, a)) / w;
+            }
+        pool_close(&scratch);
+        if (status)
+            return status;
+    }
+    return ROTID_OK;
+}
+
+/* ---- draws */
+
+static int is_outside(const struct bands *b, const double *d)
+{
+    for (int j = 0; j < b->nsource; j++) {
+        const struct source *source = &b->source[j];
+        if (source->kind == SOURCE_LOSS && b->machine->loss[source->index].value + d[j] < 0)
+            return 1;
+        if (source->kind != SOURCE_MODULUS)
+            continue;
+        const rotid_parameter *bounds = &b->job->unknowns.bounds[source->index];
+        double value = b->values->x[source->index];
+        value = source->is_logarithm ? value * exp(d[j]) : value + d[j];
+        if (!(value >= bounds->lower && value <= bounds->upper))
+            return 1;
+    }
+    return 0;
+}
+
+/* Of a variance from the residuals Student's t: the normal deviate over the root of chi2/dof. */
+static void draw_one(const struct bands *b, struct random_stream *stream, double *z, double *d)
+{
+    int n = b->nmodulus;
+    double widened = 1;
+    if (n && b->fit->variance_from_residuals) {
+        double chi2 = 0;
+        for (int i = 0; i < b->fit->dof; i++) {
+            double one = random_normal(stream);
+            chi2 += one * one;
+        }
+        widened = sqrt(b->fit->dof / chi2);
+    }
+    for (int i = 0; i < n; i++)
+        z[i] = random_normal(stream);
+    for (int i = 0; i < n; i++) {
+        d[i] = 0;
+        for (int j = 0; j <= i; j++)
+            d[i] += widened * b->factor[i + (ptrdiff_t)n * j] * z[j];
+    }
+    for (int j = n; j < b->nsource; j++)
+        d[j] = b->source[j].std * random_normal(stream);
+}
+
+static int draw_all(struct bands *b)
+{
+    struct random_stream stream = {b->options->seed};
+    b->draw = POOL_ARRAY(b->pool, double, (size_t)b->nsource *(size_t)b->options->draws);
+    double *z = POOL_ARRAY(b->pool, double, b->nmodulus);
+    if (!b->draw || !z)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < b->options->draws; i++) {
+        double *d = b->draw + (ptrdiff_t)b->nsource * i;
+        int attempt = 0;
+        do
+            draw_one(b, &stream, z, d);
+        while (is_outside(b, d) && ++attempt < REDRAWS);
+        if (attempt == REDRAWS) /* the bounds leave next to nothing of the distribution */
+            memset(d, 0, (size_t)b->nsource * sizeof *d);
+    }
+    return ROTID_OK;
+}
+
+static double alike(int n, const double complex *a, const double complex *b)
+{
+    double complex sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += conj(a[i]) * b[i];
+    return creal(sum * conj(sum));
+}
+
+/* The critical speeds of a draw, from near pairs of `from`; *found of them. */
+static int solve(struct pool *pool, const struct bands *b, const struct system *from, const struct critical *near,
+                 struct system *s, const double *predicted, struct critical *to)
+{
+    int lost = 0;
+    struct pair start;
+    if (pair_new(pool, s->size, &start))
+        return -1;
+    for (int i = 0; i < b->ncritical; i++) {
+        to[i].speed = predicted[i];
+        if (pair_new(pool, s->size, &to[i].pair))
+            return -1;
+        int bad = !isfinite(near[i].speed) || system_transfer(from, &near[i].pair, s, &start);
+        pair_copy(s->size, &start, &to[i].pair);
+        to[i].pair.lambda = creal(near[i].pair.lambda) + I * b->options->harmonic * predicted[i];
+        bad = bad || pair_synchronise(s, b->options->harmonic, &to[i].speed, &to[i].pair) ||
+              alike(s->size, start.u, to[i].pair.u) < SAME;
+        if (bad)
+            to[i].speed = NAN;
+        lost += bad;
+    }
+    return lost;
+}
+
+static void watch(struct pool *pool, const struct bands *b, struct system *s, double *growth)
+{
+    *growth = -INFINITY;
+    struct pair pair;
+    for (int i = 0; i < b->nwatched && !pair_new(pool, s->size, &pair); i++) {
+        system_at(s, b->machine->high);
+        if (system_transfer(b->nominal, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
+            continue;
+        *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
+    }
+}
+
+/* In one step from the nominal, or where a mode is lost in four. */
+static int one_draw(void *context, int index, int worker)
+{
+    struct bands *b = context;
+    const double *d = b->draw + (ptrdiff_t)b->nsource * index;
+    struct pool pool;
+    int status = ROTID_OK, done = 0;
+    const rotid_environment *host = worker ? NULL : b->environment; /* which is asked by one thread alone */
+    if (host && host->cancelled && host->cancelled(host->context))
+        return ROTID_STOP_CANCELLED;
+    if (host && host->progress)
+        host->progress(host->context, "draw", index);
+    for (int steps = 1; steps <= 4 && !done && !status; steps *= 4) {
+        struct machine_values values;
+        struct system system[2];
+        struct critical *now[2] = {NULL, NULL};
+        double *x, *predicted;
+        const struct system *from = b->nominal;
+        const struct critical *near = b->critical;
+        int lost = 0, failed;
+        pool_open(&pool, b->pool->allocator);
+        status = values_new(&pool, b, &values, &x);
+        predicted = POOL_ARRAY(&pool, double, b->ncritical);
+        for (int step = 1; step <= steps && !status; step++) {
+            int own = step % 2;
+            now[own] = POOL_ARRAY(&pool, struct critical, b->ncritical);
+            if (!now[own] || !predicted) {
+                status = ROTID_ERROR_MEMORY;
+                break;
+            }
+            set_values(b, d, (double)step / steps, x, &values);
+            if (system_build(&pool, b->machine, b->job, &values, b->nominal, &b->basis, &system[own], &failed)) {
+                lost = b->ncritical;
+                break;
+            }
+            for (int i = 0; i < b->ncritical; i++) {
+                double change = 0;
+                for (int j = 0; j < b->nsource; j++)
+                    change += b->derivative[j + (ptrdiff_t)b->nsource * i] * d[j] / steps;
+                predicted[i] = near[i].speed * (1 + fmax(-FARTHEST, fmin(FARTHEST, change)));
+            }
+            lost = solve(&pool, b, from, near, &system[own], predicted, now[own]);
+            if (lost < 0)
+                status = ROTID_ERROR_MEMORY;
+            from = &system[own];
+            near = now[own];
+        }
+        for (int i = 0; i < b->ncritical && !status; i++)
+            b->speed[index + (ptrdiff_t)b->options->draws * i] = near == b->critical ? (double)NAN : near[i].speed;
+        if (!status && from != b->nominal)
+            watch(&pool, b, (struct system *)from, &b->growth[index]);
+        done = !lost;
+        pool_close(&pool);
+    }
+    return status;
+}
+
+/* ---- what they say */
+
+static double quantile(const double *sorted, int count, double p)
+{
+    double at = p * (count - 1);
+    int i = (int)at;
+    return i + 1 < count ? sorted[i] + (at - i) * (sorted[i + 1] - sorted[i]) : sorted[count - 1];
+}
+
+static int summarise(struct bands *b, int i, struct critical_speed *to)
+{
+    int draws = b->options->draws, count = 0, kept = 0;
+    const struct machine *machine = b->machine;
+    double *own = POOL_ARRAY(b->pool, double, draws), *margin = POOL_ARRAY(b->pool, double, draws), sum = 0, square = 0;
+    double judged = isfinite(to->margin.value) && to->npeaks ? to->peaks[0].speed_rpm / to->speed_rpm : 1;
+    if (!own || !margin)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < draws; k++) {
+        double speed = b->speed[k + (ptrdiff_t)draws * i];
+        if (!isfinite(speed))
+            continue;
+        margin[count] = machine->has_operation ? speeds_margin(machine, speed * judged) : (double)NAN;
+        kept += isfinite(to->margin.required) && margin[count] >= to->margin.required;
+        own[count++] = speed / RPM;
+        sum += speed / RPM;
+        square += speed * speed / RPM / RPM;
+    }
+    if (count < LEAST_DRAWS)
+        return ROTID_OK;
+    sort_doubles((size_t)count, own);
+    to->ci95[0] = quantile(own, count, 0.025);
+    to->ci95[1] = quantile(own, count, 0.975);
+    to->std = sqrt(fmax(0, square - sum * sum / count) / (count - 1));
+    if (!isfinite(to->margin.value))
+        return ROTID_OK;
+    sort_doubles((size_t)count, margin);
+    to->margin.ci95[0] = quantile(margin, count, 0.025);
+    to->margin.ci95[1] = quantile(margin, count, 0.975);
+    if (isfinite(to->margin.required))
+        to->margin.probability = (double)kept / count;
+    return ROTID_OK;
+}
+
+/* What source j adds to the variance of a sum g [nsource] of what is drawn. */
+static double variance_of(const struct bands *b, const double *g, int j)
+{
+    double sum = 0;
+    if (j >= b->nmodulus)
+        return g[j] * g[j] * b->source[j].std * b->source[j].std;
+    for (int k = 0; k < b->nmodulus; k++)
+        sum += g[j] * covariance(b, j, k) * g[k];
+    return sum;
+}
+
+/* Of the Campbell diagram by the linear prediction, log-normal. */
+static void spread(const struct bands *b, struct speeds *out)
+{
+    for (int i = 0; i < out->ncampbell; i++)
+        for (int m = 0; m < out->campbell[i].nmodes; m++) {
+            struct campbell_mode *to = &out->campbell[i].modes[m];
+            const double *g = b->campbell + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * (to->mode - 1));
+            double variance = 0;
+            for (int j = 0; j < b->nsource; j++)
+                variance += variance_of(b, g, j);
+            if (!(variance >= 0))
+                continue; /* at standstill two modes may be one */
+            to->ci95[0] = to->frequency_hz * exp(-1.96 * sqrt(variance));
+            to->ci95[1] = to->frequency_hz * exp(1.96 * sqrt(variance));
+        }
+}
+
+/* Of the linear prediction: sources of one name together, with their correlation. */
+static int share(struct bands *b, int i, struct critical_speed *to)
+{
+    double all = 0;
+    to->nvariance_shares = b->nname;
+    to->variance_shares = POOL_ARRAY(b->pool, struct variance_share, b->nname);
+    if (!to->variance_shares)
+        return ROTID_ERROR_MEMORY;
+    for (int name = 0; name < b->nname; name++)
+        to->variance_shares[name].source = b->name[name];
+    const double *g = b->derivative + (ptrdiff_t)b->nsource * i;
+    for (int j = 0; j < b->nsource; j++)
+        to->variance_shares[b->source[j].name].share += variance_of(b, g, j);
+    for (int name = 0; name < b->nname; name++)
+        all += to->variance_shares[name].share;
+    for (int name = 0; name < b->nname; name++)
+        to->variance_shares[name].share = all > 0 ? fmax(0, to->variance_shares[name].share / all) : 0;
+    return ROTID_OK;
+}
+
+static int find_watched(struct bands *b, struct system *nominal)
+{
+    int count, status;
+    if (!b->machine->has_operation)
+        return ROTID_OK;
+    b->watched = POOL_ARRAY(b->pool, struct pair, nominal->size);
+    for (int i = 0; i < nominal->size && b->watched; i++)
+        if (pair_new(b->pool, nominal->size, &b->watched[i]))
+            return ROTID_ERROR_MEMORY;
+    if (!b->watched)
+        return ROTID_ERROR_MEMORY;
+    status = pairs_all(b->pool, nominal, b->machine->high, &count, b->watched);
+    for (int i = 0; i < count && !status && cimag(b->watched[i].lambda) < 2 * b->machine->high; i++) {
+        struct pair *own = &b->watched[i];
+        if (!pair_refine(nominal, b->machine->high, NULL, own))
+            pair_copy(nominal->size, own, &b->watched[b->nwatched++]);
+    }
+    return status;
+}
+
+int bands_make(struct pool *pool, const struct machine *machine, const struct job *job, const struct machine_values *values,
+               const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
+               struct system *nominal, const struct basis_size *basis, const struct tracks *tracks, int ncritical,
+               const struct critical *critical, struct message_list *notes, struct speeds *out)
+{
+    struct bands b = {.pool = pool,
+                      .machine = machine,
+                      .job = job,
+                      .fit = fit,
+                      .options = options,
+                      .environment = environment,
+                      .nominal = nominal,
+                      .basis = {basis->modes, basis->coupled, 0},
+                      .values = values,
+                      .ncritical = ncritical,
+                      .critical = critical,
+                      .tracks = tracks};
+    int status = find_sources(&b), lost = 0;
+    if (status || !b.nsource || !options->draws || !ncritical)
+        return status;
+    status = factor_covariance(&b);
+    if (!status)
+        status = differentiate(&b);
+    if (!status)
+        spread(&b, out);
+    if (!status)
+        status = draw_all(&b);
+    if (!status)
+        status = find_watched(&b, nominal);
+    b.speed = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
+    b.growth = POOL_ARRAY(pool, double, options->draws);
+    if (!status && (!b.speed || !b.growth))
+        status = ROTID_ERROR_MEMORY;
+    if (!status)
+        status = parallel_for(options->threads, options->draws, one_draw, &b);
+    for (int i = 0; i < ncritical && !status; i++) {
+        for (int k = 0; k < options->draws; k++)
+            lost += !isfinite(b.speed[k + (ptrdiff_t)options->draws * i]);
+        status = summarise(&b, i, &out->critical_speeds[i]);
+        if (!status)
+            status = share(&b, i, &out->critical_speeds[i]);
+    }
+    if (status)
+        return status;
+    out->draws = options->draws;
+    if (b.nwatched) {
+        int stable = 0;
+        for (int k = 0; k < options->draws; k++)
+            stable += b.growth[k] <= GROWS;
+        out->stability.probability_stable = (double)stable / options->draws;
+    }
+    if (lost)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%d of %d critical speeds of the draws were not found: the intervals are of the others", lost,
+                    options->draws * ncritical);
+    return ROTID_OK;
+}

@@ -1,0 +1,225 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "running/running.h"
+
+#define HALVINGS   60
+#define STANDSTILL 1e-3 /* of the highest speed */
+
+struct pair *track_at(const struct tracks *t, int mode, int speed)
+{
+    return &t->pair[(ptrdiff_t)mode * t->nspeed + speed];
+}
+
+static int is_there(const struct pair *pair)
+{
+    return isfinite(creal(pair->lambda));
+}
+
+static int add_mode(struct pool *pool, const struct system *s, struct tracks *t, const struct pair *at, int speed)
+{
+    for (int i = 0; i < t->nspeed; i++) {
+        struct pair *own = track_at(t, t->nmode, i);
+        if (pair_new(pool, s->size, own))
+            return ROTID_ERROR_MEMORY;
+        own->lambda = NAN;
+    }
+    pair_copy(s->size, at, track_at(t, t->nmode, speed));
+    t->nmode++;
+    return ROTID_OK;
+}
+
+static int are_same(const struct system *s, const struct pair *a, const struct pair *b)
+{
+    double complex alike = 0;
+    if (!is_there(a) || !is_there(b) || !(cabs(a->lambda - b->lambda) < 1e-8 * cabs(a->lambda)))
+        return 0;
+    for (int j = 0; j < s->size; j++)
+        alike += conj(a->u[j]) * b->u[j];
+    return cabs(alike) > 0.9;
+}
+
+/* The mode that another one has run into, -1: none. */
+static int twin_of(const struct system *s, const struct tracks *t, int mode, int speed)
+{
+    for (int m = 0; m < t->nmode; m++)
+        if (m != mode && are_same(s, track_at(t, m, speed), track_at(t, mode, speed)))
+            return m;
+    return -1;
+}
+
+static void step(struct system *s, struct tracks *t, int mode, int from, int to, int least)
+{
+    struct pair *next = track_at(t, mode, to);
+    if (!is_there(track_at(t, mode, from)))
+        return;
+    pair_copy(s->size, track_at(t, mode, from), next);
+    if (pair_follow(s, t->speed[from], t->speed[to], least, next))
+        next->lambda = NAN;
+}
+
+/* Modes first ... from one speed to the next. Where two loci come near each other a long step goes straight on and a short one
+ * veers: where both then end in one, they take the same short steps. */
+static void step_all(struct system *s, struct tracks *t, int first, int from, int to)
+{
+    for (int m = first; m < t->nmode; m++)
+        step(s, t, m, from, to, 1);
+    for (int least = 32; least <= 2048; least *= 8)
+        for (int m = first; m < t->nmode; m++) {
+            int twin = is_there(track_at(t, m, to)) ? twin_of(s, t, m, to) : -1;
+            if (twin < 0)
+                continue;
+            step(s, t, m, from, to, least);
+            step(s, t, twin, from, to, least);
+        }
+    for (int m = first; m < t->nmode; m++)
+        if (is_there(track_at(t, m, to)) && twin_of(s, t, m, to) >= 0)
+            track_at(t, m, to)->lambda = NAN;
+}
+
+/* With loss factors a pair without them is where the iteration begins. */
+static int settle(struct system *s, double speed, struct pair *pair)
+{
+    system_at(s, speed);
+    return pair_refine(s, speed, NULL, pair);
+}
+
+int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *speed, double limit, struct tracks *t)
+{
+    int count, last = nspeed - 1;
+    struct pair *all = POOL_ARRAY(pool, struct pair, s->size);
+    *t = (struct tracks){.nspeed = nspeed, .room = s->size};
+    t->speed = POOL_ARRAY(pool, double, nspeed);
+    t->pair = POOL_ARRAY(pool, struct pair, (size_t)nspeed * (size_t)s->size);
+    if (!all || !t->speed || !t->pair)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < s->size; i++)
+        if (pair_new(pool, s->size, &all[i]))
+            return ROTID_ERROR_MEMORY;
+    memcpy(t->speed, speed, (size_t)nspeed * sizeof *speed);
+    int status = pairs_all(pool, s, speed[0], &count, all);
+    for (int i = 0; i < count && !status; i++) {
+        if (cimag(all[i].lambda) > limit && t->nmode >= 6)
+            break;
+        /* near standstill two modes are nearly one: the vectors of pairs_all tell them apart, an iteration does not */
+        if ((s->hysteretic || speed[0] > STANDSTILL * speed[last]) && settle(s, speed[0], &all[i]))
+            continue;
+        status = add_mode(pool, s, t, &all[i], 0);
+    }
+    for (int i = 0; i < last && !status; i++)
+        step_all(s, t, 0, i, i + 1);
+    int followed = t->nmode;
+    if (!status)
+        status = pairs_all(pool, s, speed[last], &count, all);
+    for (int i = 0; i < count && !status && cimag(all[i].lambda) < speed[last] && t->nmode < t->room; i++) {
+        int known = settle(s, speed[last], &all[i]);
+        for (int m = 0; m < t->nmode && !known; m++)
+            known = are_same(s, track_at(t, m, last), &all[i]);
+        if (known)
+            continue;
+        status = add_mode(pool, s, t, &all[i], last);
+    }
+    for (int i = last; i > 0 && followed < t->nmode && !status; i--)
+        step_all(s, t, followed, i, i - 1);
+    return status;
+}
+
+static int by_speed(const void *a, const void *b)
+{
+    double x = ((const struct critical *)a)->speed, y = ((const struct critical *)b)->speed;
+    return (x > y) - (x < y);
+}
+
+/* The crossing between two speeds: by halves where Newton leaves the interval or the mode. */
+static int cross(struct system *s, double from, double to, double h, struct critical *c, struct pair near)
+{
+    double below = from, above = to, at = from, sign = cimag(c->pair.lambda) - h * from;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = (below + above) / 2;
+        if (pair_follow(s, at, middle, 1, &c->pair))
+            return 1;
+        at = middle;
+        if ((cimag(c->pair.lambda) - h * middle) * sign > 0)
+            below = middle;
+        else
+            above = middle;
+        if (i == 1 || i % 8 == 7) {
+            c->speed = middle;
+            pair_copy(s->size, &c->pair, &near);
+            if (!pair_synchronise(s, h, &c->speed, &near) && c->speed >= from * (1 - 1e-9) && c->speed <= to * (1 + 1e-9)) {
+                pair_copy(s->size, &near, &c->pair);
+                system_at(s, c->speed);
+                return pair_left(s, 0, &c->pair);
+            }
+        }
+    }
+    c->speed = (below + above) / 2;
+    return 0;
+}
+
+int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical)
+{
+    size_t room = 0;
+    struct pair near = {.u = NULL};
+    *count = 0;
+    *critical = NULL;
+    for (int m = 0; m < t->nmode; m++)
+        for (int i = 0; i + 1 < t->nspeed; i++) {
+            const struct pair *a = track_at(t, m, i), *b = track_at(t, m, i + 1);
+            if (!is_there(a) || !is_there(b) ||
+                (cimag(a->lambda) - h * t->speed[i]) * (cimag(b->lambda) - h * t->speed[i + 1]) > 0)
+                continue;
+            struct critical *grown = pool_grow(pool, *critical, (size_t)*count, &room, sizeof *grown);
+            struct critical c = {.mode = m};
+            if (!grown || pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
+                return ROTID_ERROR_MEMORY;
+            *critical = grown;
+            pair_copy(s->size, a, &c.pair);
+            if (!cross(s, t->speed[i], t->speed[i + 1], h, &c, near))
+                grown[(*count)++] = c;
+        }
+    if (*count)
+        qsort(*critical, (size_t)*count, sizeof **critical, by_speed);
+    return ROTID_OK;
+}
+
+static int grows(const struct pair *pair)
+{
+    return creal(pair->lambda) > GROWS * cabs(pair->lambda);
+}
+
+/* The step from decay to growth may be a jump where w = W: by halves. */
+double onset_find(struct system *s, const struct tracks *t, int *mode)
+{
+    struct pool scratch;
+    struct pair now;
+    double lowest = NAN;
+    *mode = -1;
+    pool_open(&scratch, NULL);
+    for (int m = 0; m < t->nmode && !pair_new(&scratch, s->size, &now); m++) {
+        int i = 0;
+        while (i < t->nspeed && !(is_there(track_at(t, m, i)) && grows(track_at(t, m, i))))
+            i++;
+        if (i == t->nspeed || t->speed[i > 0 ? i - 1 : 0] > lowest)
+            continue;
+        double below = t->speed[i > 0 ? i - 1 : 0], above = t->speed[i], at = above;
+        pair_copy(s->size, track_at(t, m, i), &now);
+        for (int half = 0; half < HALVINGS && above - below > 1e-12 * above && i > 0; half++) {
+            double middle = (below + above) / 2;
+            if (pair_follow(s, at, middle, 1, &now))
+                break;
+            at = middle;
+            if (grows(&now))
+                above = middle;
+            else
+                below = middle;
+        }
+        if (!(above > lowest)) {
+            lowest = above;
+            *mode = m;
+        }
+    }
+    pool_close(&scratch);
+    return lowest;
+}

@@ -1,0 +1,107 @@
+#include <math.h>
+#include <string.h>
+
+#include "running/running.h"
+
+int machine_nominal(struct pool *pool, const struct machine *machine, const double *x, struct machine_values *values)
+{
+    int count = 2 * machine->nbearing + machine->nloss + machine->npull + machine->nchange;
+    double *one = POOL_ARRAY(pool, double, count);
+    for (int i = 0; i < count && one; i++)
+        one[i] = 1;
+    *values = (struct machine_values){.x = x, .bearing_k = one};
+    if (!one)
+        return ROTID_ERROR_MEMORY;
+    values->bearing_c = one + machine->nbearing;
+    values->loss = values->bearing_c + machine->nbearing;
+    values->pull = values->loss + machine->nloss;
+    values->change = values->pull + machine->npull;
+    return ROTID_OK;
+}
+
+int machine_has_unknown(const struct machine *machine, const struct job *job, int p)
+{
+    const struct parameter *parameter = &job->unknowns.parameter[p];
+    int spring = parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT,
+        disk = parameter->kind == PARAMETER_DISK_MASS || parameter->kind == PARAMETER_DISK_INERTIA;
+    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]);
+}
+
+/* What was left at the test stays in its list without stiffness or mass, so that parameters keep their indices. */
+static int add_parts(struct pool *pool, const struct machine *machine, struct rotor *rotor)
+{
+    int more = machine->nbearing + machine->nunbalance + machine->nprobe, disks = rotor->ndisk, springs = rotor->nspring;
+    struct disk *disk = POOL_ARRAY(pool, struct disk, disks + machine->ndisk);
+    struct spring *spring = POOL_ARRAY(pool, struct spring, springs + more);
+    if (!disk || !spring)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < disks; i++) {
+        disk[i] = rotor->disk[i];
+        if (machine->without_disk[i])
+            disk[i].mass = disk[i].diametral = disk[i].polar = 0;
+    }
+    for (int i = 0; i < machine->ndisk; i++)
+        disk[disks + i] = machine->disk[i];
+    for (int i = 0; i < springs; i++) {
+        spring[i] = rotor->spring[i];
+        if (machine->without_spring[i])
+            spring[i].lateral = spring[i].rotational = 0;
+    }
+    for (int i = 0; i < machine->nbearing; i++)
+        spring[springs++].position = machine->bearing[i].z;
+    for (int i = 0; i < machine->nunbalance; i++)
+        spring[springs++].position = machine->unbalance[i].z;
+    for (int i = 0; i < machine->nprobe; i++)
+        spring[springs++].position = machine->probe[i].z;
+    rotor->disk = disk;
+    rotor->ndisk = disks + machine->ndisk;
+    rotor->spring = spring;
+    rotor->nspring = springs;
+    if (machine->without_sling)
+        rotor->sling = 0;
+    return ROTID_OK;
+}
+
+int machine_rotor(struct pool *pool, const struct machine *machine, const struct job *job, const struct machine_values *values,
+                  struct rotor *rotor)
+{
+    struct rotor at_rest = job->rotor;
+    if (machine->without_sling)
+        at_rest.sling = 0; /* or the copy would have its springs */
+    int status = rotor_copy(pool, &at_rest, rotor), nspring = job->rotor.nspring;
+    if (status)
+        return status;
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        parameters_set(rotor, 1, &job->unknowns.parameter[p], &values->x[p]);
+    for (int i = 0; i < machine->nchange; i++) {
+        double now = *parameter_value(rotor, machine->change[i].parameter) * machine->change[i].factor * values->change[i];
+        parameters_set(rotor, 1, &machine->change[i].parameter, &now);
+    }
+    rotor->nspring = nspring; /* those of a sling come again when it is discretised */
+    return add_parts(pool, machine, rotor);
+}
+
+void bearing_at(const struct bearing *bearing, double speed, double k[4], double c[4], double dk[4], double dc[4])
+{
+    int last = bearing->count - 1, i = 0;
+    while (i + 1 < last && speed > bearing->speed[i + 1])
+        i++;
+    int inside =
+        last > 0 && speed > bearing->speed[0] && speed<bearing->speed[last], at = last> 0 && speed >= bearing->speed[last] ? last
+        : inside                                                                                                           ? i
+                                                                                                                           : 0;
+    double step = inside ? bearing->speed[i + 1] - bearing->speed[i] : 1, part = inside ? (speed - bearing->speed[i]) / step : 0;
+    for (int j = 0; j < 4; j++) {
+        double rise[2] = {0, 0};
+        if (inside) {
+            rise[0] = bearing->k[4 * (i + 1) + j] - bearing->k[4 * i + j];
+            rise[1] = bearing->c[4 * (i + 1) + j] - bearing->c[4 * i + j];
+        }
+        k[j] = bearing->k[4 * at + j] + part * rise[0];
+        c[j] = bearing->c[4 * at + j] + part * rise[1];
+        if (dk) {
+            dk[j] = rise[0] / step;
+            dc[j] = rise[1] / step;
+        }
+    }
+}

@@ -1,0 +1,211 @@
+#include <math.h>
+#include <string.h>
+
+#include "running/running.h"
+
+#define GOLDEN  0.6180339887498949
+#define GRAVITY 9.80665
+#define HALF    0.70710678118654752
+
+/* m e W^2 (cos(W t + p), sin(W t + p)) = Re (1, -i) m e W^2 e^{ip} e^{iWt} */
+int response_at(struct system *s, double speed, double complex *q)
+{
+    const struct machine *machine = s->machine;
+    memset(q, 0, (size_t)s->size * sizeof *q);
+    system_at(s, speed);
+    for (int i = 0; i < machine->nunbalance; i++) {
+        double complex force = machine->unbalance[i].value * speed * speed * cexp(I * machine->unbalance[i].phase);
+        for (int j = 0; j < s->columns; j++) {
+            q[j] += force * s->unbalance[j + (ptrdiff_t)s->columns * i];
+            q[s->plane + j] -= I * force * s->unbalance[j + (ptrdiff_t)s->columns * i];
+        }
+    }
+    system_dynamic(s, I * speed, 0, s->d);
+    if (complex_factor(s->size, s->d, s->pivot))
+        return 1;
+    complex_solve(s->size, 0, s->d, s->pivot, q);
+    return 0;
+}
+
+double complex probe_motion(const struct system *s, int probe, const double complex *q)
+{
+    const double *row = s->probe + (ptrdiff_t)s->columns * probe;
+    double angle = s->machine->probe[probe].angle;
+    double complex sum = 0;
+    for (int j = 0; j < s->columns; j++)
+        sum += row[j] * (cos(angle) * q[j] + sin(angle) * q[s->plane + j]);
+    return sum;
+}
+
+static double amplitude(struct system *s, int probe, double speed)
+{
+    return response_at(s, speed, s->right) ? INFINITY : cabs(probe_motion(s, probe, s->right));
+}
+
+/* The speed between a peak and `to` where the amplitude is `level`; NaN where it stays above, or rises again before. */
+static double falls_to(struct system *s, int probe, double peak, double to, double level)
+{
+    double inside = peak, step = (to - peak) / 400, outside = NAN, before = INFINITY;
+    for (int i = 1; i <= 400 && isnan(outside); i++) {
+        double speed = peak + step * i, now = amplitude(s, probe, speed);
+        if (now > before * (1 + 1e-9))
+            return NAN;
+        before = now;
+        if (now <= level)
+            outside = speed;
+        else
+            inside = speed;
+    }
+    for (int i = 0; i < 50 && isfinite(outside); i++) {
+        double middle = (inside + outside) / 2;
+        if (amplitude(s, probe, middle) <= level)
+            outside = middle;
+        else
+            inside = middle;
+    }
+    return outside;
+}
+
+int response_peak(struct system *s, int probe, double from, double near, double to, struct peak *peak)
+{
+    double width = fmax(near - from, to - near) / 2, best = near, most = amplitude(s, probe, near);
+    for (int pass = 0; pass < 24; pass++, width *= 0.6) { /* the nearest maximum: around the critical speed, then closer */
+        double left = fmax(from, best - width), right = fmin(to, best + width);
+        double l = amplitude(s, probe, left), r = amplitude(s, probe, right);
+        if (l > most && l >= r) {
+            best = left;
+            most = l;
+        } else if (r > most) {
+            best = right;
+            most = r;
+        }
+    }
+    double a = fmax(from, best - 4 * width), b = fmin(to, best + 4 * width), c = b - GOLDEN * (b - a), d = a + GOLDEN * (b - a);
+    double at_c = amplitude(s, probe, c), at_d = amplitude(s, probe, d);
+    for (int i = 0; i < 60 && b - a > 1e-9 * b; i++)
+        if (at_c > at_d) {
+            b = d;
+            d = c;
+            at_d = at_c;
+            at_c = amplitude(s, probe, c = b - GOLDEN * (b - a));
+        } else {
+            a = c;
+            c = d;
+            at_c = at_d;
+            at_d = amplitude(s, probe, d = a + GOLDEN * (b - a));
+        }
+    best = (a + b) / 2;
+    if (best < from + 1e-6 * best || best > to - 1e-6 * best)
+        return 1;
+    most = amplitude(s, probe, best);
+    double low = falls_to(s, probe, best, best / 4, HALF * most), high = falls_to(s, probe, best, best * 4, HALF * most);
+    *peak = (struct peak){s->machine->probe[probe].name, best / RPM, most, best / (high - low)};
+    return 0;
+}
+
+/* ---- at rest under weight */
+
+int static_loads(struct pool *pool, struct system *s, double speed, struct speeds *out)
+{
+    const struct machine *machine = s->machine;
+    double complex *q = POOL_ARRAY(pool, double complex, s->size);
+    out->nbearing_loads = machine->nbearing;
+    out->bearing_loads = POOL_ARRAY(pool, struct bearing_load, machine->nbearing);
+    if (!q || !out->bearing_loads)
+        return ROTID_ERROR_MEMORY;
+    out->weight_n = s->total_mass * GRAVITY;
+    for (int j = 0; j < s->columns; j++)
+        q[s->plane + j] = -GRAVITY * s->weight[j];
+    for (int i = 0, at = s->plane + s->columns; i < machine->nbearing; i++)
+        if (machine->bearing[i].has_pedestal)
+            q[at++] = -GRAVITY * machine->bearing[i].m[1];
+    system_at(s, speed);
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)s->size * s->size; i++)
+        s->d[i] = s->stiff[i];
+    if (complex_factor(s->size, s->d, s->pivot))
+        return ROTID_ERROR_STIFFNESS;
+    complex_solve(s->size, 0, s->d, s->pivot, q);
+    for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
+        const struct bearing *b = &machine->bearing[i];
+        double k[4], c[4], x = 0, y = 0, f = s->values->bearing_k[i];
+        bearing_at(b, speed, k, c, NULL, NULL);
+        for (int j = 0; j < s->columns; j++) {
+            x += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
+            y += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[s->plane + j]);
+        }
+        if (b->has_pedestal) {
+            x -= creal(q[s->columns + pedestal]);
+            y -= creal(q[s->plane + s->columns + pedestal]);
+            pedestal++;
+        }
+        out->bearing_loads[i] = (struct bearing_load){b->name, b->z, f * (k[XX] * x + k[XY] * y), f * (k[YX] * x + k[YY] * y)};
+    }
+    for (int i = 0; i < s->naxis; i++) {
+        double x = 0, y = 0;
+        for (int j = 0; j < s->columns; j++) {
+            x += s->axis[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
+            y += s->axis[j + (ptrdiff_t)s->columns * i] * creal(q[s->plane + j]);
+        }
+        out->sag_m = fmax(out->sag_m, hypot(x, y));
+    }
+    return ROTID_OK;
+}
+
+/* ---- critical speed map: K q = W^2 (M - P) q with the stiffness of all bearings times a factor */
+
+#define MAP_ROWS    17
+#define MAP_DECADES 4
+
+int map_make(struct pool *pool, struct system *s, double speed, double most, struct speeds *out)
+{
+    const struct machine *machine = s->machine;
+    int n = s->columns, status = ROTID_OK;
+    size_t square = (size_t)n * (size_t)n;
+    struct pool scratch;
+    pool_open(&scratch, pool->allocator);
+    double *m = POOL_ARRAY(&scratch, double, square), *c = POOL_ARRAY(&scratch, double, square),
+           *k = POOL_ARRAY(&scratch, double, square), *work = POOL_ARRAY(&scratch, double, quadratic_workspace(n));
+    double complex *lambda = POOL_ARRAY(&scratch, double complex, 2 * (size_t)n),
+                   *u = POOL_ARRAY(&scratch, double complex, 2 * square);
+    out->map = POOL_ARRAY(pool, struct map_row, MAP_ROWS);
+    if (!m || !c || !k || !work || !lambda || !u || !out->map)
+        status = ROTID_ERROR_MEMORY;
+    out->nmap = status ? 0 : MAP_ROWS;
+    for (int row = 0; row < MAP_ROWS && !status; row++) {
+        struct map_row *to = &out->map[row];
+        to->stiffness_factor = pow(10, MAP_DECADES * (row / (MAP_ROWS - 1.0) - 0.5));
+        memcpy(k, s->k, square * sizeof *k);
+        for (int i = 0; i < machine->nbearing; i++) {
+            const struct bearing *b = &machine->bearing[i];
+            double kb[4], cb[4];
+            bearing_at(b, speed, kb, cb, NULL, NULL);
+            double stiff = (kb[XX] + kb[YY]) / 2 * s->values->bearing_k[i] * to->stiffness_factor,
+                   under = (b->kp[0] + b->kp[1]) / 2;
+            stiff = b->has_pedestal ? stiff * under / (stiff + under) : stiff;
+            const double *v = s->bearing + (ptrdiff_t)n * i;
+            for (int col = 0; col < n; col++)
+                for (int r = 0; r < n; r++)
+                    k[r + (ptrdiff_t)n * col] += stiff * v[r] * v[col];
+        }
+        memcpy(c, k, square * sizeof *k);
+        int falls = cholesky_factor(n, c); /* the pull is stronger than such bearings */
+        memset(c, 0, square * sizeof *c);
+        for (size_t i = 0; i < square; i++)
+            m[i] = -s->p[i];
+        for (int i = 0; i < n; i++)
+            m[i + (ptrdiff_t)n * i] += 1;
+        to->speed_rpm = POOL_ARRAY(pool, double, n);
+        if (!to->speed_rpm)
+            status = ROTID_ERROR_MEMORY;
+        if (status || falls || quadratic_pairs(n, s->highest / 4, m, c, k, lambda, u, work, s->pivot))
+            continue;
+        for (int i = 0; i < 2 * n; i++) {
+            double w = cimag(lambda[i]);
+            if (w > fabs(creal(lambda[i])) && w < most)
+                to->speed_rpm[to->nspeed_rpm++] = w / RPM;
+        }
+        sort_doubles((size_t)to->nspeed_rpm, to->speed_rpm);
+    }
+    pool_close(&scratch);
+    return status;
+}

@@ -1,0 +1,188 @@
+/* Cards behind *RUNNING: what they make, and what is said of those that cannot be. */
+#include <math.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "deck/deck.h"
+#include "folder.h"
+#include "running_case.h"
+#include "support.h"
+
+#define SHAFT                                                                                                                    \
+    "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n2, 0.1, 0, 20\n*SPRING, "               \
+    "NAME=f\nstart, "                                                                                                            \
+    "1e4\n"
+#define TWO "*RUNNING\n*BEARING, NAME=p\n0.2, 1e8, 10\n*BEARING, NAME=q\n1.8, 1e8, 10\n"
+
+/* Whether reading the text says this at the line. */
+static void says(const char *text, int severity, int line, const char *what)
+{
+    rotid_deck *deck;
+    int found = 0;
+    (void)rotid_deck_read_text(strlen(text), text, "deck", folder_path("."), 0, NULL, NULL, NULL, &deck);
+    assert_non_null(deck);
+    for (int i = 0; i < deck->nmessage; i++)
+        found |= deck->message[i].severity == severity && (!line || deck->message[i].line == line) &&
+                 strstr(deck->message[i].text, what) != NULL;
+    if (!found)
+        for (int i = 0; i < deck->nmessage; i++)
+            print_message("%d: %s\n", deck->message[i].line, deck->message[i].text);
+    assert_true(found);
+    rotid_deck_free(deck);
+}
+
+static void the_cards_of_a_machine_are_read(void **state)
+{
+    (void)state;
+    struct running_case c;
+    (void)folder_write("table.csv", "speed_rpm,kyy,kxx,cxx,cyy\n1000,2e7,1e7,1,2\n3000,4e7,3e7,3,4\n");
+    const char *text = pool_format(
+        &test_pool,
+        SHAFT
+        "*RUNNING, WITHOUT=f\n*DISK, NAME=fan\n1.0, 5, 0.1, 0.2\n*BEARING, NAME=p, STD=0.2, 0.3\n0.2, 1e8, 10\n*BEARING, NAME=q, "
+        "LIKE=p\n1.8, 1, 2, 3, 4, 5, 6, 7, 8\n*BEARING, FILE=%s, STD=0.1\n1.5\n*PEDESTAL, BEARING=q\n10, 20, 3e9, 4e9, 5\n"
+        "*LOSS\na, 0.02, 0.01\n*PULL, GROUP=a, STD=0.3\n100\n*CHANGE\na.E, 0.9, 0.02\n*UNBALANCE\n1, 0.01, 90\n*PROBE, "
+        "NAME=x\n0.5, 45\n*OPERATION, MARGIN=0.15\n3000, 4000\n",
+        folder_path("table.csv"));
+    assert_int_equal(running_case_open(text, 6000, 3, 0, &c), ROTID_OK);
+    const struct machine *m = c.machine;
+    const double full[4] = {1, 2, 3, 4};
+    double k[4], d[4], dk[4], dd[4];
+    assert_int_equal(m->nbearing, 3);
+    assert_int_equal(m->bearing[1].like, 0);
+    assert_close(m->bearing[1].std[1], 0.3, 0, 0);
+    assert_memory_equal(m->bearing[1].k, full, sizeof full);
+    assert_close(m->bearing[1].c[YX], 7, 0, 0);
+    assert_int_equal(m->bearing[1].has_pedestal, 1);
+    assert_close(m->bearing[1].kp[1], 4e9, 0, 0);
+    assert_close(m->bearing[2].std[1], 0.1, 0, 0);
+    bearing_at(&m->bearing[2], 2000 * RPM, k, d, dk, dd);
+    assert_close(k[XX], 2e7, 1e-12, 0);
+    assert_close(k[YY], 3e7, 1e-12, 0);
+    assert_close(d[YY], 3, 1e-12, 0);
+    assert_close(dk[XX], 2e7 / (2000 * RPM), 1e-12, 0);
+    bearing_at(&m->bearing[2], 500 * RPM, k, d, dk, dd);
+    assert_close(k[XX], 1e7, 0, 0);
+    assert_close(dk[XX], 0, 0, 0);
+    bearing_at(&m->bearing[2], 9000 * RPM, k, d, NULL, NULL);
+    assert_close(k[YY], 4e7, 0, 0);
+    assert_close(m->unbalance[0].phase, asin(1), 1e-15, 0);
+    assert_close(m->probe[0].angle, atan(1), 1e-15, 0);
+    assert_close(m->low, 3000 * RPM, 1e-15, 0);
+    assert_close(m->change[0].factor, 0.9, 0, 0);
+    assert_int_equal(m->without_spring[0], 1);
+    assert_int_equal(m->ndisk, 1);
+    assert_int_equal(c.job->rotor.ndisk, 0); /* the test knows nothing of it */
+    running_case_close(&c);
+}
+
+static void units_of_the_deck_hold_for_the_machine(void **state)
+{
+    (void)state;
+    rotid_deck *deck;
+    const char *text =
+        "*UNITS, LENGTH=MM, STIFFNESS=N/UM\n*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, "
+        "MATERIAL=s\n2000, 100, 0, 20\n*RUNNING\n*BEARING\n200, 100, 5\n*BEARING\n1800, 100, 5\n";
+    assert_int_equal(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    const struct machine *m = deck_states_of(deck)->machine;
+    assert_close(m->bearing[0].z, 0.2, 1e-15, 0);
+    assert_close(m->bearing[0].k[YY], 1e8, 1e-15, 0);
+    assert_close(m->bearing[0].c[XX], 5, 0, 0);
+    rotid_deck_free(deck);
+}
+
+static void cards_that_cannot_be_are_refused_with_their_place(void **state)
+{
+    (void)state;
+    says(SHAFT "*RUNNING\n", ROTID_ERROR, 10, "free rotor has no critical speed");
+    says(SHAFT "*BEARING\n0.2, 1, 1\n", ROTID_ERROR, 10, "stands before *RUNNING");
+    says(SHAFT TWO "*RUNNING\n", ROTID_ERROR, 15, "given twice");
+    says(SHAFT TWO "*SHAFT, NAME=b, MATERIAL=s\n1, 1, 0\n", ROTID_ERROR, 15, "stands behind *RUNNING");
+    says(SHAFT TWO "*STATE, NAME=b\n", ROTID_ERROR, 15, "*STATE stands behind");
+    says(SHAFT "*RUNNING, WITHOUT=x\n*BEARING\n0.2, 1, 1\n", ROTID_ERROR, 10, "no support or mass");
+    says(SHAFT "*RUNNING\n*BEARING\n2.2, 1, 1\n", ROTID_ERROR, 12, "outside the rotor");
+    says(SHAFT "*RUNNING\n*BEARING\n0.2, 1, 1, 1\n", ROTID_ERROR, 12, "3 coefficients, expected 2");
+    says(SHAFT "*RUNNING\n*BEARING\n0.2, -1, 1\n", ROTID_ERROR, 12, "below zero, expected *PULL");
+    says(SHAFT "*RUNNING\n*BEARING, STD=x\n0.2, 1, 1\n", ROTID_ERROR, 11, "no deviation");
+    says(SHAFT TWO "*BEARING, NAME=p\n0.3, 1, 1\n", ROTID_ERROR, 15, "given twice");
+    says(SHAFT TWO "*BEARING, LIKE=r\n0.3, 1, 1\n", ROTID_ERROR, 15, "bearing r is not defined");
+    says(SHAFT TWO "*PEDESTAL, BEARING=p\n0, 1, 1, 1\n", ROTID_ERROR, 16, "mass mx [kg] is 0");
+    says(SHAFT TWO "*LOSS\nx, 1\n", ROTID_ERROR, 16, "group x is not defined");
+    says(SHAFT TWO "*LOSS\na, -1\n", ROTID_ERROR, 16, "not below zero");
+    says(SHAFT TWO "*PULL, GROUP=a\n-1\n", ROTID_ERROR, 16, "not below zero");
+    says(SHAFT TWO "*CHANGE\na.q, 1\n", ROTID_ERROR, 16, "no parameter");
+    says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");
+    says(SHAFT TWO "*OPERATION\n5000, 4000\n", ROTID_ERROR, 16, "expected the lowest speed first");
+    says(SHAFT TWO "*OPERATION, MARGIN=15\n4000, 5000\n", ROTID_ERROR, 15, "expected a share below 1");
+    says("*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*BEAM, NAME=a, MATERIAL=s\n2, 0.1, 0.1\n" TWO, ROTID_ERROR, 8,
+         "is a *BEAM");
+}
+
+static void tables_of_bearings_are_refused_by_their_cells(void **state)
+{
+    (void)state;
+    const char *text = SHAFT "*RUNNING\n*BEARING, FILE=bad.csv\n0.2\n";
+    says(text, ROTID_ERROR, 11, "cannot read");
+    (void)folder_write("bad.csv", "speed_rpm,kxx,kyy,cxx\n0,1,1,1\n");
+    says(text, ROTID_ERROR, 1, "no column cyy");
+    (void)folder_write("bad.csv", "speed_rpm,kxx,kyy,cxx,cyy\n100,1,1,1,1\n50,1,1,1,1\n");
+    says(text, ROTID_ERROR, 3, "do not rise");
+    (void)folder_write("bad.csv", "speed_rpm,kxx,kyy,cxx,cyy\n100,1,x,1,1\n");
+    says(text, ROTID_ERROR, 2, "'x' is not a number");
+    (void)folder_write("bad.csv", "speed_rpm,kxx,kyy,cxx,cyy\n");
+    says(text, ROTID_ERROR, 11, "has 1 rows");
+}
+
+static void a_bearing_that_is_not_what_it_seems_is_warned_of(void **state)
+{
+    (void)state;
+    says(SHAFT TWO "*BEARING\n1, 1e8, -1e7, 1e7, 1e8, 1, 0, 0, 1\n", ROTID_WARNING, 15, "drives backward whirl");
+    says(SHAFT TWO "*BEARING\n1, 1e8, 0, 0, 1e8, -1, 0, 0, 1\n", ROTID_WARNING, 15,
+         "direct damping of this bearing is below zero");
+    says(SHAFT TWO "*DISK\n1, 5, 0.1\n", ROTID_WARNING, 0, "no polar one");
+}
+
+/* What a diagnosis or a suggestion writes keeps the machine, last of all. */
+static void written_decks_keep_the_machine(void **state)
+{
+    (void)state;
+    const struct deck_write_options options = {.x = NULL};
+    struct running_case c;
+    struct message_list notes;
+    char *text, *with;
+    message_open(&notes, &test_pool);
+    assert_int_equal(running_case_open(SHAFT TWO "*DISK, NAME=fan\n1, 5, 0.1, 0.2\n", 3000, 3, 0, &c), ROTID_OK);
+    struct states states = *deck_states_of(c.deck);
+    assert_int_equal(deck_write(&test_pool, &states, &states, &options, &notes, &text), ROTID_OK);
+    assert_non_null(strstr(text, TWO "*DISK, NAME=fan\n1, 5, 0.1, 0.2\n"));
+    assert_int_equal(deck_add_state(&test_pool, c.job->origin, NULL, "*STATE, NAME=next\n*SPRING\nend, 1e4\n", &with), ROTID_OK);
+    assert_true(strstr(with, "*STATE, NAME=next") && strstr(with, "*RUNNING") > strstr(with, "*STATE, NAME=next"));
+    running_case_close(&c);
+}
+
+static void what_does_not_hold_the_rotor_is_refused(void **state)
+{
+    (void)state;
+    struct running_case c;
+    assert_int_equal(running_case_open(SHAFT "*RUNNING, WITHOUT=ALL\n*BEARING\n0.2, 1e8, 1\n", 3000, 3, 0, &c),
+                     ROTID_ERROR_STIFFNESS);
+    running_case_close(&c);
+    assert_int_equal(running_case_open(SHAFT TWO "*PULL, GROUP=a\n1e9\n", 3000, 3, 0, &c), ROTID_ERROR_STIFFNESS);
+    running_case_close(&c);
+    assert_int_equal(running_case_open(SHAFT TWO "*PULL, GROUP=a\n1e5\n", 3000, 3, 0, &c), ROTID_OK);
+    running_case_close(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_cards_of_a_machine_are_read, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(units_of_the_deck_hold_for_the_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_does_not_hold_the_rotor_is_refused, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}

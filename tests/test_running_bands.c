@@ -1,0 +1,156 @@
+/* Bands of critical speeds where they have a closed form: W is a power of what is uncertain, which is log-normal. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "running_case.h"
+#include "support.h"
+
+#define DRAWS 2000
+
+/* Bounce alone: m on two springs; W^2 = (k1 + k2)/m. Light and stiff, the shaft adds nothing. */
+#define RIGID                                                                                                                    \
+    "*MATERIAL, NAME=s\n*ELASTIC\n1e12, 0.3\n*DENSITY\n1\n*SHAFT, NAME=a, MATERIAL=s\n0.5, 0.2, 0, 4\n0.5, 0.2, 0, "             \
+    "4\n*RUNNING\n"                                                                                                              \
+    "*DISK\n0.5, 50, 2, 4\n"
+
+static double tail(double z) /* of the normal distribution above z */
+{
+    return erfc(z / sqrt(2)) / 2;
+}
+
+static const struct critical_speed *forward(const struct running_case *c)
+{
+    for (int i = 0; i < c->speeds.ncritical_speeds; i++)
+        if (!strcmp(c->speeds.critical_speeds[i].whirl, "forward"))
+            return &c->speeds.critical_speeds[i];
+    fail();
+    return NULL;
+}
+
+static void one_draw_for_both_bearings_is_log_normal(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double std = 0.2, w0 = sqrt(2 * 1e6 / 50) / RPM, high = 1300, sigma = std / 2;
+    char *deck = pool_format(
+        &test_pool,
+        RIGID "*BEARING, NAME=p, STD=%g, 0\nstart, 1e6, 10\n*BEARING, LIKE=p\nend, 1e6, 10\n*OPERATION, MARGIN=0.4\n1000, %g\n",
+        std, high);
+    assert_int_equal(running_case_open(deck, 4000, 9, DRAWS, &c), ROTID_OK);
+    const struct critical_speed *w = forward(&c);
+    assert_close(w->speed_rpm, w0, 1e-3, 0);
+    /* a quantile of n draws has the deviation sqrt(p (1 - p)/n)/density: 2.5 % at 1.96 gives 0.06 sigma, taken thrice */
+    assert_close(log(w->ci95[0] / w->speed_rpm), -1.96 * sigma, 0, 0.18 * sigma);
+    assert_close(log(w->ci95[1] / w->speed_rpm), 1.96 * sigma, 0, 0.18 * sigma);
+    assert_close(w->std / w->speed_rpm, sigma, 0.08, 0);
+    assert_int_equal(w->nvariance_shares, 1);
+    assert_string_equal(w->variance_shares[0].source, "bearing p");
+    assert_close(w->variance_shares[0].share, 1, 1e-12, 0);
+    assert_close(w->margin.value, (w0 - high) / high, 0, 2e-3);
+    double chance = tail(log(1.4 * high / w0) / sigma) + 1 - tail(log(0.6 * 1000 / w0) / sigma);
+    assert_close(w->margin.probability, chance, 0, 3 * sqrt(chance * (1 - chance) / DRAWS) + 1e-3);
+    assert_close(c.speeds.stability.probability_stable, 1, 0, 0);
+    int seen = 0;
+    for (int i = 0; i < c.speeds.campbell[4].nmodes; i++) { /* of the Campbell diagram exactly log-normal */
+        const struct campbell_mode *m = &c.speeds.campbell[4].modes[i];
+        seen += fabs(m->frequency_hz / (w0 / 60) - 1) < 1e-3 &&
+                fabs(log(m->ci95[1] / m->frequency_hz) / (1.96 * sigma) - 1) < 1e-3 &&
+                fabs(log(m->ci95[0] / m->frequency_hz) / (1.96 * sigma) + 1) < 1e-3;
+    }
+    assert_int_equal(seen, 2);
+    running_case_close(&c);
+}
+
+static void draws_of_their_own_share_the_variance(void **state)
+{
+    (void)state;
+    struct running_case c;
+    assert_int_equal(
+        running_case_open(RIGID "*BEARING, NAME=p, STD=0.1, 0.5\nstart, 1e6, 10\n*BEARING, NAME=q, STD=0.2\nend, 1e6, 10\n", 4000,
+                          9, DRAWS, &c),
+        ROTID_OK);
+    const struct critical_speed *w = forward(&c);
+    assert_int_equal(w->nvariance_shares, 2);
+    assert_close(w->variance_shares[0].share, 0.2, 1e-3, 0); /* d ln W = 1/4 of each */
+    assert_close(w->variance_shares[1].share, 0.8, 1e-3, 0);
+    assert_close(w->std / w->speed_rpm, sqrt(0.05) / 4, 0.08, 0);
+    running_case_close(&c);
+}
+
+/* A pinned shaft: W ~ sqrt(E), and a hammer test of E with few degrees of freedom: Student's t. */
+#define PINNED                                                                                                                   \
+    "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, 20\n*IDENTIFY\na.E, %g, "   \
+    "%g, "                                                                                                                       \
+    "2e11\n*RUNNING\n*BEARING\nstart, 1e13, 0\n*BEARING\nend, 1e13, 0\n"
+
+static rotid_fit_result fit_of(double *x, double *std, double *covariance, int dof)
+{
+    return (rotid_fit_result){
+        .n = 1, .x = x, .std = std, .covariance = covariance, .dof = dof, .variance_from_residuals = dof > 0};
+}
+
+static void the_modulus_has_the_distribution_of_its_fit(void **state)
+{
+    (void)state;
+    struct running_case c;
+    double x = 2e11, std = 0.04 * x, covariance = std * std;
+    for (int dof = 0; dof <= 3; dof += 3) {
+        rotid_fit_result fit = fit_of(&x, &std, &covariance, dof);
+        assert_int_equal(running_case_open(pool_format(&test_pool, PINNED, 1e9, 1e13), 15000, 9, 0, &c), ROTID_OK);
+        assert_int_equal(running_case_run(&c, &fit, 15000, 9, DRAWS), ROTID_OK);
+        const struct critical_speed *w = forward(&c);
+        double t = dof ? 3.182 : 1.960; /* 97.5 % of Student's t with 3 degrees of freedom, of the normal distribution */
+        assert_close(log(w->ci95[1] / w->ci95[0]), 2 * t * 0.02, dof ? 0.2 : 0.1, 0);
+        assert_string_equal(w->variance_shares[0].source, "identified");
+        running_case_close(&c);
+    }
+}
+
+static void draws_end_at_the_bounds_of_the_unknown(void **state)
+{
+    (void)state;
+    struct running_case c;
+    double x = 2e11, std = 0.7 * x, covariance = std * std;
+    rotid_fit_result fit = fit_of(&x, &std, &covariance, 0);
+    assert_int_equal(running_case_open(pool_format(&test_pool, PINNED, 1.9e11, 2.2e11), 15000, 9, 0, &c), ROTID_OK);
+    assert_int_equal(running_case_run(&c, &fit, 15000, 9, 400), ROTID_OK);
+    const struct critical_speed *w = forward(&c);
+    assert_true(w->ci95[0] > w->speed_rpm * sqrt(0.95) && w->ci95[1] < w->speed_rpm * sqrt(1.1));
+    assert_true(w->ci95[1] > w->speed_rpm * sqrt(1.08)); /* nearly even between them */
+    running_case_close(&c);
+}
+
+static void threads_do_not_change_the_draws(void **state)
+{
+    (void)state;
+    struct running_case c;
+    struct message_list notes;
+    struct speeds speeds;
+    struct speeds_options options = {.to = 4000 * RPM, .count = 9, .harmonic = 1, .draws = 100, .seed = 7, .threads = 3};
+    assert_int_equal(
+        running_case_open(RIGID "*BEARING, STD=0.1\nstart, 1e6, 10\n*BEARING, STD=0.2\nend, 1e6, 10\n", 4000, 9, 0, &c),
+        ROTID_OK);
+    double first[2] = {0};
+    for (int pass = 0; pass < 2; pass++, options.threads = 1) {
+        message_open(&notes, &test_pool);
+        assert_int_equal(speeds_run(&test_pool, c.machine, c.job, c.x, NULL, &options, NULL, &notes, &speeds), ROTID_OK);
+        c.speeds = speeds;
+        if (pass)
+            assert_memory_equal(first, forward(&c)->ci95, sizeof first);
+        memcpy(first, forward(&c)->ci95, sizeof first);
+    }
+    running_case_close(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(one_draw_for_both_bearings_is_log_normal, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(draws_of_their_own_share_the_variance, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_modulus_has_the_distribution_of_its_fit, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(draws_end_at_the_bounds_of_the_unknown, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(threads_do_not_change_the_draws, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
