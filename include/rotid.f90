@@ -604,6 +604,30 @@ module rotid
     real(c_double) :: ci95(2) = 0
   end type rotid_spread
 
+  type, bind(C) :: rotid_explanation
+    integer(c_int) :: ncauses = 0
+    type(c_ptr) :: causes = c_null_ptr ! rotid_cause
+    integer(c_int) :: something_else = 0
+    real(c_double) :: probability = 0
+    integer(c_int) :: nidentified = 0
+    type(c_ptr) :: identified = c_null_ptr ! rotid_cause_value
+  end type rotid_explanation
+
+  type, bind(C) :: rotid_marginal
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: target = c_null_ptr ! text
+    type(c_ptr) :: state = c_null_ptr ! text
+    real(c_double) :: probability = 0
+  end type rotid_marginal
+
+  type, bind(C) :: rotid_averaged_parameter
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: value = 0
+    real(c_double) :: std = 0
+    real(c_double) :: ci95(2) = 0
+  end type rotid_averaged_parameter
+
   type, bind(C) :: rotid_verdict
     integer(c_int) :: kind = 0
     integer(c_int) :: adequate_after = 0
@@ -622,6 +646,13 @@ module rotid
     integer(c_int) :: confident = 0
     integer(c_int) :: nspread = 0
     type(c_ptr) :: spread = c_null_ptr ! rotid_spread
+    integer(c_int) :: nexplanations = 0
+    type(c_ptr) :: explanations = c_null_ptr ! rotid_explanation
+    integer(c_int) :: nmarginals = 0
+    type(c_ptr) :: marginals = c_null_ptr ! rotid_marginal
+    real(c_double) :: nothing = 0
+    real(c_double) :: nothing_prior = 0
+    real(c_double) :: something_else = 0
   end type rotid_verdict
 
   type, bind(C) :: rotid_data_finding
@@ -780,6 +811,8 @@ module rotid
     type(c_ptr) :: after = c_null_ptr ! text
     integer(c_int) :: nhidden = 0
     type(c_ptr) :: hidden = c_null_ptr ! rotid_hidden
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_averaged_parameter
   end type rotid_diagnosis
 
   type, bind(C) :: rotid_expected_modes

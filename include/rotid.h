@@ -1078,7 +1078,7 @@ typedef struct rotid_diagnose_options {
     int replicates;             /* [1000] of the bootstrap, at most 1e6 */
     long seed;                  /* [1] >= 0, of the random numbers */
     const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
-    int posterior;              /* [0] decided by the probabilities of explanations, which are listed, and not by margins */
+    long posterior; /* [0] 1: decided by the probabilities of explanations, which are listed, and not by margins */
 } rotid_diagnose_options;
 
 /* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers
