@@ -919,12 +919,13 @@ module rotid
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 40
+    integer(c_size_t) :: size = 48
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
     type(c_ptr) :: before = c_null_ptr ! text
     type(c_ptr) :: after = c_null_ptr ! text
+    integer(c_long) :: posterior = 0
   end type rotid_diagnose_options
 
   type, bind(C) :: rotid_suggest_options
