@@ -14,6 +14,8 @@
  *   6 doubts     pairing.c; faults.c with sensor_check.c and sensor_field.c: channels; noise_check.c: level of the noise
  *   7 decision   evidence.c, leave_out.c: modes and sensors left out; decide.c (decide): score S = chi2 + 3 n, margins
  *   8 verdict    verdict.c (accept_cause, reach_verdict); discrepancy.c: noise that an approximate cause leaves
+ *     posterior  in place of 7 and 8 where options ask for it: laplace.c (evidence_of_fit): ln Z of a fit; posterior.c
+ *                (posterior_run, posterior_verdict): beam search over sets of causes, probabilities, averaged moduli
  *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
  *
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the

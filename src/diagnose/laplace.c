@@ -4,12 +4,13 @@
  *              their prior (struct cause_parameter). About the fitted point, r the whitened residual, J = dr/du,
  *                  E(d) = |r + J d|^2/2 + sum P (d - m)^2/2,   N = J'J + P,   least E at d = -N^-1 (J'r - P m)
  *   Laplace    ln Z = -E - ln det N/2 + d ln 2 pi/2 + ln of the prior's factors + ln of the share of each marginal normal that
- * lies between the bounds (the prior's edge, so that a size pressed against one needs no rule) noise      factors e^a on the
- * frequencies and e^b on the shapes, a, b normal about 0: N and E at 5 x 5 points about their modes (Gauss-Hermite); every row
- * costs -a or -b else       a smooth random field in the shape of each mode and a free error of each frequency: covariance I +
- * A^2 C, C of squared exponentials over the sensors, diagonalised once a mode; A log-uniform from 2 to 1000 times the noise,
- * apart for frequencies and shapes; unknowns and scales of the shapes estimated in that metric columns    of the scan: one size,
- * linear: the same integral in closed form, averaged over places and widths */
+ *              lies between the bounds, which are the prior's edge: a size pressed against one needs no rule
+ *   noise      factors e^a on the frequencies and e^b on the shapes, a, b normal about 0: N and E at 5 x 5 points about their
+ *              modes (Gauss-Hermite); every row costs a or b
+ *   else       a smooth random field in the shape of each mode and a free error of each frequency: covariance I + A^2 C, C of
+ *              squared exponentials over the sensors, diagonalised once a mode; A log-uniform, apart for frequencies and shapes;
+ *              unknowns and scales of the shapes are estimated in that metric
+ *   columns    of the scan: one size, linear: the same integral in closed form at each place and width */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +22,7 @@
 #define NOISE_ASSUMED 1.5  /* or assumed */
 #define ELSE_LEAST    2.0  /* times the noise */
 #define ELSE_MOST     1000.0
-#define ELSE_SHAPES   16 /* amplitudes tried */
+#define ELSE_SHAPES   16   /* amplitudes tried */
 #define ELSE_LINES    8
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
 #define LN_2PI        1.8378770664093453

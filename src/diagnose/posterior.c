@@ -1,11 +1,12 @@
 /* One posterior over explanations: sets of causes of the catalogue, each perhaps with something else beside it.
  *
  *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a
- * kind, then over all states (1/2) and each alone; something else a factor 0.05 search   a beam: the most probable sets that were
- * not expanded yet are scanned for one more cause, each addition scored by the evidence of its columns; the most promising are
- * fitted and scored by laplace.c; until none is left within WITHIN of the best. What was not fitted enters by its columns.
- *   verdict  NAMED: marginals of 0.95 and more, placed in one interval; UNEXPLAINED: something else above one half; ADEQUATE:
- * nothing leads, no cause above 0.2, the odds of the rest less than three times those before; else AMBIGUOUS */
+ *            kind, then over all states (1/2) and each alone; something else: a factor 0.05
+ *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is
+ *            scored by the evidence of its columns, the most promising are fitted and scored by laplace.c, until none is left
+ *            within WITHIN of the best; what was not fitted enters by its columns
+ *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of NAMED and more, placed in one interval; ADEQUATE:
+ *            nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -402,6 +403,20 @@ static int enter_round(struct engine *engine, const struct round_result *result,
     return status;
 }
 
+/* A set that several parents lead to stays once, from where it promises most. Returns how many there are. */
+static int keep_first(struct proposal *proposal, int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        int known = 0;
+        for (int k = 0; k < kept && !known; k++)
+            known = same_set(&proposal[k].set, &proposal[i].set);
+        if (!known)
+            proposal[kept++] = proposal[i];
+    }
+    return kept;
+}
+
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
 {
     struct pool *pool = engine->pool;
@@ -425,10 +440,10 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     if (status || !count)
         return status;
     qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
+    count = keep_first(proposal, count);
     double best = best_stated(p);
-    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN) {
+    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN)
         fits++;
-    }
     status = fit_proposals(engine, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
         struct explanation *e = &proposal[i].set;
