@@ -505,7 +505,9 @@ static int find_marginals(struct engine *engine, struct posterior *p)
         p->something_else += e->something_else ? e->probability : 0;
         p->nothing += !e->nmember && !e->something_else ? e->probability : 0;
         for (int m = 0; m < e->nmember && e->probability > LEAST_SHARE; m++) {
-            int known = m && same_cause(&e->member[m], &e->member[m - 1]); /* twice in one set */
+            int known = 0;
+            for (int k = 0; k < m; k++) /* twice in one set */
+                known |= same_cause(&e->member[m], &e->member[k]);
             for (int j = 0; j < p->nmarginal && !known; j++)
                 if (same_cause(&p->marginal[j].cause, &e->member[m])) {
                     p->marginal[j].probability += e->probability;

@@ -1,0 +1,99 @@
+/* Explanations with probabilities (src/diagnose/posterior.c) on hidden effects (hidden.h): what is hidden leads and is named,
+ * nothing hidden stays nothing, what is not in the catalogue and leaves much is "something else"; and what holds of every list.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/base.h"
+#include "hidden.h"
+
+static const struct {
+    const char *effect[2]; /* at most */
+    unsigned seed;
+    enum hidden_outcome outcome;
+} table[] = {
+    {{NULL}, 31, HIDDEN_SILENT},
+    {{"stiffness_gradient:group=core,slope=0.15"}, 1, HIDDEN_RIGHT},
+    {{"joint:at=core.end,flexibility=4e-10"}, 1, HIDDEN_RIGHT},
+    {{"added_mass:mass=10,z=1.6", "sensor_gain:sensor=23,gain=1.4"}, 1, HIDDEN_RIGHT},
+    {{"stiffness:group=left,factor=1.08", "added_mass:mass=20,z=1.2"}, 43, HIDDEN_RIGHT},
+};
+#define COUNT ((int)(sizeof table / sizeof *table))
+
+/* What holds of every posterior: probabilities, their order, marginals, moduli between those of the explanations. */
+static void check_list(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                       const struct hidden_score *unused)
+{
+    const struct posterior *p = &d->posterior;
+    double sum = 0, nothing = 0;
+    int *checked = context;
+    (void)truth, (void)unused;
+    assert_true(p->count > 1);
+    for (int i = 0; i < p->count; i++) {
+        sum += p->item[i].probability;
+        nothing += !p->item[i].nmember && !p->item[i].something_else ? p->item[i].probability : 0;
+        if (i)
+            assert_true(p->item[i].probability <= p->item[i - 1].probability);
+    }
+    assert_close(sum, 1, 1e-12, 0);
+    assert_close(p->nothing, nothing, 1e-12, 1e-300);
+    for (int m = 0; m < p->nmarginal; m++) {
+        double own = 0;
+        for (int i = 0; i < p->count; i++) {
+            int has = 0;
+            for (int k = 0; k < p->item[i].nmember; k++)
+                has |= p->item[i].member[k].cause == p->marginal[m].cause.cause &&
+                       !strcmp(p->item[i].member[k].target, p->marginal[m].cause.target);
+            own += has ? p->item[i].probability : 0;
+        }
+        assert_true(fabs(own - p->marginal[m].probability) < 1e-4); /* less than LEAST_SHARE a set is not counted */
+    }
+    for (int q = 0; q < p->naveraged; q++) {
+        double lowest = INFINITY, highest = -INFINITY;
+        for (int i = 0; i < p->count; i++) {
+            lowest = fmin(lowest, p->item[i].evidence.mean[q]);
+            highest = fmax(highest, p->item[i].evidence.mean[q]);
+        }
+        const rotid_averaged_parameter *a = &p->averaged[q];
+        assert_true(a->value >= lowest * (1 - 1e-12) && a->value <= highest * (1 + 1e-12));
+        assert_true(a->ci95[0] < a->value && a->value < a->ci95[1]);
+    }
+    if (c->number > 0 && c->number < 3) /* one cause: nothing is left for nothing */
+        assert_true(p->nothing < 1e-6 && p->item[0].nmember == 1 && p->item[0].probability > 0.9);
+    (*checked)++;
+}
+
+static void what_is_hidden_leads(void **state)
+{
+    char directory[] = "/tmp/hidden.XXXXXX", *deck = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp");
+    int checked = 0;
+    (void)state;
+    assert_non_null(deck);
+    assert_non_null(mkdtemp(directory));
+    for (int i = 0; i < COUNT; i++) {
+        struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i, .posterior = 1};
+        struct hidden_score score;
+        c.request.deck = deck;
+        c.request.name = "input/paper_rotor.inp";
+        c.request.seed = table[i].seed;
+        c.request.effect = table[i].effect;
+        c.request.effects = (table[i].effect[0] != NULL) + (table[i].effect[1] != NULL);
+        assert_int_equal(hidden_run(&c, NULL, check_list, &checked, &score), 0);
+        print_message("%s: %s %s\n", table[i].effect[0] ? table[i].effect[0] : "nothing", hidden_outcome_name(score.outcome),
+                      score.wrong);
+        assert_int_equal(score.outcome, table[i].outcome);
+    }
+    assert_int_equal(checked, COUNT);
+    rmdir(directory);
+    free(deck);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_hidden_leads)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
