@@ -392,9 +392,10 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
-    deck_split_running(&reader, &nread);
-    if (!bad_tables && !reader.out_of_memory)
+    if (!bad_tables && !reader.out_of_memory) {
+        deck_split_running(&reader, &nread);
         deck_read_all_states(&reader, nread, states);
+    }
     if (!messages->errors && !reader.out_of_memory && states->nstate)
         deck_read_machine(&reader, states);
     if (reader.out_of_memory || messages->out_of_memory || !job.deck)
