@@ -137,7 +137,8 @@ def main():
             deck = Path(folder) / "deck.inp"
             deck.write_text(text)
             for command, code in zip(COMMANDS, codes):
-                out = run(checks, f"{command}, {name}", schemas[command], command, deck, options if command == "identify" else (), (code,))
+                out = run(checks, f"{command}, {name}", schemas[command], command, deck, options if command == "identify" else (),
+                          (code, 1) if command == "identify" else (code,))
                 reasons |= {out["stop_reason"]} if out and command == "identify" else set()
         checks.true("stop_reason is the text of a status", reasons and reasons <= stops, reasons - stops)
         written = Path(folder) / "result.json"
