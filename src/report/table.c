@@ -270,20 +270,23 @@ void table_write_text(FILE *out, const struct table *table, int width)
 
 static void html_row(FILE *out, const struct table *table, int row)
 {
-    int first = 1;
+    int first = 1, shown = 0;
     (void)fputs("<tr>", out);
     for (int j = 0; j < table->ncolumns; j++) {
         if (!table_column_is_shown(table, j))
             continue;
-        const char *element = row < 0 ? "th scope=\"col\"" : first ? "th scope=\"row\"" : "td";
+        const char *element = row < 0 && *table->column[j].name ? "th scope=\"col\""
+                              : row >= 0 && first               ? "th scope=\"row\""
+                                                                : "td";
         first = 0;
+        shown++;
         (void)fprintf(out, "<%s%s>", element, (table->column[j].show & SHOW_FORMAT) != SHOW_TEXT ? " class=\"n\"" : "");
         html_text(out, shown_text(table, row, j));
         (void)fprintf(out, "</%.2s>", element);
     }
     (void)fputs("</tr>\n", out);
     if (row >= 0 && cell_at(table, row, 0)->note) {
-        (void)fprintf(out, "<tr class=\"under\"><td colspan=\"%d\">", table->ncolumns);
+        (void)fprintf(out, "<tr class=\"under\"><td colspan=\"%d\">", shown);
         html_text(out, cell_at(table, row, 0)->note);
         (void)fputs("</td></tr>\n", out);
     }
