@@ -275,13 +275,14 @@ static void html_row(FILE *out, const struct table *table, int row)
     for (int j = 0; j < table->ncolumns; j++) {
         if (!table_column_is_shown(table, j))
             continue;
-        const char *element = row < 0 && *table->column[j].name ? "th scope=\"col\""
-                              : row >= 0 && first               ? "th scope=\"row\""
-                                                                : "td";
-        first = 0;
+        const char *text = shown_text(table, row, j), *element = !*text    ? "td"
+                                                                 : row < 0 ? "th scope=\"col\""
+                                                                 : first   ? "th scope=\"row\""
+                                                                           : "td";
+        first &= !*text; /* the first cell that says something is the head of its row */
         shown++;
         (void)fprintf(out, "<%s%s>", element, (table->column[j].show & SHOW_FORMAT) != SHOW_TEXT ? " class=\"n\"" : "");
-        html_text(out, shown_text(table, row, j));
+        html_text(out, text);
         (void)fprintf(out, "</%.2s>", element);
     }
     (void)fputs("</tr>\n", out);
