@@ -22,7 +22,7 @@
 #define NOISE_ASSUMED 1.5  /* or assumed */
 #define ELSE_LEAST    2.0  /* times the noise */
 #define ELSE_MOST     1000.0
-#define ELSE_SHAPES   16   /* amplitudes tried */
+#define ELSE_SHAPES   16 /* amplitudes tried */
 #define ELSE_LINES    8
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
 #define LN_2PI        1.8378770664093453
@@ -418,6 +418,14 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
     }
     double step_shape = d->nblock ? log(ELSE_MOST / ELSE_LEAST) / (ELSE_SHAPES - 1) : 0,
            step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
+    double known_lines = 0; /* half ln det of what is known of the frequencies */
+    for (int i = 0; i < nrow; i++)
+        if (d->is_line[i]) {
+            double more = known ? known[0] / d->noise[i] : 0, square = 1 / (1 + more * more);
+            gather(1, total, turned + i, nrow, &square, w.line, w.line_b, &w.line_square);
+            known_lines -= log(square) / 2;
+        }
+    mirror(total, w.line);
     for (int a = 0; a < shapes; a++) {
         double amplitude = ELSE_LEAST * exp(a * step_shape), determinant = 0;
         memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
@@ -435,18 +443,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
                    &w.shape_square);
         mirror(total, w.shape);
         for (int b = 0; b < lines; b++) {
-            double line = ELSE_LEAST * exp(b * step_line), lost = determinant;
-            memset(w.line, 0, (size_t)total * (size_t)total * sizeof *w.line);
-            memset(w.line_b, 0, (size_t)total * sizeof *w.line_b);
-            w.line_square = 0;
-            for (int i = 0; i < nrow; i++)
-                if (d->is_line[i]) {
-                    double more = known ? known[0] / d->noise[i] : line, square = 1 / (1 + more * more);
-                    gather(1, total, turned + i, nrow, &square, w.line, w.line_b, &w.line_square);
-                    lost -= log(square) / 2;
-                }
-            mirror(total, w.line);
-            double one = integrate(&w, 1, 1) - lost;
+            double line = ELSE_LEAST * exp(b * step_line), square = known ? 1 : 1 / (1 + line * line),
+                   one = integrate(&w, square, 1) - determinant - (known ? known_lines : -d->nline * log(square) / 2);
             z = log_sum(z, one);
             for (int p = 0; p < nown && one > most; p++) {
                 out->mean[p] = w.step[p];

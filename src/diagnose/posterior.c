@@ -132,13 +132,12 @@ static int score(struct engine *engine, struct posterior *p, int something_else,
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
     }
-    for (int m = 0; m < e->nmember && e->refit && isfinite(e->refit->other_chi2); m++) /* another place */
-        if (e->member[m].cause->place >= 0 && m == e->nmember - 1) {
-            double more = log1p(exp(-fmax(0, e->refit->other_chi2 - e->refit->chi2) / 2));
-            e->evidence.log_z += more;
-            e->evidence.log_stated += more;
-            e->evidence.log_exact += more;
-        }
+    if (e->nmember && e->member[e->nmember - 1].cause->place >= 0 && e->refit && isfinite(e->refit->other_chi2)) {
+        double more = log_sum(0, -fmax(0, e->refit->other_chi2 - e->refit->chi2) / 2); /* another place */
+        e->evidence.log_z += more;
+        e->evidence.log_stated += more;
+        e->evidence.log_exact += more;
+    }
     e->log_prior = prior_of(p, e);
     e->log_posterior = e->evidence.log_z + e->log_prior;
     return status;
