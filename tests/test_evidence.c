@@ -59,7 +59,8 @@ static double evidence(const char *id, const double *value, double *log_else, do
     struct evidence e = {.mean = mean, .std = std};
     fit_with(id, value, &states, &state, &fit);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
-    assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, log_else != NULL, &e), ROTID_OK);
+    assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, log_else ? &(struct scan){0} : NULL, &e),
+                  ROTID_OK);
     if (log_else)
         *log_else = e.log_else;
     memcpy(x, fit->x, (size_t)fit->n * sizeof *x);

@@ -96,6 +96,7 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     int nmember, something_else, expanded;
     struct candidate member[MOST_MEMBERS];
     const struct refit *refit; /* its fit; NULL: none, but the line of the scan */
+    const struct scan *scan;   /* at that fit; NULL: not scanned */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
 };
@@ -1012,7 +1013,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 /* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise.
  * out->mean and out->std [nown] are filled. ROTID_OK, ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where the fit is of other data. */
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
-                    int nmember, const struct candidate *member, int something_else, struct evidence *out);
+                    int nmember, const struct candidate *member, const struct scan *else_scan, struct evidence *out);
 /* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
 double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
 

@@ -24,6 +24,11 @@
 #define ELSE_MOST     1000.0
 #define ELSE_SHAPES   16 /* amplitudes tried */
 #define ELSE_LINES    8
+#define PROFILE_TERMS 12   /* cosines of a field of stiffness or mass along the rotor */
+#define PROFILE_SIZES 5    /* amplitudes tried, */
+#define PROFILE_LEAST 0.02 /* of the relative change */
+#define PROFILE_MOST  0.6
+#define PROFILE_SCALE 0.08 /* correlation length, of the rotor's */
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
 #define LN_2PI        1.8378770664093453
 #define LN_2          0.69314718055994531
@@ -379,10 +384,11 @@ static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal
  * frequency and to the largest component; NULL: the grid of something else, whose likeliest amplitudes give the step and the
  * deviation of the first nown unknowns in out->mean and out->std. */
 static int with_field(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
-                      const double *known, int nown, struct evidence *out, double *log_z)
+                      const double *known, int nprofile, int nown, struct evidence *out, double *most, double *log_z)
 {
-    double most = -INFINITY;
-    int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES;
+    int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES, sizes = nprofile ? PROFILE_SIZES : 1;
+    int none = nprofile && !known; /* fields of amplitude 0 too, and every second one of the others */
+    double fields = ((lines + 1) / 2 + 1) * (d->nblock ? (shapes + 1) / 2 + 1 : 1) - 1;
     int total = n + d->nblock, nrow = d->nrow;
     struct normal w;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, total);
@@ -426,8 +432,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             known_lines -= log(square) / 2;
         }
     mirror(total, w.line);
-    for (int a = 0; a < shapes; a++) {
-        double amplitude = ELSE_LEAST * exp(a * step_shape), determinant = 0;
+    for (int a = none && d->nblock ? -1 : 0; a < shapes; a += none ? 2 : 1) {
+        double amplitude = a < 0 ? 0 : ELSE_LEAST * exp(a * step_shape), determinant = 0;
         memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
         memset(w.shape_b, 0, (size_t)total * sizeof *w.shape_b);
         w.shape_square = 0;
@@ -442,23 +448,103 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b,
                    &w.shape_square);
         mirror(total, w.shape);
-        for (int b = 0; b < lines; b++) {
-            double line = ELSE_LEAST * exp(b * step_line), square = known ? 1 : 1 / (1 + line * line),
-                   one = integrate(&w, square, 1) - determinant - (known ? known_lines : -d->nline * log(square) / 2);
-            z = log_sum(z, one);
-            for (int p = 0; p < nown && one > most; p++) {
-                out->mean[p] = w.step[p];
-                out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * total]);
+        for (int c = 0; c < sizes; c++) {
+            double size = PROFILE_LEAST * pow(PROFILE_MOST / PROFILE_LEAST, (double)c / (PROFILE_SIZES - 1));
+            for (int p = n - nprofile; p < n; p++) {
+                all[p].precision = 1 / (size * size);
+                all[p].density = -log(size) - LN_2PI / 2;
             }
-            most = fmax(most, one);
+            for (int b = none ? -1 : 0; b < lines; b += none ? 2 : 1) {
+                double line = b < 0 ? 0 : ELSE_LEAST * exp(b * step_line), square = known ? 1 : 1 / (1 + line * line),
+                       one = integrate(&w, square, 1) - determinant - (known ? known_lines : -d->nline * log(square) / 2);
+                if (none) /* one half without */
+                    one -= (a < 0 || !d->nblock) && b < 0 ? 0 : log(fields);
+                z = log_sum(z, one);
+                for (int p = 0; p < nown && one > *most; p++) {
+                    out->mean[p] = w.step[p];
+                    out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * total]);
+                }
+                *most = fmax(*most, one);
+            }
         }
     }
-    *log_z = z - log((double)lines * shapes);
+    *log_z = z - (none ? log(2.0 * sizes) : log((double)lines * shapes));
     return ROTID_OK;
 }
 
+/* A random field of relative stiffness or mass along the rotor: cosines with the spectrum of a squared exponential, by the
+ * columns of the narrowest zones or of the masses of a scan. column [nrow * PROFILE_TERMS]: of unit amplitude; 0 where the scan
+ * has none. */
+static int add_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column)
+{
+    const struct scan_candidate *c = NULL;
+    for (int i = 0; i < scan->ncandidate && !c; i++)
+        if (scan->candidate[i].cause == cause && scan->candidate[i].state < 0 && !scan->candidate[i].suspect &&
+            !scan->candidate[i].effect.variant && scan->candidate[i].count > 2)
+            c = &scan->candidate[i];
+    if (!c)
+        return 0;
+    const struct rotor *rotor = &states->state[c->home].job.rotor;
+    double length = rotor_length(rotor), sum = 0, share[PROFILE_TERMS];
+    int step = 1;
+    while (step < c->count &&
+           scan->item[c->first + step].effect.value[cause->place] <= scan->item[c->first].effect.value[cause->place])
+        step++;
+    for (int k = 0; k < PROFILE_TERMS; k++)
+        sum += share[k] = exp(-pow(k * PI * PROFILE_SCALE, 2) / 2);
+    memset(column, 0, (size_t)scan->nrow * PROFILE_TERMS * sizeof *column);
+    for (int i = 0; i < c->count; i += step) {
+        const struct scan_item *item = &scan->item[c->first + i];
+        double z = item->effect.value[cause->place], before = i >= step ? item[-step].effect.value[cause->place] : z,
+               after = i + step < c->count ? item[step].effect.value[cause->place] : z, span = (after - before) / 2;
+        double amount =
+            cause->width >= 0 ? span / (item->effect.value[cause->width] * sqrt(2 * PI)) : span / length * rotor_mass(rotor);
+        if (!item->usable)
+            continue;
+        const double *one = scan->column + (ptrdiff_t)(c->first + i) * scan->nrow;
+        for (int k = 0; k < PROFILE_TERMS; k++) {
+            double factor = amount * item->norm / item->unit * sqrt(2 * share[k] / sum) * cos(k * PI * z / length);
+            for (int j = 0; j < scan->nrow; j++)
+                column[j + (ptrdiff_t)k * scan->nrow] += factor * one[j];
+        }
+    }
+    return PROFILE_TERMS;
+}
+
+/* ln Z with something else: fields over the sensors alone, or small ones and fields of stiffness, of mass or of both along the
+ * rotor. */
+static int something_else(const struct evidence_data *d, struct pool *pool, const struct states *states, const struct scan *scan,
+                          int n, const struct unknown *u, const double *rows, int nown, struct evidence *out)
+{
+    int nrow = d->nrow, most_columns = n + 2 * PROFILE_TERMS, tried = 1;
+    double most = -INFINITY, sum;
+    struct unknown *all = POOL_ARRAY(pool, struct unknown, most_columns);
+    double *more = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(most_columns + 1));
+    int status = all && more ? with_field(d, pool, n, u, rows, NULL, 0, nown, out, &most, &sum) : ROTID_ERROR_MEMORY;
+    memcpy(all, u, (size_t)n * sizeof *u);
+    memcpy(more, rows, (size_t)nrow * (size_t)n * sizeof *rows);
+    for (int p = n; p < most_columns; p++)
+        all[p] = (struct unknown){.step = 1, .lower = -1e9, .upper = 1e9};
+    for (int kinds = 1; kinds < 4 && !status && scan->nrow == nrow; kinds++) {
+        int count = 0;
+        for (int k = 0; k < 2; k++)
+            if (kinds & 1 << k)
+                count += add_profile(scan, states, catalogue_find(k ? "added_mass" : "stiffness_local"),
+                                     more + (ptrdiff_t)(n + count) * nrow);
+        double one;
+        if (!count)
+            continue;
+        memcpy(more + (ptrdiff_t)(n + count) * nrow, rows + (ptrdiff_t)n * nrow, (size_t)nrow * sizeof *rows);
+        status = with_field(d, pool, n + count, all, more, NULL, count, nown, out, &most, &one);
+        sum = log_sum(sum, one);
+        tried++;
+    }
+    out->log_else = sum - log(tried);
+    return status;
+}
+
 int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit,
-                    int nmember, const struct candidate *member, int something_else, struct evidence *out)
+                    int nmember, const struct candidate *member, const struct scan *else_scan, struct evidence *out)
 {
     struct pool pool;
     struct normal w;
@@ -474,7 +560,7 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         for (int i = 0; i < nrow; i++)
             rows[i + (ptrdiff_t)p * nrow] = u[p].step * fit->jacobian[i + (ptrdiff_t)p * nrow];
     }
-    double known[2] = {0, 0}, field;
+    double known[2] = {0, 0}, field, most = INFINITY;
     for (int m = 0; m < nmember; m++) {
         known[0] = hypot(known[0], member[m].cause->discrepancy_frequency);
         known[1] = hypot(known[1], member[m].cause->discrepancy_shape);
@@ -496,13 +582,13 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         }
     }
     if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */
-        status = with_field(d, &pool, n, u, rows, known, 0, out, &field);
+        status = with_field(d, &pool, n, u, rows, known, 0, 0, out, &most, &field);
         out->log_z = log_sum(out->log_z, field) - LN_2;
         out->log_stated = log_sum(out->log_stated, field) - LN_2;
     }
     out->log_else = -INFINITY;
-    if (!status && something_else)
-        status = with_field(d, &pool, n, u, rows, NULL, nown, out, &out->log_else);
+    if (!status && else_scan)
+        status = something_else(d, &pool, states, else_scan, n, u, rows, nown, out);
     for (int p = 0; p < nown && !status; p++) {
         double x = fit->x[p] + u[p].step * out->mean[p];
         out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);

@@ -15,12 +15,11 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
-#define DATA_KINDS     8    /* of faults of the measurement */
-#define BEAM           4    /* sets expanded in a pass */
-#define FITTED         8    /* fits of a pass, the first twice as many */
-#define WITHIN         7.0  /* of the best, in ln P */
-#define ELSE_WITHIN    60.0 /* likewise: with something else beside them */
-#define ELSE_MOST      5
+#define DATA_KINDS     8   /* of faults of the measurement */
+#define BEAM           4   /* sets expanded in a pass */
+#define FITTED         8   /* fits of a pass, the first twice as many */
+#define WITHIN         7.0 /* of the best, in ln P */
+#define ELSE_MOST      3   /* sets of a size */
 #define ELSE_PRIOR     0.05
 #define LINEAR         10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
 #define ROOM           4096
@@ -122,12 +121,12 @@ static const struct states *states_of_explanation(const struct engine *engine, c
     return e->refit ? &e->refit->states : &engine->states;
 }
 
-static int score(struct engine *engine, struct posterior *p, int something_else, struct explanation *e)
+static int score(struct engine *engine, struct posterior *p, const struct scan *else_scan, struct explanation *e)
 {
     int status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
     if (!status)
         status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember,
-                                 e->member, something_else, &e->evidence);
+                                 e->member, else_scan, &e->evidence);
     if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
@@ -242,6 +241,7 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
             continue;
         one.set.member[one.set.nmember++] = candidate_listed(scan, i);
         one.set.refit = NULL;
+        one.set.scan = NULL;
         one.set.expanded = 0;
         one.gain = gain_of(states, scan, i, &best);
         one.set.log_prior = prior_of(p, &one.set);
@@ -323,7 +323,7 @@ static int fit_proposals(struct engine *engine, struct posterior *p, struct prop
         e.evidence = (struct evidence){0};
         for (int m = 0; m < e.nmember; m++)
             take_values(engine, &refit[i], &e.member[m]);
-        status = score(engine, p, 0, &e);
+        status = score(engine, p, NULL, &e);
         if (!status)
             prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
                            &p->item[proposal[i].parent], &e);
@@ -374,7 +374,7 @@ static int enter_round(struct engine *engine, const struct round_result *result,
 {
     const struct scan *scan = &result->scan;
     struct explanation e = {0};
-    int status = score(engine, p, 0, &e);
+    int status = score(engine, p, NULL, &e);
     if (!status)
         append(p, &e);
     for (int i = 0; i < result->nrefit && !status; i++) {
@@ -393,7 +393,7 @@ static int enter_round(struct engine *engine, const struct round_result *result,
         }
         if (is_unweighed_accelerometer(&engine->states.state[e.member[0].home].job, &e.member[0].effect) && set->count == 1)
             continue;
-        status = score(engine, p, 0, &e);
+        status = score(engine, p, NULL, &e);
         if (!status && set->count == 1)
             prefer_columns(&engine->states, scan, set->candidate[0], &p->item[0], &e);
         if (!status && !find(p, &e))
@@ -428,6 +428,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         struct explanation *from = &p->item[parent];
         struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;
         from->expanded = 1;
+        from->scan = scan;
         taken++;
         if (!scan)
             return ROTID_ERROR_MEMORY;
@@ -465,15 +466,22 @@ static int by_posterior(const void *a, const void *b)
 /* Something else beside the likeliest sets. */
 static int add_something_else(struct engine *engine, struct posterior *p)
 {
-    int listed = p->count, status = ROTID_OK, tried = 0;
+    int listed = p->count, status = ROTID_OK, tried[MOST_MEMBERS + 1] = {0};
     for (int i = 0; i < listed && !status; i++) {
         struct explanation e = p->item[i];
-        if ((!e.refit && e.nmember) ||
-            (e.nmember && (tried >= ELSE_MOST || e.log_posterior < p->item[0].log_posterior - ELSE_WITHIN)))
+        if ((!e.refit && e.nmember) || (e.nmember && (tried[e.nmember] >= ELSE_MOST)))
             continue;
-        tried++;
+        tried[e.nmember]++;
         e.evidence = (struct evidence){0};
-        status = score(engine, p, 1, &e);
+        if (!e.scan) {
+            struct scan *scan = POOL_NEW(engine->pool, struct scan);
+            status = scan ? scan_run(engine->pool, states_of_explanation(engine, &e), engine->number, engine->holdout,
+                                     fit_of(engine, &e)->x, scan)
+                          : ROTID_ERROR_MEMORY;
+            e.scan = scan;
+        }
+        if (!status)
+            status = score(engine, p, e.scan, &e);
         e.something_else = 1;
         e.log_prior = prior_of(p, &e);
         e.log_posterior = e.evidence.log_else + e.log_prior;
