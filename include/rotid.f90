@@ -925,7 +925,6 @@ module rotid
     integer(c_long) :: seed = 0
     type(c_ptr) :: before = c_null_ptr ! text
     type(c_ptr) :: after = c_null_ptr ! text
-    integer(c_long) :: posterior = 0
   end type rotid_diagnose_options
 
   type, bind(C) :: rotid_suggest_options

@@ -686,9 +686,6 @@ typedef struct rotid_cause {
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
     const char *state; /* the one state in which it acts; NULL: in all that have its target, or the deck has no *STATE */
-    int nidentified;
-    rotid_cause_value *identified; /* the parameters of *IDENTIFY where it is in the model, alone or with the second cause of its
-                                      pair; none where it was not fitted, or was named */
 } rotid_cause;
 
 /* How far a parameter of *IDENTIFY lies apart between the causes that cannot be told apart. */
@@ -784,10 +781,9 @@ typedef struct rotid_numerical_finding {
     const char *state;     /* name of the state, as in rotid_data_finding */
 } rotid_numerical_finding;
 
-/* One cause is named a round; the last round names nothing more. */
+/* The model of the deck before any cause. */
 typedef struct rotid_round {
     int round;              /* from 1 */
-    int kind;               /* verdict of the round: ROTID_ADEQUATE ... ROTID_UNEXPLAINED */
     double chi2;            /* of the model before the round [1] */
     double chi2_frequency;  /* the part of the frequencies [1] */
     int dof;                /* degrees of freedom */
@@ -797,8 +793,6 @@ typedef struct rotid_round {
     double p_scan;          /* of the largest drop */
     double p_frequency;     /* of the frequencies */
     double p_total;         /* of chi2 */
-    double required_margin; /* by which a cause has to lead to be named alone [1] */
-    int set;                /* candidates of the round that stay: 1 named, more cannot be told apart */
 } rotid_round;
 
 /* A cause at one target, tried in one round. */
@@ -811,17 +805,10 @@ typedef struct rotid_candidate {
     double chi2;                  /* with the cause in the model [1] */
     double chi2_frequency;        /* the part of the frequencies [1] */
     double chi2_drop;             /* against the model of the round [1] */
-    double bic;                   /* chi2 + ln(number of residuals) times number of parameters [1] */
     double holdout_rms;           /* error of the frequencies that the deck holds out [%] */
-    double mode_out_rms;          /* error of the frequencies of modes left out in turn [%] */
     double sensor_out_rms;        /* standardised shape residual of sensors left out in turn [1] */
-    double p_value;               /* that the best of the whole family is this good by chance */
     int at_bound;                 /* a parameter is pressed against a physical bound */
-    const char *collinear_with;   /* id of the refitted candidate that looks most like it, or NULL */
-    const char *collinear_target; /* its target */
-    double cosine;                /* between the two after what is identified has been projected out [1] */
-    const char *rejected_because; /* NULL: named, or one of those that cannot be told apart, or not needed */
-    rotid_cause *with;            /* the second cause of two that are tried at once, NULL where this one is alone */
+    double probability;           /* that this cause is there, alone or with others */
 } rotid_candidate;
 
 /* Of the base and of the extended model. */
@@ -971,8 +958,8 @@ typedef struct rotid_rival {
     int ncauses;
     rotid_cause *causes; /* none of the model as it is */
     double chi2;         /* of its fit to what was measured [1] */
-    double score;        /* chi2 and the penalty of its parameters, as the decision counts them [1] */
-    double share; /* of the chances that it is the true one, exp(-score/2) over the sum of all; 0 of the model as it is [1] */
+    double score;        /* -2 ln of its probability by what is measured [1] */
+    double share;        /* of it among the rivals, exp(-score/2) over the sum of all; 0 of the model as it is [1] */
 } rotid_rival;
 
 /* What tells two rivals apart if the first of them is true. */
@@ -1078,7 +1065,6 @@ typedef struct rotid_diagnose_options {
     int replicates;             /* [1000] of the bootstrap, at most 1e6 */
     long seed;                  /* [1] >= 0, of the random numbers */
     const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
-    long posterior; /* [0] 1: decided by the probabilities of explanations, which are listed, and not by margins */
 } rotid_diagnose_options;
 
 /* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers

@@ -10,7 +10,6 @@ struct hidden_case {
     struct hide_request request; /* with the deck's text and its path as the name */
     const char *directory;       /* for the deck with its data: case_NUMBER.inp */
     int number;
-    int posterior;
     int keep; /* leaves the deck there, and the truth: case_NUMBER.json */
 };
 

@@ -75,7 +75,7 @@ static void what_is_hidden_leads(void **state)
     assert_non_null(deck);
     assert_non_null(mkdtemp(directory));
     for (int i = 0; i < COUNT; i++) {
-        struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i, .posterior = 1};
+        struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i};
         struct hidden_score score;
         c.request.deck = deck;
         c.request.name = "input/paper_rotor.inp";

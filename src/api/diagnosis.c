@@ -42,7 +42,6 @@ static int take_options(const rotid_diagnose_options *given, char *failure, stru
     *options = (struct diagnose_options){.threads = o.threads ? o.threads : 1,
                                          .seed = o.seed ? (unsigned long)o.seed : 1,
                                          .replicates = o.replicates,
-                                         .posterior = o.posterior != 0,
                                          .before = o.before,
                                          .after = o.after};
     if (options->threads > PARALLEL_MOST)

@@ -13,9 +13,7 @@ rotid_cause result_cause(struct pool *pool, const struct candidate *c)
                        .target = c->target,
                        .name = c->effect.name,
                        .variant = candidate_variant(c),
-                       .state = c->state_name,
-                       .nidentified = c->nidentified,
-                       .identified = c->identified};
+                       .state = c->state_name};
     int room = POOL_LIST(pool, out.parameters, EFFECT_MOST_PARAMETERS);
     for (int p = 0; p < room && (parameter = candidate_parameter(c, p)); p++)
         out.parameters[out.nparameters++] = (rotid_cause_value){.name = parameter->name,
@@ -38,8 +36,6 @@ static int fill_causes(struct pool *pool, int count, const struct candidate *can
 static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_verdict *out)
 {
     out->ncauses = fill_causes(pool, d->ncause, d->cause, &out->causes);
-    for (int i = 0; i < out->ncauses; i++) /* the extended model has them */
-        out->causes[i].nidentified = 0;
     out->nalternative_causes = fill_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
     for (int i = 0; i < out->nalternatives; i++)
@@ -95,12 +91,9 @@ static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diag
         const struct diagnosis_round *round = &d->round[i];
         out->rounds[i] = round->result;
         for (int k = 0; k < round->ncandidate; k++) {
-            const struct candidate *with = round->candidate[k].with;
             rotid_candidate *candidate = &out->candidates[out->ncandidates++];
             *candidate = round->candidate[k].result;
             candidate->cause = result_cause(pool, &round->candidate[k]);
-            if (with && (candidate->with = POOL_NEW(pool, rotid_cause)))
-                *candidate->with = result_cause(pool, with);
         }
     }
 }

@@ -26,7 +26,7 @@ static const struct sized_struct table[] = {
 };
 
 ENDS_WITH(rotid_environment, context);
-ENDS_WITH(rotid_diagnose_options, posterior);
+ENDS_WITH(rotid_diagnose_options, after);
 ENDS_WITH(rotid_suggest_options, seed);
 ENDS_WITH(rotid_model, modes);
 ENDS_WITH(rotid_measured, holdout);

@@ -44,7 +44,7 @@ int command_diagnose(struct command *command)
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
         command->head.seed = (double)(command->seed = 1);
     rotid_diagnose_options options = {
-        .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed, .posterior = command->posterior};
+        .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
     const char *comma = command->changed ? strchr(command->changed, ',') : NULL;
     if (comma) {
         options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);

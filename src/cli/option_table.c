@@ -59,10 +59,6 @@ const struct option_row option_table[] = {
      .help = "a deck with what was found, as cards, and with the fitted values as starts"},
     {.name = "changed", .commands = "diagnose", .kind = OPTION_TEXT, AT(changed), .value = "BEFORE,AFTER",
      .help = "what changed between two states of the deck, whatever the model lacks in both"},
-    {.name = "posterior", .commands = "diagnose", .kind = OPTION_SWITCH, AT(posterior),
-     .help = "decide by the probabilities of explanations, and average the moduli over them",
-     .more = "Sets of up to three causes, each perhaps with something else beside it; shares of probability in place of "
-             "margins. Slower by a factor of two to three."},
     {.name = "extended", .commands = "suggest", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
      .help = "the deck with the first of the tests as a *STATE more, ready for its measurements"},
     {.name = "interval", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.interval), FROM(1e-3, 100), .standard = 2,

@@ -50,7 +50,7 @@ static int take_one(struct engine *engine, int *done)
     struct diagnosis_round round;
     struct round_result result = {0};
     int status = round_fit(engine, &round, &result);
-    struct refit *best = status || round.result.kind == ROTID_ADEQUATE ? NULL : best_of(engine, &result);
+    struct refit *best = status || result.adequate ? NULL : best_of(engine, &result);
     *done = !best;
     if (best) {
         if (engine->fit != engine->out->base.fit)
@@ -460,8 +460,11 @@ static int settle(struct engine *engine)
     int status = engine_take_states(&own, &only);
     if (!status)
         status = base_prepare(&own);
+    struct diagnosis_round round;
+    struct round_result result = {0};
     if (!status)
-        status = round_settle(&own);
+        status = round_run(&own, 1, &round, &result, &alone.posterior);
+    round_free(&result);
     if (own.fit != alone.base.fit)
         rotid_fit_free(own.fit);
     rotid_fit_free(alone.base.fit);
@@ -491,54 +494,21 @@ static int settle_states(struct engine *engine)
 
 #define REPLICATES 1000
 
-/* The first round, and what the posterior makes of it. */
-static int run_posterior(struct engine *engine, struct round_result *last)
+/* The search, and what it says. */
+static int search(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
-    out->round = POOL_ARRAY(engine->pool, struct diagnosis_round, DIAGNOSE_MOST_CAUSES + 1);
-    if (!out->round)
-        return ROTID_ERROR_MEMORY;
-    int status = round_run(engine, &out->round[0], last);
+    struct diagnosis_round *round = out->round = POOL_NEW(engine->pool, struct diagnosis_round);
+    int status = round ? round_run(engine, engine->states.nstate == 1, round, last, &out->posterior) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
-    out->round[0].result.round = ++out->nround;
-    for (int i = 0; i < out->round->ncandidate; i++)
-        out->round->candidate[i].result.round = 1;
-    status = localise(engine, &last->scan);
+    out->nround = 1;
+    status = evidence_collect(engine, last, &out->posterior, round);
+    engine_step(engine, "held out");
     if (!status)
-        status = posterior_run(engine, last, &out->posterior);
-    engine_step(engine, "posterior");
-    if (status)
-        return status;
-    const struct diagnosis_round *first = &out->round[0];
-    out->result.verdict.p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
-    return posterior_verdict(engine, &out->posterior);
-}
-
-static int run_rounds(struct engine *engine, struct round_result *last)
-{
-    struct diagnosis *out = engine->out;
-    out->round = POOL_ARRAY(engine->pool, struct diagnosis_round, DIAGNOSE_MOST_CAUSES + 1);
-    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
-    if (!out->round || !out->cause)
-        return ROTID_ERROR_MEMORY;
-    for (;;) {
-        struct diagnosis_round *round = &out->round[out->nround];
-        round_free(last);
-        int status = round_run(engine, round, last);
-        if (status)
-            return status;
-        round->result.round = ++out->nround;
-        for (int i = 0; i < round->ncandidate; i++)
-            round->candidate[i].result.round = out->nround;
-        if (out->nround == 1)
-            status = localise(engine, &last->scan);
-        if (status || round->result.kind != ROTID_NAMED || out->ncause >= DIAGNOSE_MOST_CAUSES)
-            return status;
-        status = accept_cause(engine, round, last);
-        if (status)
-            return status;
-    }
+        status = localise(engine, &last->scan);
+    out->result.verdict.p_value = fmin(round->result.p_scan, fmin(round->result.p_frequency, round->result.p_total));
+    return status ? status : posterior_verdict(engine, &out->posterior);
 }
 
 /* What the user does today; should that fail, there is still the judged model. */
@@ -570,12 +540,8 @@ static int run(struct engine *engine, const struct states *states, struct round_
     if (!status)
         status = base_residuals(engine);
     engine_step(engine, "base");
-    if (!status && engine->posterior)
-        status = run_posterior(engine, last);
-    if (!status && !engine->posterior)
-        status = run_rounds(engine, last);
-    if (!status && !engine->posterior)
-        status = reach_verdict(engine, last);
+    if (!status)
+        status = search(engine, last);
     return status ? status : finalise(engine, last);
 }
 
@@ -615,7 +581,6 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .notes = notes,
                             .before = options->before,
                             .after = options->after,
-                            .posterior = options->posterior,
                             .out = out,
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,
@@ -633,7 +598,6 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
     if (!status)
         status = run_with_models(&engine, states, &last);
     round_free(&last);
-    posterior_free(&out->posterior);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
     if (out->judged.nstate)

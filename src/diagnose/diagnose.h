@@ -41,10 +41,9 @@ struct diagnose_options {
     unsigned long seed;
     int replicates;             /* of the bootstrap; 0: 1000 */
     const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
-    int posterior;              /* decide by the probabilities of explanations */
 };
 
-/* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
+/* A cause at one target (for those with a place: at its best place), with what became of it. */
 struct candidate {
     rotid_candidate result; /* `cause` is put there at the end, from the following members up to the intervals */
     const struct cause_kind *cause;
@@ -56,18 +55,9 @@ struct candidate {
     int nparameter;         /* of the effect, in use */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
-    int refit;                      /* index of the fit in the round, -1 where there is none */
     double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
-    int refused;                    /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
-    int explains;                   /* its fit leaves no more than noise */
-    int linear;                     /* chi2 and size are those of the scan: the model of the fit lacks part of the cause */
-    const double *residual;         /* of its fit, while that is there; NULL */
-    int nresidual;
-    struct candidate *with; /* the second cause, NULL where this one is alone; the numbers of the fit are here */
-    int set;                /* of an alternative, from 1: those of one number are the causes of one explanation */
-    double probability;     /* of that explanation */
-    int nidentified;        /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
-    rotid_cause_value *identified;
+    int set;                        /* of an alternative, from 1: those of one number are the causes of one explanation */
+    double probability;             /* of that explanation */
 };
 
 struct diagnosis_round {
@@ -78,6 +68,7 @@ struct diagnosis_round {
 
 #define MOST_MEMBERS  3
 #define SEARCH_PASSES 4
+#define SEARCH_FITS   40 /* of all passes, at most */
 
 struct evidence {
     double log_z;       /* over the noise's factors too */
@@ -114,11 +105,6 @@ struct posterior {
         struct candidate cause; /* as in the likeliest explanation that has it */
         double probability;
     } * marginal; /* above LEAST_MARGINAL, largest first */
-    int npass;    /* of the search, each with its fits */
-    struct {
-        int count;
-        struct refit *refit;
-    } pass[SEARCH_PASSES];
     int naveraged;
     rotid_averaged_parameter *averaged; /* [naveraged] the deck's unknowns over all explanations */
 };
@@ -307,14 +293,6 @@ struct scan {
     double largest; /* drop */
 };
 
-struct scan_set { /* one cause, or two at once: what a round fits */
-    int count, candidate[2];
-    int item[2]; /* of a pair: the columns that promise most together, with their amplitudes */
-    double amplitude[2], drop;
-    const double *x;        /* a pair found beside one of its causes: what the states' own parameters start at, else NULL */
-    struct effect start[2]; /* and its causes */
-};
-
 /* The candidates: every physical cause of the catalogue at every target where it applies and is not in the model yet, and the
  * user's suspects; of several states then those of them in one state alone. */
 int scan_list(struct pool *pool, const struct states *states, struct scan *scan);
@@ -349,7 +327,6 @@ struct engine {
     const rotid_environment *environment;
     struct message_list *notes;
     const char *before, *after; /* the question is what changed between these states, or NULL */
-    int posterior;
     struct diagnosis *out;
     struct states states;                /* judged, with the causes named so far; their starts are the fitted values */
     struct job *job;                     /* of the state whose data are looked at, else of the first */
@@ -484,17 +461,13 @@ struct refit {
         other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
-/* Best of the fits from the most promising places of the set, the states' own parameters starting at x [nparameter], which is
- * where the scan was made (at those of the set, where it has some); and at `deck` [nparameter] (NULL: none) as well where none of
- * those fits succeeded, one of these parameters ends at a bound, or one at x is more than three times as large or small as in the
- * deck. Statuses of memory and cancellation only: where every fit fails, or ends above the model without its causes, which it
- * contains, fit is NULL. */
-int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-              const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
-              struct refit *refit);
-
-/* Number of effect m of a set in the rotor of state s with the set, in which it acts: the last ones are those of the set. */
-int refit_effect(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor);
+/* Best of the fits from the most promising places of a candidate, the states' own parameters starting at x [nparameter], which is
+ * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded, one of these
+ * parameters ends at a bound, or one at x is more than three times as large or small as in the deck. Statuses of memory and
+ * cancellation only: where every fit fails, or ends above the model without the cause, which it contains, fit is NULL. */
+int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+                const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
+                struct refit *refit);
 
 /* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);
@@ -531,19 +504,20 @@ void effect_at(const struct state *state, int effect, const double *x, struct ef
 struct round_result {
     struct scan scan;
     struct bootstrap bootstrap;
-    int nrefit;
-    struct refit *refit;     /* [nrefit] */
-    struct scan_set *set;    /* [nrefit] what was fitted: single causes first, then pairs */
+    int adequate;         /* noise explains what the base leaves */
+    int nsingle;          /* the first fits are of these candidates; those of the search for explanations follow */
+    int *candidate;       /* [nsingle] */
+    int nrefit, room;
+    struct refit *refit;  /* [nrefit] */
     struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
 };
 
-/* Settles the data beside the fits of the first round of a job that is the only state: pairing, channels, noise. Statuses of the
- * fits. */
-int round_settle(struct engine *engine);
-/* The fits of a round without what they say: kind is ROTID_ADEQUATE, or -1. */
+/* Scan and fits of single causes. Statuses of the fits. */
 int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
-/* A round. The data of several states are settled before. */
-int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
+/* These and the explanations; doubt: of the data as well, pairing, channels, noise, of a job that is the only state: where they
+ * were at fault all is done again. */
+int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, struct round_result *result,
+              struct posterior *posterior);
 void round_free(struct round_result *result);
 
 /* -------------------------------------------------------------------------------------------------------------- as solid */
@@ -619,36 +593,15 @@ int data_add_finding(struct engine *engine, const rotid_data_finding *finding);
 /* A finding about measured modes; second 0: about the first alone. */
 int data_add_pairing(struct engine *engine, int first, int second, const char *text);
 
-/* ---------------------------------------------------------------------------------------------------------------- decide */
+/* -------------------------------------------------------------------------------------------------------------- compare */
 
-/* Which candidate is named, and why the others are not. */
+/* Of models of one measurement that are no explanations of the posterior: numberings and faults of channels. */
 
-/* Penalty of a parameter in chi2. Two more of them, a place and a width, cost as much as the least margin: they let a zone follow
- * almost anything, and a cause without them is named where the zone fits no better. */
+/* Penalty of a parameter in chi2. */
 #define PARAMETER_PENALTY 3.0
-/* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred
- * times at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
+/* Least lead in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred times at most,
+ * however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
 #define LEAST_MARGIN 6.0
-/* Residuals more than parameters, that could still contradict a name: six frequencies carry one parameter. Twice as many where
- * the cause leaves more than noise: what else is there has parameters too, and with few residuals one cause imitates two. */
-#define LEAST_RESIDUALS 3
-
-/* The model before the round, as far as the candidates are compared with it. */
-struct before {
-    int dof, nfrequency;
-    double chi2, chi2_frequency, holdout_rms, mode_out_rms, sensor_out_rms;
-    double beyond_drop; /* of chi2, were its parameters free to pass the bounds they end at; 0 where none does */
-};
-
-double candidate_score(const struct candidate *candidate);
-
-/* Whether the first causes of two candidates are one, at its target and in its state; and whether one of a set is that cause. */
-int candidate_is(const struct candidate *a, const struct candidate *b);
-int candidate_has(const struct candidate *set, const struct candidate *cause);
-
-/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the
- * candidates has room for one more. */
-int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round);
 
 /* ------------------------------------------------------------------------------------------------------------ detectable */
 
@@ -685,8 +638,9 @@ struct candidate candidate_listed(const struct scan *scan, int index);
 /* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
  * does not count. */
 int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
-/* Fills the round's candidates from the refits and lets decide() judge them. */
-int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
+/* The candidates of the search, the most probable first. ROTID_OK or ROTID_ERROR_MEMORY. */
+int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,
+                     struct diagnosis_round *round);
 /* Prediction of modes left out in turn, for several models at once: error [models] in percent, shape [models]. */
 int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape);
 
@@ -888,15 +842,6 @@ int pairing_note_again(struct engine *engine);
  * instead. */
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
 
-/* Two causes at once, for a round in which one alone does not suffice. The pairs of a scan that promise most, in score: every
- * two items of different candidates, or of one with a place at two places, drop together -2 b'u - u'Gu with G the products of
- * their columns, b those with the residual, and the steps u within what physics allows. Of the places of two candidates the best
- * ones are taken, and no pair that would leave fewer than LEAST_RESIDUALS. Pairs of causes that act in all states that have them
- * are listed first, then those of which one or both act in one state alone: set [2 * most], each `most` at most and best first,
- * *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
-int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
-                 int *count);
-
 /* ---------------------------------------------------------------------------------------------------------- sensor field */
 
 /* The residual of the shapes as a random field along the axis, to predict one sensor from the others.
@@ -985,20 +930,6 @@ struct sensor_likelihood { /* one sensor at a time */
     double *vector;
 };
 
-/* ---------------------------------------------------------------------------------------------------------------- spread */
-
-/* What a verdict leaves open of the parameters that are identified. */
-
-/* verdict.spread of *engine->out: of each unknown of the deck the least and the largest value over the causes that cannot be told
- * apart, and what holds all their intervals. Without such causes, or where none of them was fitted, empty. ROTID_OK or
- * ROTID_ERROR_MEMORY. */
-int spread_of_alternatives(struct engine *engine);
-
-/* Sentences, each with a blank before it; "" where there is nothing to say, NULL where memory is out.
- * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
- * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
-const char *spread_sentence(struct engine *engine);
-
 /* --------------------------------------------------------------------------------------------------------------- laplace */
 
 /* The evidence of an explanation (laplace.c). */
@@ -1022,16 +953,16 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
 /* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits
  * and lists hang on the engine's pool; the fits that the search made are in posterior_free. */
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
-void posterior_free(struct posterior *posterior);
+/* Probability of a cause, alone or with others; 0 where it is below LEAST_MARGINAL. */
+double posterior_of_cause(const struct posterior *posterior, const struct candidate *cause);
+/* One more explanation: a fault of a channel that was found beside the model of the deck, `result` its chi2 and drop, nparameter
+ * its numbers; by the leading terms of its evidence, drop/2 - nparameter ln(rows)/2. ROTID_OK or ROTID_ERROR_MEMORY. */
+int posterior_add_fault(struct engine *engine, const struct candidate *fault, struct posterior *posterior);
 /* The verdict of it into the engine: what is named becomes part of the model. */
 int posterior_verdict(struct engine *engine, struct posterior *posterior);
 
-/* --------------------------------------------------------------------------------------------------------------- verdict */
+/* ---------------------------------------------------------------------------------------------------------------- advice */
 
-/* From rounds to a verdict. */
-
-/* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
-int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result);
 /* A model that is possible, and what it is called. */
 struct possible {
     const struct candidate *cause;
@@ -1042,22 +973,5 @@ struct possible {
 /* What to measure next: the mode in which two models differ most against the noise; count: 2, or fewer where there are none. NULL
  * where memory is out. */
 const char *advise_between(struct engine *engine, int count, const struct possible *model);
-
-/* The verdict: adequate, named, ambiguous or unexplained, with what it rests on. last: the round that named nothing more. */
-int reach_verdict(struct engine *engine, struct round_result *last);
-
-/* ----------------------------------------------------------------------------------------------------------------- widen */
-
-/* A size that ends at a bound is tried beyond it before its cause is refused. */
-
-/* Whether x lies so near a bound that it is not the size the data want. A bound at which the effect vanishes (neutral) is none: a
- * small size lies near it. Between bounds above zero sizes are factors, and a distance is a ratio. */
-int size_at_bound(const rotid_parameter *bounds, double neutral, double x);
-
-/* The fit of a set again with the bounds at which its sizes end farther away, step by step as long as chi2 falls, up to what is
- * physically possible; bounds that the deck states stay. *refit is replaced where that is better. Statuses of memory and
- * cancellation only. */
-int refit_widen(struct pool *pool, const struct scan *scan, const struct scan_set *set, const int *number, const int *holdout,
-                const rotid_environment *environment, struct refit *refit);
 
 #endif

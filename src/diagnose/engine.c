@@ -11,8 +11,7 @@ const char *candidate_label(struct pool *pool, const struct candidate *c)
                                          : pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
     if (text && c->state_name)
         text = pool_format(pool, "%s in state %s", text, c->state_name);
-    const char *with = text && c->with ? candidate_label(pool, c->with) : NULL;
-    return !c->with ? text : with ? pool_format(pool, "%s with %s", text, with) : NULL;
+    return text;
 }
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)
@@ -20,16 +19,11 @@ struct candidate candidate_blank(const struct cause_kind *cause, const char *tar
     struct candidate c = {.result = {.chi2 = NAN,
                                      .chi2_drop = NAN,
                                      .chi2_frequency = NAN,
-                                     .bic = NAN,
-                                     .p_value = NAN,
                                      .holdout_rms = NAN,
-                                     .mode_out_rms = NAN,
-                                     .sensor_out_rms = NAN,
-                                     .cosine = NAN},
+                                     .sensor_out_rms = NAN},
                           .cause = cause,
                           .target = target,
                           .state = -1,
-                          .refit = -1,
                           .other_place = NAN,
                           .other_chi2 = NAN};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)

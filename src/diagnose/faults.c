@@ -582,7 +582,7 @@ static int correct(struct engine *engine, const struct sensor_fault *fault, cons
     return data_correct(engine, &finding, &correction);
 }
 
-/* A fault that no more than the margin separates from a physical cause stays open with it, among the candidates of the round. */
+/* A fault that no more than the margin separates from a physical cause stays open with it, as one more explanation. */
 static int keep_open(struct engine *engine, const struct rival *base, const int *id, struct round_result *result)
 {
     rotid_data_finding finding;
@@ -600,7 +600,6 @@ static int keep_open(struct engine *engine, const struct rival *base, const int 
     result->fault->result.chi2 = base->chi2;
     result->fault->result.chi2_drop = result->fault->result.predicted_drop = engine->fit->chi2 - base->chi2;
     result->fault->result.chi2_frequency = base->chi2_frequency;
-    result->fault->result.bic = base->chi2 + log(result->scan.nrow) * (engine->fit->n + base->nfault + line);
     return result->fault->target ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 

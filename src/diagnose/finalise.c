@@ -158,57 +158,6 @@ static int cause_intervals(const struct engine *engine)
     return status;
 }
 
-static void add_value(const rotid_cause_value *value, rotid_spread *spread)
-{
-    int first = !spread->name;
-    if (first)
-        *spread = (rotid_spread){value->name, value->unit, value->value, value->value, {value->ci95[0], value->ci95[1]}};
-    spread->lowest = fmin(spread->lowest, value->value);
-    spread->highest = fmax(spread->highest, value->value);
-    /* fmin and fmax prefer the number: one interval that is missing leaves none */
-    spread->ci95[0] = isfinite(value->ci95[0]) && isfinite(spread->ci95[0]) ? fmin(spread->ci95[0], value->ci95[0]) : (double)NAN;
-    spread->ci95[1] = isfinite(value->ci95[1]) && isfinite(spread->ci95[1]) ? fmax(spread->ci95[1], value->ci95[1]) : (double)NAN;
-}
-
-int spread_of_alternatives(struct engine *engine)
-{
-    const struct diagnosis *out = engine->out;
-    rotid_verdict *verdict = &engine->out->result.verdict;
-    verdict->nspread = 0;
-    verdict->spread = POOL_ARRAY(engine->pool, rotid_spread, engine->nown);
-    if (!verdict->spread)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < out->nalternative; i++)
-        for (int p = 0; p < out->alternative[i].nidentified; p++) {
-            add_value(&out->alternative[i].identified[p], &verdict->spread[p]);
-            verdict->nspread = engine->nown;
-        }
-    return ROTID_OK;
-}
-
-const char *spread_sentence(struct engine *engine)
-{
-    const struct diagnosis *out = engine->out;
-    const rotid_verdict *verdict = &out->result.verdict;
-    const char *text = "";
-    char figure[32];
-    int sets = 0;
-    for (int i = 0, set = 0; i < out->nalternative; i++)
-        if (out->alternative[i].nidentified && out->alternative[i].set != set) {
-            set = out->alternative[i].set;
-            sets++;
-        }
-    if (sets < 2) /* one alone differs from none, as do those that were weighed without a refit of the parameters */
-        return "";
-    for (int p = 0; p < verdict->nspread; p++) {
-        const rotid_spread *s = &verdict->spread[p];
-        double percent = 200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest);
-        if (isfinite(percent) && text)
-            text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", s->name, percent_text(percent, figure));
-    }
-    return !text || !*text ? text : pool_format(engine->pool, " Between these causes differ: %s.", text);
-}
-
 static const char *hidden_sentence(struct engine *engine, const rotid_fit_result *fit)
 {
     const rotid_diagnosis *out = &engine->out->result;
@@ -371,52 +320,27 @@ static const char *open_parameters(struct engine *engine)
 }
 
 /* The same where the question is what changed: the parts of the sentence, and what it ends with. */
-static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *one,
-                                   const char *chance, const char *end)
+static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
+                                   const char *end)
 {
-    const struct diagnosis *out = engine->out;
-    const rotid_verdict *verdict = &out->result.verdict;
+    const rotid_verdict *verdict = &engine->out->result.verdict;
     struct pool *pool = engine->pool;
     const char *from = engine->before, *to = engine->after;
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
     case ROTID_NAMED:
-        return pool_format(pool, "Between %s and %s changed: %s; %s%s (%s before).%s", from, to, causes,
+        return pool_format(pool, "Between %s and %s changed: %s; %s (%s before).%s", from, to, causes,
                            verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
-                           : one                   ? "this does not explain the rest; "
-                           : out->nalternative     ? "the data cannot tell what causes the rest: "
                                                    : "the rest still exceeds the noise",
-                           verdict->adequate_after ? ""
-                           : one                   ? one
-                           : out->nalternative     ? others
-                                                   : "",
                            chance, end);
     case ROTID_AMBIGUOUS:
-        if (one)
-            return pool_format(pool, "Something changed between %s and %s (%s); %s.%s", from, to, chance, one, end);
-        return pool_format(pool, "Something changed between %s and %s (%s); the data cannot tell which of %s it is%s.%s", from,
-                           to, chance, others, verdict->confident ? "" : ", nor with confidence that it is any of them", end);
+        return pool_format(pool, "The data cannot tell what changed between %s and %s (%s): %s.%s", from, to, chance, others, end);
     default:
-        return pool_format(
-            pool,
-            "Something changed between %s and %s (%s), and no cause in the catalogue gains more than its parameters "
-            "cost.%s",
-            from, to, chance, end);
+        return pool_format(pool,
+                           "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s", from,
+                           to, chance, 100 * verdict->something_else, others, end);
     }
-}
-
-/* One cause alone that has no name, and whether it leaves no more than noise; NULL: there are several. */
-static const char *only_one(struct pool *pool, const struct diagnosis *out, const char *one)
-{
-    const struct candidate *c = out->alternative;
-    if (!out->nalternative || c[out->nalternative - 1].set != 1)
-        return NULL;
-    int explains = c->explains || c->cause->class != CAUSE_PHYSICAL;
-    return pool_format(pool,
-                       explains ? "%s would, but these data do not suffice to name a cause"
-                                : "%s comes nearest and leaves more than noise: these data do not suffice to name a cause",
-                       one);
 }
 
 static const char *verdict_sentence(struct engine *engine)
@@ -424,15 +348,11 @@ static const char *verdict_sentence(struct engine *engine)
     struct diagnosis *out = engine->out;
     const rotid_verdict *verdict = &out->result.verdict;
     struct pool *pool = engine->pool;
-    const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
-    const char *causes = list(pool, out->ncause, out->cause),
-               *others = out->posterior.count ? shares(pool, &out->posterior) : list(pool, out->nalternative, out->alternative);
+    const char *causes = list(pool, out->ncause, out->cause), *others = shares(pool, &out->posterior);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
-               *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit)
-                                  : spread_sentence(engine),
-               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL,
-               *one = others && !out->posterior.count ? only_one(pool, out, others) : NULL;
+               *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit) : "",
+               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL;
     for (int c = 0; c < out->ncause; c++)
         if (out->cause[c].cause->solid)
             solid =
@@ -445,44 +365,27 @@ static const char *verdict_sentence(struct engine *engine)
                                      !isfinite(verdict->p_value) ? "no p-value can be stated"
                                      : verdict->p_value < 1e-99  ? "p below 1e-99"
                                                                  : "p = %.2g",
-                                     verdict->p_value),
-               *misfit = last && isfinite(out->round[0].result.chi2)
-                             ? pool_format(pool, ", chi2 %.3g for %d degrees of freedom", out->round[0].result.chi2,
-                                           out->round[0].result.dof)
-                             : "";
-    if (!misfit || !causes || !others || !open || !faults || !chance)
+                                     verdict->p_value);
+    if (!causes || !others || !open || !faults || !chance)
         return NULL;
     if (engine->before) {
         const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
-        return end ? change_sentence(engine, causes, others, one, chance, end) : NULL;
+        return end ? change_sentence(engine, causes, others, chance, end) : NULL;
     }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
-        if (!verdict->adequate_after && one)
-            return pool_format(pool, "The model lacks %s (%s before), and does not explain the rest; %s.%s%s%s", causes, chance,
-                               one, solid, faults, open);
-        if (!verdict->adequate_after && out->nalternative)
-            return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s%s",
-                               causes, chance, others, solid, faults, open);
         return pool_format(
             pool, "The model lacks %s; with %s %s (%s before).%s%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
-        if (out->posterior.count)
-            return pool_format(pool, "The data cannot tell what the model lacks (%s): %s.%s%s", chance, others, faults, open);
-        if (one)
-            return pool_format(pool, "The model does not explain the data (%s); %s.%s%s", chance, one, faults, open);
-        return pool_format(pool,
-                           "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
-                           chance, others, verdict->confident ? "" : ", nor with confidence that any of them is", faults, open);
+        return pool_format(pool, "The data cannot tell what the model lacks (%s): %s.%s%s", chance, others, faults, open);
     default:
         return pool_format(
-            pool,
-            "The model does not explain the data (%s%s), and no cause in the catalogue gains more than its parameters cost.%s%s",
-            chance, misfit, faults, open);
+            pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s",
+            chance, 100 * verdict->something_else, others, faults, open);
     }
 }
 
@@ -618,8 +521,6 @@ int finalise(struct engine *engine, const struct round_result *last)
         status = detectable_sizes(engine, last);
     if (!status && last && last->scan.ncandidate)
         status = hidden_shifts(engine, last);
-    if (!status)
-        status = spread_of_alternatives(engine);
     engine_step(engine, "detection limits");
     if (status)
         return status;

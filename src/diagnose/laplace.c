@@ -379,12 +379,25 @@ static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal
     return w->line && w->shape && w->line_b && w->shape_b && w->work && w->step ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+/* One more normal of weight e^one into a mixture: out->mean [nown] its means, out->std the means of its squares, *weighed ln of
+ * the weights so far. inverse [n * n] */
+static void add_moments(double one, int nown, const double *mean, const double *inverse, int n, double *weighed,
+                        struct evidence *out)
+{
+    double sum = log_sum(*weighed, one), share = exp(one - sum);
+    for (int p = 0; p < nown && isfinite(one); p++) {
+        out->mean[p] += share * (mean[p] - out->mean[p]);
+        out->std[p] += share * (mean[p] * mean[p] + inverse[p + (ptrdiff_t)p * n] - out->std[p]);
+    }
+    *weighed = sum;
+}
+
 /* ln Z with something else beside the causes. rows [nrow * (n + 1)], rotated here into the fields' eigenvectors; the scale of
  * each shape is one more unknown, whose column is the predicted shape. known: amplitudes of lines and shapes, relative to a
- * frequency and to the largest component; NULL: the grid of something else, whose likeliest amplitudes give the step and the
- * deviation of the first nown unknowns in out->mean and out->std. */
+ * frequency and to the largest component; NULL: the grid of something else, over which the steps and the
+ * squares of the first nown unknowns are averaged in out->mean and out->std. */
 static int with_field(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
-                      const double *known, int nprofile, int nown, struct evidence *out, double *most, double *log_z)
+                      const double *known, int nprofile, int nown, struct evidence *out, double *weighed, double *log_z)
 {
     int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES, sizes = nprofile ? PROFILE_SIZES : 1;
     int none = nprofile && !known; /* fields of amplitude 0 too, and every second one of the others */
@@ -460,11 +473,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
                 if (none) /* one half without */
                     one -= (a < 0 || !d->nblock) && b < 0 ? 0 : log(fields);
                 z = log_sum(z, one);
-                for (int p = 0; p < nown && one > *most; p++) {
-                    out->mean[p] = w.step[p];
-                    out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * total]);
-                }
-                *most = fmax(*most, one);
+                if (nown)
+                    add_moments(one, nown, w.step, w.work, total, weighed, out);
             }
         }
     }
@@ -517,10 +527,10 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
                           int n, const struct unknown *u, const double *rows, int nown, struct evidence *out)
 {
     int nrow = d->nrow, most_columns = n + 2 * PROFILE_TERMS, tried = 1;
-    double most = -INFINITY, sum;
+    double weighed = -INFINITY, sum;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, most_columns);
     double *more = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(most_columns + 1));
-    int status = all && more ? with_field(d, pool, n, u, rows, NULL, 0, nown, out, &most, &sum) : ROTID_ERROR_MEMORY;
+    int status = all && more ? with_field(d, pool, n, u, rows, NULL, 0, nown, out, &weighed, &sum) : ROTID_ERROR_MEMORY;
     memcpy(all, u, (size_t)n * sizeof *u);
     memcpy(more, rows, (size_t)nrow * (size_t)n * sizeof *rows);
     for (int p = n; p < most_columns; p++)
@@ -535,11 +545,13 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
         if (!count)
             continue;
         memcpy(more + (ptrdiff_t)(n + count) * nrow, rows + (ptrdiff_t)n * nrow, (size_t)nrow * sizeof *rows);
-        status = with_field(d, pool, n + count, all, more, NULL, count, nown, out, &most, &one);
+        status = with_field(d, pool, n + count, all, more, NULL, count, nown, out, &weighed, &one);
         sum = log_sum(sum, one);
         tried++;
     }
     out->log_else = sum - log(tried);
+    for (int p = 0; p < nown && !status; p++)
+        out->std[p] = sqrt(fmax(0, out->std[p] - out->mean[p] * out->mean[p]));
     return status;
 }
 
@@ -560,7 +572,7 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         for (int i = 0; i < nrow; i++)
             rows[i + (ptrdiff_t)p * nrow] = u[p].step * fit->jacobian[i + (ptrdiff_t)p * nrow];
     }
-    double known[2] = {0, 0}, field, most = INFINITY;
+    double known[2] = {0, 0}, field;
     for (int m = 0; m < nmember; m++) {
         known[0] = hypot(known[0], member[m].cause->discrepancy_frequency);
         known[1] = hypot(known[1], member[m].cause->discrepancy_shape);
@@ -582,11 +594,15 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         }
     }
     if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */
-        status = with_field(d, &pool, n, u, rows, known, 0, 0, out, &most, &field);
+        status = with_field(d, &pool, n, u, rows, known, 0, 0, out, NULL, &field);
         out->log_z = log_sum(out->log_z, field) - LN_2;
         out->log_stated = log_sum(out->log_stated, field) - LN_2;
     }
     out->log_else = -INFINITY;
+    if (!status && else_scan) {
+        memset(out->mean, 0, (size_t)nown * sizeof *out->mean);
+        memset(out->std, 0, (size_t)nown * sizeof *out->std);
+    }
     if (!status && else_scan)
         status = something_else(d, &pool, states, else_scan, n, u, rows, nown, out);
     for (int p = 0; p < nown && !status; p++) {

@@ -289,7 +289,6 @@ static int fit_task(void *context, int index, int worker)
     const struct proposal *proposal = &t->proposal[index];
     const struct explanation *parent = &t->p->item[proposal->parent];
     const struct states *states = states_of_explanation(e, parent);
-    const struct scan_set set = {.count = 1, .candidate = {proposal->candidate}};
     double *deck = POOL_ARRAY(&t->pool[index], double, states->nparameter);
     (void)worker;
     if (!deck)
@@ -297,19 +296,19 @@ static int fit_task(void *context, int index, int worker)
     const double *x = fit_of(e, parent)->x;
     for (int p = 0; p < states->nparameter; p++)
         deck[p] = p < e->nown ? e->deck_start[p] : x[p];
-    return refit_set(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, &set, e->environment,
-                     &t->refit[index]);
+    return refit_cause(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, proposal->candidate,
+                       e->environment, &t->refit[index]);
 }
 
 /* Fits the first `count` proposals and enters them; the others enter by their columns. */
-static int fit_proposals(struct engine *engine, struct posterior *p, struct proposal *proposal, int count)
+static int fit_proposals(struct engine *engine, struct round_result *result, struct posterior *p, struct proposal *proposal,
+                         int count)
 {
-    struct refit *refit = POOL_ARRAY(engine->pool, struct refit, count);
-    p->pass[p->npass].refit = refit;
-    p->pass[p->npass++].count = refit ? count : 0;
+    struct refit *refit = result->refit + result->nrefit;
     struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct pool, count)};
-    if (!refit || !task.pool)
+    if (result->nrefit + count > result->room || !task.pool)
         return ROTID_ERROR_MEMORY;
+    result->nrefit += count;
     for (int i = 0; i < count; i++)
         pool_open(&task.pool[i], engine->pool->allocator);
     int status = parallel_for(engine->threads, count, fit_task, &task);
@@ -370,7 +369,7 @@ static int next_parent(const struct engine *engine, const struct posterior *p, i
     return behind <= WITHIN || (taken < BEAM && !explains(engine, p, &p->item[lead])) ? best : -1;
 }
 
-static int enter_round(struct engine *engine, const struct round_result *result, struct posterior *p)
+static int enter_singles(struct engine *engine, const struct round_result *result, struct posterior *p)
 {
     const struct scan *scan = &result->scan;
     struct explanation e = {0};
@@ -378,24 +377,21 @@ static int enter_round(struct engine *engine, const struct round_result *result,
     if (!status)
         append(p, &e);
     for (int i = 0; i < result->nrefit && !status; i++) {
-        const struct scan_set *set = &result->set[i];
         const struct refit *refit = &result->refit[i];
-        if (!refit->fit || is_common(engine, scan, set->candidate[0]) ||
-            (set->count > 1 && is_common(engine, scan, set->candidate[1])))
+        int index = result->candidate[i];
+        if (!refit->fit || is_common(engine, scan, index))
             continue;
-        e = (struct explanation){.nmember = set->count, .refit = refit};
-        for (int m = 0; m < set->count; m++) {
-            e.member[m] = candidate_listed(scan, set->candidate[m]);
-            const struct rotor *rotor = &refit->states.state[e.member[m].home].job.rotor;
-            if (!e.member[m].cause->solid)
-                e.member[m].effect.name = rotor->effect[refit_effect(scan, set, m, e.member[m].home, rotor)].name;
-            take_values(engine, refit, &e.member[m]);
-        }
-        if (is_unweighed_accelerometer(&engine->states.state[e.member[0].home].job, &e.member[0].effect) && set->count == 1)
+        e = (struct explanation){.nmember = 1, .refit = refit, .member = {candidate_listed(scan, index)}};
+        struct candidate *member = &e.member[0];
+        const struct rotor *rotor = &refit->states.state[member->home].job.rotor;
+        if (!member->cause->solid)
+            member->effect.name = rotor->effect[rotor->neffect - 1].name;
+        take_values(engine, refit, member);
+        if (is_unweighed_accelerometer(&engine->states.state[member->home].job, &member->effect))
             continue;
         status = score(engine, p, NULL, &e);
-        if (!status && set->count == 1)
-            prefer_columns(&engine->states, scan, set->candidate[0], &p->item[0], &e);
+        if (!status)
+            prefer_columns(&engine->states, scan, index, &p->item[0], &e);
         if (!status && !find(p, &e))
             append(p, &e);
     }
@@ -444,7 +440,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     double best = best_stated(p);
     while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN)
         fits++;
-    status = fit_proposals(engine, p, proposal, fits);
+    status = fit_proposals(engine, result, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
         struct explanation *e = &proposal[i].set;
         if (proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
@@ -530,6 +526,14 @@ static int find_marginals(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
+double posterior_of_cause(const struct posterior *p, const struct candidate *c)
+{
+    for (int i = 0; i < p->nmarginal; i++)
+        if (same_cause(&p->marginal[i].cause, c))
+            return p->marginal[i].probability;
+    return 0;
+}
+
 /* Probability of unknown q below x, cut at its bounds. */
 static double share_below(const struct posterior *p, const rotid_parameter *bounds, int q, double x)
 {
@@ -578,6 +582,20 @@ static int summarise(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
+/* Probabilities of the list, and what follows. */
+static int weigh(struct engine *engine, struct posterior *p)
+{
+    double sum = -INFINITY;
+    qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
+    for (int i = 0; i < p->count; i++)
+        sum = log_sum(sum, p->item[i].log_posterior);
+    for (int i = 0; i < p->count; i++)
+        p->item[i].probability = exp(p->item[i].log_posterior - sum);
+    p->something_else = p->nothing = 0;
+    p->nmarginal = p->naveraged = 0;
+    return summarise(engine, p);
+}
+
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int status, more = 1;
@@ -597,7 +615,7 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     }
     status = evidence_open(engine->pool, &engine->states, engine->number, engine->holdout, &p->data);
     if (!status)
-        status = enter_round(engine, result, p);
+        status = enter_singles(engine, result, p);
     for (int pass = 0; pass < SEARCH_PASSES && more && !status; pass++) {
         status = engine_stage(engine, "search of explanations, pass", pass + 1);
         if (!status)
@@ -609,21 +627,22 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     status = add_something_else(engine, p);
     if (status)
         return status;
-    qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
-    double sum = -INFINITY;
-    for (int i = 0; i < p->count; i++)
-        sum = log_sum(sum, p->item[i].log_posterior);
-    for (int i = 0; i < p->count; i++)
-        p->item[i].probability = exp(p->item[i].log_posterior - sum);
-    return summarise(engine, p);
+    return weigh(engine, p);
 }
 
-void posterior_free(struct posterior *p)
+int posterior_add_fault(struct engine *engine, const struct candidate *fault, struct posterior *p)
 {
-    for (int i = 0; i < p->npass; i++)
-        for (int k = 0; k < p->pass[i].count; k++)
-            rotid_fit_free(p->pass[i].refit[k].fit);
-    p->npass = 0;
+    int sensors = engine->job->rotor.nsensor, base = 0;
+    while (base < p->count && (p->item[base].nmember || p->item[base].something_else))
+        base++;
+    if (base == p->count)
+        return ROTID_OK;
+    struct explanation e = {.nmember = 1, .member = {*fault}, .evidence = p->item[base].evidence};
+    double more = fault->result.chi2_drop / 2 - fault->nparameter * log(p->base->nrow) / 2;
+    e.evidence.log_z = fmax(e.evidence.log_z, e.evidence.log_stated + more);
+    e.log_prior = log(set_prior[1]) - log(p->nkind) - log(sensors > 0 ? sensors : 1) + log1p(-ELSE_PRIOR);
+    e.log_posterior = e.evidence.log_z + e.log_prior;
+    return append(p, &e) ? weigh(engine, p) : ROTID_ERROR_MEMORY;
 }
 
 /* ---- the verdict */
@@ -691,7 +710,6 @@ static int accept(struct engine *engine, const struct explanation *model)
     for (int m = 0; m < model->nmember && !status; m++) {
         struct candidate *cause = &out->cause[out->ncause++];
         *cause = model->member[m];
-        cause->with = NULL;
         cause->result.refitted = 1;
         status = discrepancy_add(engine->pool, cause, 1, &states);
     }
@@ -719,7 +737,6 @@ static void list_alternatives(struct diagnosis *out, const struct posterior *p)
         for (int m = 0; m < p->item[i].nmember; m++) {
             struct candidate *listed = &out->alternative[out->nalternative++];
             *listed = p->item[i].member[m];
-            listed->with = NULL;
             listed->set = set;
             listed->probability = p->item[i].probability;
         }
@@ -755,6 +772,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     count = stated ? choose_names(engine, p, named) : 0;
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
+    verdict->something_else = p->something_else;
     verdict->kind = p->something_else > 0.5 ? ROTID_UNEXPLAINED
                     : model                 ? ROTID_NAMED
                     : !lead->nmember && !lead->something_else && (!p->nmarginal || p->marginal[0].probability <= HARMLESS) &&

@@ -289,22 +289,16 @@ static struct effect effect_of_item(const struct scan *scan, int item, double am
     return effect;
 }
 
-/* The effects to start from; a solid and a pair have but one. */
-static int starting_effects(const struct scan *scan, const struct scan_set *set, double length, struct effect effect[][2])
+/* The effects to start from; a solid has but one. */
+static int starting_effects(const struct scan *scan, const struct scan_candidate *c, double length, struct effect *effect)
 {
-    const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
-    int item[STARTS], count = set->count > 1 ? 0 : choose_starts(scan, c, length, item);
+    int item[STARTS], count = choose_starts(scan, c, length, item);
     for (int s = 0; s < count; s++)
-        effect[s][0] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
+        effect[s] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
     if (c->cause->solid)
-        effect[count++][0] = c->effect;
-    if (c->far && set->count == 1)
-        effect[count++][0] = *c->far;
-    if (set->count > 1) {
-        for (int m = 0; m < 2; m++)
-            effect[0][m] = set->x ? set->start[m] : effect_of_item(scan, set->item[m], set->amplitude[m]);
-        count = 1;
-    }
+        effect[count++] = c->effect;
+    if (c->far)
+        effect[count++] = *c->far;
     return count;
 }
 
@@ -401,14 +395,6 @@ int refit_beyond(struct pool *pool, const struct states *states, int nown, const
     return ROTID_OK;
 }
 
-int refit_effect(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor)
-{
-    int behind = 0;
-    for (int other = m + 1; other < set->count; other++)
-        behind += scan->candidate[set->candidate[other]].in[s] != 0;
-    return rotor->neffect - 1 - behind;
-}
-
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)
 {
     struct states started;
@@ -426,39 +412,22 @@ int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result 
     return ROTID_OK;
 }
 
-/* The states with the causes of a set from `effect`. */
-static int states_with_set(struct pool *pool, const struct states *states, const double *x, const struct scan *scan,
-                           const struct scan_set *set, const struct effect *effect, struct states *to)
-{
-    int status = ROTID_OK;
-    *to = *states; /* the first cause makes a copy of these */
-    for (int m = 0; m < set->count && !status; m++) {
-        const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
-        struct effect named = effect[m];
-        if (m && !(named.name = c->suspect ? named.name : states_free_name(pool, to, c->cause->id)))
-            return ROTID_ERROR_MEMORY;
-        status = states_with_effect(pool, m ? to : states, m ? NULL : x, &named, c->cause, c->fixed, c->in, to);
-    }
-    return status;
-}
-
 /* Fits from the scan's places with the own parameters at x; the best is kept. Statuses of memory and cancellation only. */
 static int fit_from(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-                    const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
+                    const struct scan *scan, const struct scan_candidate *c, const rotid_environment *environment,
                     struct refit *refit)
 {
-    struct effect start[STARTS + 1][2];
-    const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
-    int count = starting_effects(scan, set, rotor_length(&states->state[c->home].job.rotor), start);
+    struct effect start[STARTS + 1];
+    int count = starting_effects(scan, c, rotor_length(&states->state[c->home].job.rotor), start);
     for (int s = 0; s < count; s++) {
         struct states extended;
         rotid_fit_result *fit = NULL;
-        int status = states_with_set(pool, states, x, scan, set, start[s], &extended);
+        int status = states_with_effect(pool, states, x, &start[s], c->cause, c->fixed, c->in, &extended);
         if (!status)
             status = refit_states(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
-        if (!status && set->count == 1)
+        if (!status)
             note_place(&extended, c, fit, refit);
         if (status || !(fit->chi2 < refit->chi2)) {
             rotid_fit_free(fit);
@@ -481,24 +450,19 @@ static int is_strayed(int nown, const double *x, const double *deck)
     return 0;
 }
 
-int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-              const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
-              struct refit *refit)
+int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+                const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
+                struct refit *refit)
 {
-    int nested =
-        1; /* without its causes it is the model that the scan looked at, unless a user has fixed a size, or there is none */
-    for (int m = 0; m < set->count; m++) {
-        const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
-        nested &= c->cause->effect->nparameter && !c->fixed[c->cause->size];
-    }
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    /* without its cause it is the model that the scan looked at, unless a user has fixed the size, or there is none */
+    int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
-    int status = fit_from(pool, states, number, holdout, set->x ? set->x : x, scan, set, environment, refit);
+    int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
     if (!status && deck &&
         (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter) ||
          is_strayed(states->nparameter, x, deck)))
-        status = fit_from(pool, states, number, holdout, deck, scan, set, environment, refit);
-    if (!status)
-        status = refit_widen(pool, scan, set, number, holdout, environment, refit);
+        status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;
     rotid_fit_free(refit->fit);

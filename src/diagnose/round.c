@@ -1,4 +1,5 @@
-/* One round: scan, bootstrap, refits of what is promising, evidence, decision. */
+/* The search once: scan, chance by the bootstrap, fits of what is promising, explanations; and again where they show that the data
+ * are at fault. */
 #include "diagnose/diagnose.h"
 
 #include <math.h>
@@ -7,262 +8,6 @@
 #include "base/base.h"
 #include "diagnose/causes/causes.h"
 #include "linalg/linalg.h"
-
-#define SAME  0.98 /* of two unit columns, their cosine squared: one of them does what both do */
-#define APART 0.06 /* of the rotor's length: two places of one cause */
-
-/* Largest drop of the unit columns i and j with product g, their steps within bounds; *u, *v: the steps. */
-static double best_along_edge(double b_free, double b_fixed, double g, double fixed, double lower, double upper, double *step)
-{
-    *step = fmin(fmax(-(b_free + g * fixed), lower), upper);
-    return -2 * (b_free * *step + b_fixed * fixed) - *step * *step - fixed * fixed - 2 * g * *step * fixed;
-}
-
-static double pair_drop(const struct scan_item *i, const struct scan_item *j, double b_i, double b_j, double g, double *u,
-                        double *v)
-{
-    double lower[2] = {i->lower * i->norm, j->lower * j->norm}, upper[2] = {i->upper * i->norm, j->upper * j->norm};
-    double rest = 1 - g * g, best = 0;
-    *u = -(b_i - g * b_j) / rest;
-    *v = -(b_j - g * b_i) / rest;
-    if (*u >= lower[0] && *u <= upper[0] && *v >= lower[1] && *v <= upper[1])
-        return -b_i * *u - b_j * *v;
-    *u = *v = 0;
-    for (int edge = 0; edge < 4; edge++) { /* a convex function of two steps: its least value lies on an edge of their box */
-        int of_second = edge & 1;
-        double fixed = edge & 2 ? upper[of_second] : lower[of_second], free;
-        double drop = of_second ? best_along_edge(b_i, b_j, g, fixed, lower[0], upper[0], &free)
-                                : best_along_edge(b_j, b_i, g, fixed, lower[1], upper[1], &free);
-        if (drop > best) {
-            best = drop;
-            *u = of_second ? free : fixed;
-            *v = of_second ? fixed : free;
-        }
-    }
-    return best;
-}
-
-static int searched(const struct scan_candidate *c)
-{
-    int count = 0;
-    for (int p = 0; p < cause_parameters(&c->effect); p++)
-        count += !c->fixed[p];
-    return count ? count : 1;
-}
-
-static double place_of(const struct scan *scan, int item)
-{
-    const struct scan_item *i = &scan->item[item];
-    int place = scan->candidate[i->candidate].cause->place;
-    return place < 0 ? NAN : i->effect.value[place];
-}
-
-/* Products of the columns of two candidates, from their first items on, [leading * ...]. */
-struct products {
-    const double *gram;
-    int leading, from_first, from_second;
-    int in_one_state; /* one of the two acts in one state alone, in which the other one acts too */
-};
-
-/* The best items of the candidates a and b together. */
-static double best_items(const struct scan *scan, const struct products *p, const double *along, int a, int b, double apart,
-                         struct scan_set *set)
-{
-    const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
-    int one = a == b || (p->in_one_state && first->cause == second->cause && first->effect.target == second->effect.target);
-    double best = 0;
-    for (int i = first->first; i < first->first + first->count; i++)
-        for (int j = a == b ? i + 1 : second->first; j < second->first + second->count; j++) {
-            double g = p->gram[i - p->from_first + (ptrdiff_t)(j - p->from_second) * p->leading], u, v;
-            if (!scan->item[i].usable || !scan->item[j].usable || g * g > SAME)
-                continue;
-            if (one && fabs(place_of(scan, i) - place_of(scan, j)) < apart)
-                continue;
-            double drop = pair_drop(&scan->item[i], &scan->item[j], along[i], along[j], g, &u, &v);
-            if (drop <= best)
-                continue;
-            best = drop;
-            *set = (struct scan_set){.count = 2,
-                                     .candidate = {a, b},
-                                     .item = {i, j},
-                                     .amplitude = {u / scan->item[i].norm, v / scan->item[j].norm},
-                                     .drop = drop};
-        }
-    return best;
-}
-
-/* A pair into the list of the best ones, which is kept in order. */
-static void enter(const struct scan *scan, const struct scan_set *pair, int most, struct scan_set *set, int *count)
-{
-    double score =
-        PARAMETER_PENALTY * (searched(&scan->candidate[pair->candidate[0]]) + searched(&scan->candidate[pair->candidate[1]])) -
-        pair->drop;
-    int at = *count < most ? (*count)++ : most;
-    for (; at > 0; at--) {
-        const struct scan_set *other = &set[at - 1];
-        if (PARAMETER_PENALTY *
-                    (searched(&scan->candidate[other->candidate[0]]) + searched(&scan->candidate[other->candidate[1]])) -
-                other->drop <=
-            score)
-            break;
-        if (at < most)
-            set[at] = *other;
-    }
-    if (at < most)
-        set[at] = *pair;
-}
-
-/* Whether a cause acts in one state, though others have its target. */
-static int is_single(const struct scan *scan, int candidate)
-{
-    return scan->candidate[candidate].state >= 0;
-}
-
-/* The pair of a and b, if they make one, into the list. */
-static void try_pair(const struct states *states, const struct scan *scan, const struct products *products, const double *along,
-                     int a, int b, int most, struct scan_set *set, int *count)
-{
-    const struct rotor *rotor = &states->state[scan->candidate[a].home].job.rotor;
-    struct scan_set pair = {0};
-    int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
-    if (left >= LEAST_RESIDUALS && scan_allows(states, scan, a, b) &&
-        best_items(scan, products, along, a, b, APART * rotor_length(rotor), &pair) > 0)
-        enter(scan, &pair, most, set, count);
-}
-
-/* Of causes that act in all states that have them, which stand first; the products are one matrix. */
-static int choose_common(struct pool *pool, const struct states *states, const struct scan *scan, const double *along, int most,
-                         struct scan_set *set, int *count)
-{
-    int n = 0, ncommon = 0;
-    while (ncommon < scan->ncandidate && !is_single(scan, ncommon))
-        n += scan->candidate[ncommon++].count;
-    double *gram = POOL_ARRAY(pool, double, (size_t)n *(size_t)n);
-    if (!gram)
-        return ROTID_ERROR_MEMORY;
-    if (n)
-        product_gram(n, scan->nrow, scan->column, gram);
-    const struct products products = {gram, n, 0, 0, 0};
-    for (int a = 0; a < ncommon; a++)
-        for (int b = a; b < ncommon; b++)
-            try_pair(states, scan, &products, along, a, b, most, set, count);
-    return ROTID_OK;
-}
-
-/* Of causes of which one or both act in one state alone. There are many more of these, and the products of all of them would not
- * be worth their room: those of two candidates at a time. */
-static int choose_single(struct pool *pool, const struct states *states, const struct scan *scan, const double *along, int most,
-                         struct scan_set *set, int *count)
-{
-    size_t largest = 0;
-    for (int a = 0; a < scan->ncandidate; a++)
-        largest = (size_t)scan->candidate[a].count > largest ? (size_t)scan->candidate[a].count : largest;
-    double *gram = POOL_ARRAY(pool, double, largest *largest);
-    if (!gram)
-        return ROTID_ERROR_MEMORY;
-    for (int a = 0; a < scan->ncandidate; a++)
-        for (int b = a; b < scan->ncandidate; b++) {
-            const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
-            if (!(is_single(scan, a) || is_single(scan, b)) || !first->count || !second->count)
-                continue;
-            const struct products products = {gram, first->count, first->first, second->first,
-                                              states_meet(states->nstate, first->in, second->in)};
-            product_transposed(first->count, second->count, scan->nrow, scan->column + (ptrdiff_t)first->first * scan->nrow,
-                               scan->column + (ptrdiff_t)second->first * scan->nrow, gram);
-            try_pair(states, scan, &products, along, a, b, most, set, count);
-        }
-    return ROTID_OK;
-}
-
-int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
-                 int *count)
-{
-    double *along = POOL_ARRAY(pool, double, scan->nitem);
-    int single = 0;
-    *count = 0;
-    if (!along)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < scan->nitem; i++)
-        along[i] = product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r);
-    int status = choose_common(pool, states, scan, along, most, set, count);
-    if (!status && states->nstate > 1)
-        status = choose_single(pool, states, scan, along, most, set + *count, &single);
-    *count += single;
-    return status;
-}
-
-/* The candidate of a scan that is candidate c of another one, -1 where it has none. */
-static int same_candidate(const struct scan *scan, const struct scan_candidate *c)
-{
-    for (int i = 0; i < scan->ncandidate; i++) {
-        const struct scan_candidate *own = &scan->candidate[i];
-        if (own->cause == c->cause && own->effect.target == c->effect.target && own->effect.variant == c->effect.variant &&
-            own->state == c->state && own->suspect == c->suspect)
-            return i;
-    }
-    return -1;
-}
-
-/* The partners that promise most beside a cause, in score. */
-static void enter_partners(const struct states *states, const struct scan *scan, struct scan *beside, struct scan_set from,
-                           int most, struct scan_set *set, int *count)
-{
-    for (int entered = 0; entered < most;) {
-        int best = -1;
-        double score = 0;
-        for (int i = 0; i < beside->ncandidate; i++) {
-            double worth = scan_best_drop(beside, i) - PARAMETER_PENALTY * searched(&beside->candidate[i]);
-            if (beside->candidate[i].best >= 0 && worth > score) {
-                best = i;
-                score = worth;
-            }
-        }
-        if (best < 0)
-            return;
-        const struct scan_candidate *partner = &beside->candidate[best];
-        const struct scan_item *item = &beside->item[partner->best];
-        int a = from.candidate[0], b = same_candidate(scan, partner);
-        beside->candidate[best].best = -1;
-        if (b < 0 || !scan_allows(states, scan, a, b) ||
-            scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]) < LEAST_RESIDUALS)
-            continue;
-        from.candidate[1] = b;
-        from.drop = item->drop;
-        from.start[1] = item->effect;
-        from.start[1].name = scan->candidate[b].effect.name;
-        if (!scan->candidate[b].fixed[partner->cause->size])
-            from.start[1].value[partner->cause->size] += item->amplitude * item->unit;
-        set[(*count)++] = from;
-        entered++;
-    }
-}
-
-/* The same where one of the two causes is known well enough to be in the model: *effect of `candidate`, with the states' own
- * parameters at x [nparameter], both of a fit, since columns at no effect say little of large ones. The scan is made again there,
- * and the `most` partners that promise most, in score, go behind the *count sets. ROTID_OK or ROTID_ERROR_MEMORY. */
-static int pairs_beside(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-                        const struct scan *scan, int candidate, const struct effect *effect, int most, struct scan_set *set,
-                        int *count)
-{
-    const struct scan_candidate *c = &scan->candidate[candidate];
-    struct pool scratch;
-    struct states with;
-    struct scan beside = {0};
-    pool_open(&scratch, pool->allocator);
-    int status = states_with_effect(&scratch, states, x, effect, c->cause, c->fixed, c->in, &with);
-    double *start = POOL_ARRAY(&scratch, double, status ? 0 : with.nparameter);
-    if (!status && !start)
-        status = ROTID_ERROR_MEMORY;
-    for (int p = 0; !status && p < with.nparameter; p++)
-        start[p] = with.bounds[p].start;
-    if (!status)
-        status = scan_run(&scratch, &with, number, holdout, start, &beside);
-    if (!status)
-        enter_partners(states, scan, &beside, (struct scan_set){.count = 2, .candidate = {candidate}, .x = x, .start = {*effect}},
-                       most, set, count);
-    pool_close(&scratch);
-    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* no such model: no partner */
-}
 
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */
 
@@ -398,9 +143,6 @@ static int noise_settle(struct engine *engine, const struct scan *scan, const do
 }
 
 #define MOST_REFITS         16
-#define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
-#define MOST_PAIRS_OF_SOLID 6
-#define PARTNERS            3    /* of a cause that has been fitted */
 #define MOST_PASSES         5    /* of a round, each with better data */
 #define WORTH               3.0  /* a promised drop below this is noise */
 #define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
@@ -409,7 +151,6 @@ struct refits {
     const struct engine *engine;
     struct round_result *result;
     const double *deck; /* [nparameter] the starts of the deck, of causes that were named their values */
-    int first;
     struct pool *pool; /* one a task: pools are not shared between threads */
 };
 
@@ -418,13 +159,12 @@ static int refit_task(void *context, int index, int worker)
     struct refits *refits = context;
     const struct engine *e = refits->engine;
     (void)worker;
-    int i = refits->first + index;
-    return refit_set(&refits->pool[index], &e->states, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
-                     &refits->result->set[i], e->environment, &refits->result->refit[i]);
+    return refit_cause(&refits->pool[index], &e->states, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
+                       refits->result->candidate[index], e->environment, &refits->result->refit[index]);
 }
 
 /* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
-static int choose(const struct scan *scan, double threshold, struct scan_set *set)
+static int choose(const struct scan *scan, double threshold, int *chosen)
 {
     int count = 0;
     double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
@@ -433,179 +173,66 @@ static int choose(const struct scan *scan, double threshold, struct scan_set *se
         for (int i = 0; i < scan->ncandidate; i++) {
             int taken = 0;
             for (int j = 0; j < count; j++)
-                taken |= set[j].candidate[0] == i;
+                taken |= chosen[j] == i;
             if (!taken && (best < 0 || scan_best_drop(scan, i) > scan_best_drop(scan, best)))
                 best = i;
         }
         if (best < 0 || scan_best_drop(scan, best) < least || count == MOST_REFITS)
             break;
-        set[count++] = (struct scan_set){.count = 1, .candidate = {best}};
+        chosen[count++] = best;
     }
     for (int i = 0; i < scan->ncandidate; i++) {
         int taken = 0;
         for (int j = 0; j < count; j++)
-            taken |= set[j].candidate[0] == i;
+            taken |= chosen[j] == i;
         if (!taken && ((scan->candidate[i].suspect && scan->candidate[i].best >= 0) || scan->candidate[i].far))
-            set[count++] = (struct scan_set){.count = 1, .candidate = {i}};
+            chosen[count++] = i;
     }
     return count;
 }
 
-/* Fits the `count` sets behind those that are fitted already. */
+/* Fits the first `count` of the chosen candidates. */
 static int run_refits(struct engine *engine, struct round_result *result, int count)
 {
     struct pool *pool = engine->pool;
     double *deck = POOL_ARRAY(pool, double, engine->states.nparameter);
-    struct refits refits = {engine, result, deck, result->nrefit, POOL_ARRAY(pool, struct pool, count)};
+    struct refits refits = {engine, result, deck, POOL_ARRAY(pool, struct pool, count)};
     if (!deck || !refits.pool)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < engine->states.nparameter; p++)
         deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
     for (int i = 0; i < count; i++)
         pool_open(&refits.pool[i], pool->allocator);
-    result->nrefit += count;
+    result->nrefit = result->nsingle = count;
     int status = parallel_for(engine->threads, count, refit_task, &refits);
     for (int i = 0; i < count; i++)
         pool_absorb(pool, &refits.pool[i]);
     return status;
 }
 
-/* The number of the best fit in score from `first` on that is not taken, -1 where there is none. */
-static int best_refit(const struct round_result *result, int first, int besides)
-{
-    int best = -1;
-    double least = INFINITY;
-    for (int i = first; i < result->nrefit; i++) {
-        const rotid_fit_result *fit = result->refit[i].fit;
-        double score = fit ? fit->chi2 + PARAMETER_PENALTY * fit->n : INFINITY;
-        if (score < least && i != besides) {
-            least = score;
-            best = i;
-        }
-    }
-    return best;
-}
-
-/* Partners beside cause m of a fit, behind the `count` sets that are to be fitted. */
-static int add_partners(struct engine *engine, struct round_result *result, int number, int m, int most, int *count)
-{
-    const struct refit *refit = &result->refit[number];
-    const struct scan_set *set = &result->set[number];
-    const struct scan_candidate *c = &result->scan.candidate[set->candidate[m]];
-    if (c->cause->solid)
-        return ROTID_OK;
-    const struct rotor *rotor = &refit->states.state[c->home].job.rotor;
-    return pairs_beside(engine->pool, &engine->states, engine->number, engine->holdout, refit->fit->x, &result->scan,
-                        set->candidate[m], &rotor->effect[refit_effect(&result->scan, set, m, c->home, rotor)], most,
-                        result->set + result->nrefit, count);
-}
-
-static int same_pair(const struct scan_set *a, const struct scan_set *b)
-{
-    return a->count == b->count && ((a->candidate[0] == b->candidate[0] && a->candidate[1] == b->candidate[1]) ||
-                                    (a->candidate[0] == b->candidate[1] && a->candidate[1] == b->candidate[0]));
-}
-
-/* Of a pair that was fitted from several starts the best fit stays. */
-static void merge_pairs(struct round_result *result, int first)
-{
-    int kept = first;
-    for (int i = first; i < result->nrefit; i++) {
-        int same = first;
-        while (same < kept && !same_pair(&result->set[same], &result->set[i]))
-            same++;
-        int better = same == kept ||
-                     (result->refit[i].fit && (!result->refit[same].fit || result->refit[i].chi2 < result->refit[same].chi2));
-        if (same < kept)
-            rotid_fit_free(result->refit[better ? same : i].fit);
-        if (better) {
-            result->set[same] = result->set[i];
-            result->refit[same] = result->refit[i];
-        }
-        if (i != same) /* the next fits may be cancelled before they take its place */
-            result->refit[i] = (struct refit){0};
-        kept += same == kept;
-    }
-    result->nrefit = kept;
-}
-
-/* Pairs, where the best single cause does not explain the data. Where that is the rotor as a solid the rounds go on with it
- * first: it is no column that could be one of two. Columns without effects choose them, and columns beside the best single
- * causes; and where no pair explains the data, columns beside each cause of the best pair. */
-static int run_pairs(struct engine *engine, struct round_result *result)
-{
-    const struct scan *scan = &result->scan;
-    int first = result->nrefit, solid = engine->job->options.solid, best = best_refit(result, 0, -1), count = 0, beside = 0;
-    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid || fit_explains(scan, result->refit[best].fit))
-        return ROTID_OK;
-    int status = pairs_choose(engine->pool, &engine->states, scan, solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS,
-                              result->set + result->nrefit, &count);
-    int second = best_refit(result, 0, best);
-    if (!status)
-        status = add_partners(engine, result, best, 0, PARTNERS, &count);
-    if (!status && second >= 0)
-        status = add_partners(engine, result, second, 0, PARTNERS, &count);
-    if (!status)
-        status = run_refits(engine, result, count);
-    if (status)
-        return status;
-    merge_pairs(result, first);
-    best = best_refit(result, first, -1);
-    if (best < 0 || solid || fit_explains(scan, result->refit[best].fit))
-        return ROTID_OK;
-    for (int m = 0; m < 2 && !status; m++)
-        status = add_partners(engine, result, best, m, PARTNERS, &beside);
-    if (!status)
-        status = run_refits(engine, result, beside);
-    if (!status)
-        merge_pairs(result, first);
-    return status;
-}
-
-/* The model before the round once more, its data having changed. */
-static int fit_again(struct engine *engine)
-{
-    rotid_fit_result *fit = NULL;
-    if (!engine->out->ncause)
-        return base_again(engine);
-    int status = refit_states(engine->pool, &engine->states, engine->number, engine->holdout, engine->environment, &fit);
-    if (status)
-        return status;
-    if (engine->fit != engine->out->base.fit)
-        rotid_fit_free(engine->fit);
-    engine->fit = fit;
-    return ROTID_OK;
-}
-
-/* The data judged by the best refits: pairing, channels, noise; the round is to be repeated where something was at fault. Pairing
- * and channels until a cause is named: beside the model that has it they were looked at. */
+/* The data judged by the best refits: pairing, channels, noise; the round is to be repeated where something was at fault. */
 static int settle_data(struct engine *engine, struct round_result *result, int *changed)
 {
-    int best = -1, status = ROTID_OK;
-    *changed = 0;
-    if (!engine->out->ncause)
-        status = pairing_settle(engine, result, changed);
-    if (!status && !*changed && !engine->out->ncause)
+    int best = -1, status = pairing_settle(engine, result, changed);
+    if (!status && !*changed)
         status = faults_settle(engine, result, changed);
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
             best = i;
     if (!status && !*changed)
         status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
-    if (status || !*changed)
-        return status;
-    status = fit_again(engine);
-    return status || engine->out->ncause ? status : pairing_note_again(engine);
+    if (!status && *changed)
+        status = base_again(engine);
+    return status || !*changed ? status : pairing_note_again(engine);
 }
 
-/* The fits of a round. doubt: of the data, once they are there; *again: the data were at fault and are better now */
-static int fit_round(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
+/* Scan, and fits of single causes. */
+static int fit_singles(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
 {
     struct pool *pool = engine->pool;
     *round = (struct diagnosis_round){0};
     *result = (struct round_result){0};
-    *again = 0;
-    int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
+    int status = engine_stage(engine, "scan", 1);
     if (!status)
         status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan);
     engine_step(engine, "scan");
@@ -619,91 +246,64 @@ static int fit_round(struct engine *engine, struct diagnosis_round *round, struc
     if (status)
         return status;
     const struct bootstrap *b = &result->bootstrap;
-    round->result.chi2 = scan->chi2;
-    round->result.chi2_frequency = scan->chi2_frequency;
-    round->result.frequencies = scan->nfrequency;
-    round->result.dof = scan->dof;
-    round->result.largest = scan->largest;
-    round->result.threshold = b->threshold;
-    round->result.p_scan = b->p_scan;
-    round->result.p_frequency = b->p_frequency;
-    round->result.p_total = b->p_total;
-    int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
-    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + 2 * MOST_PAIRS + 4 * PARTNERS);
-    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + 2 * MOST_PAIRS + 4 * PARTNERS);
-    if (!result->set || !result->refit)
+    round->result = (rotid_round){.round = 1,
+                                  .chi2 = scan->chi2,
+                                  .chi2_frequency = scan->chi2_frequency,
+                                  .frequencies = scan->nfrequency,
+                                  .dof = scan->dof,
+                                  .largest = scan->largest,
+                                  .threshold = b->threshold,
+                                  .p_scan = b->p_scan,
+                                  .p_frequency = b->p_frequency,
+                                  .p_total = b->p_total};
+    result->adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
+    result->room = scan->ncandidate + SEARCH_FITS;
+    result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
+    result->refit = POOL_ARRAY(pool, struct refit, result->room);
+    if (!result->candidate || !result->refit)
         return ROTID_ERROR_MEMORY;
-    if (!adequate) {
-        status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan,
-                            engine->out->nround ? NULL : engine->notes);
-        engine_step(engine, "scan");
-    }
+    if (!result->adequate)
+        status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan, engine->notes);
+    engine_step(engine, "scan");
     if (status)
         return status;
-    int single = adequate ? 0 : choose(scan, b->threshold, result->set);
-    status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
+    int single = result->adequate ? 0 : choose(scan, b->threshold, result->candidate);
+    status = engine_stage(engine, "fits of candidates", 1);
     if (!status)
         status = run_refits(engine, result, single);
     engine_step(engine, "refits");
-    if (!status && doubt && !adequate && !engine->out->ncause)
-        status = far_starts_search(engine, result, again);
-    engine_step(engine, "far starts");
-    if (!status && *again)
-        status = fit_again(engine);
-    if (status || *again)
-        return status;
-    if (!adequate)
-        status = run_pairs(engine, result);
-    engine_step(engine, "pairs");
-    if (!status && doubt)
-        status = settle_data(engine, result, again);
-    engine_step(engine, "data");
-    if (status || *again)
-        return status;
-    round->result.kind = adequate ? ROTID_ADEQUATE : -1;
-    return ROTID_OK;
-}
-
-static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
-{
-    int status = fit_round(engine, round, result, doubt, again);
-    if (status || *again)
-        return status;
-    int adequate = round->result.kind == ROTID_ADEQUATE;
-    status = evidence_collect(engine, result, round);
-    engine_step(engine, "held out");
-    if (!status && adequate)
-        round->result.kind = ROTID_ADEQUATE;
     return status;
 }
 
 int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
 {
-    int again;
-    return fit_round(engine, round, result, 0, &again);
+    return fit_singles(engine, round, result);
 }
 
-int round_settle(struct engine *engine)
-{
-    struct diagnosis_round round;
-    struct round_result result = {0};
-    int again = 1, status = ROTID_OK;
-    for (int pass = 1; again && pass < MOST_PASSES && !status; pass++) {
-        round_free(&result);
-        status = fit_round(engine, &round, &result, 1, &again);
-    }
-    round_free(&result);
-    return status;
-}
-
-int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, struct round_result *result,
+              struct posterior *posterior)
 {
     int again = 1, status = ROTID_OK;
     for (int pass = 1; again && !status; pass++) {
         round_free(result);
-        status = run_once(engine, round, result, engine->states.nstate == 1 && pass < MOST_PASSES, &again);
+        again = 0;
+        status = fit_singles(engine, round, result);
+        if (!status && doubt && pass < MOST_PASSES && !result->adequate) {
+            status = far_starts_search(engine, result, &again);
+            engine_step(engine, "far starts");
+            if (!status && again) {
+                status = base_again(engine);
+                continue;
+            }
+        }
+        if (!status)
+            status = posterior_run(engine, result, posterior);
+        engine_step(engine, "posterior");
+        if (!status && doubt && pass < MOST_PASSES)
+            status = settle_data(engine, result, &again);
+        engine_step(engine, "data");
     }
-    return status;
+    return status || !result->fault ? status : posterior_add_fault(engine, result->fault, posterior);
 }
 
 void round_free(struct round_result *result)

@@ -117,40 +117,24 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
                      "verdict, so no cause is named: state *NOISE.");
 }
 
-static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
+/* The likeliest causes and what is left to the rest. */
+static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
-    const rotid_round *round = d->rounds;
-    int first, second, count, tried = 0;
-    if (!d->nrounds || d->verdict.kind == -1)
-        return;
-    const rotid_candidate *candidate = diagnosis_candidates(d, 0, &count);
-    diagnosis_leaders(d, 0, &first, &second);
-    for (int i = 0; i < count; i++)
-        tried += candidate[i].refitted;
-    if (d->verdict.kind == ROTID_NAMED && first >= 0 && second >= 0)
-        say(reasons,
-            pool_format(pool,
-                        "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
-                        human_count(pool, tried), candidate_words(pool, d, &candidate[first]),
-                        candidate_words(pool, d, &candidate[second]),
-                        human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
-                        human_trimmed(pool, round->required_margin, 3)));
-    else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
-        say(reasons, pool_format(pool,
-                                 "Of %s causes that were fitted all others were refused, for their size or because they predict "
-                                 "held-out modes worse.",
-                                 human_count(pool, tried)));
-    if (d->verdict.kind == ROTID_AMBIGUOUS && verdict_sets(&d->verdict) > 1 && isfinite(round->required_margin))
-        say(reasons, pool_format(pool,
-                                 "None of them leads the others by %s in the misfit, the lead that a name requires. Their order "
-                                 "is that of the fit, and the next test may reverse it.",
-                                 human_trimmed(pool, round->required_margin, 3)));
-    if (d->verdict.kind == ROTID_UNEXPLAINED)
-        say(reasons,
-            tried ? pool_format(pool, "%s %s fitted and refused; the evidence says why.",
-                                sentence_of(pool, human_count(pool, tried)), human_plural(tried, "cause was", "causes were"))
-                  : "No cause of the catalogue promises enough to be fitted.");
+    const rotid_verdict *v = &d->verdict;
+    int tried = 0;
+    for (int i = 0; i < d->ncandidates; i++)
+        tried += d->candidates[i].refitted;
+    for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
+        say(reasons, pool_format(pool, "%s%s%s is there with %s %%.", plain_cause(pool, v->marginals[i].id),
+                                 *v->marginals[i].target ? " of " : "", v->marginals[i].target,
+                                 human_digits(pool, 100 * v->marginals[i].probability, 3)));
+    if (v->nexplanations && v->something_else > 0.01)
+        say(reasons, pool_format(pool, "Something outside of the catalogue is there with %s %%.",
+                                 human_digits(pool, 100 * v->something_else, 2)));
+    if (tried && v->kind != ROTID_ADEQUATE)
+        say(reasons, pool_format(pool, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
+                                 human_plural(tried, "cause was", "causes were")));
 }
 
 static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
@@ -227,20 +211,6 @@ static void tile_pair(struct document *document, const char *name, const rotid_p
         note);
 }
 
-/* A parameter under the causes that cannot be told apart: the leading one's value, and the interval that holds all intervals. */
-static void tile_spread(struct document *document, const rotid_verdict *v, int p)
-{
-    struct pool *pool = document->pool;
-    const rotid_spread *s = &v->spread[p];
-    const rotid_cause *lead = v->nalternative_causes ? v->alternative_causes : NULL;
-    double value = lead && p < lead->nidentified ? lead->identified[p].value : (s->lowest + s->highest) / 2;
-    const rotid_fitted_parameter whole = {
-        .name = s->name, .unit = s->unit, .value = value, .ci95 = {s->ci95[0], s->ci95[1]}, .identifiable = 1};
-    tile_parameter(
-        document, &whole,
-        pool_format(pool, "holds those of all %s causes; the value is that of the first", human_count(pool, verdict_sets(v))));
-}
-
 static void add_tiles(struct document *document, const rotid_diagnosis *d)
 {
     const rotid_identification *fit = d->extended ? d->extended : d->base;
@@ -251,9 +221,12 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
     for (int p = 0; fit && p < d->base->nparameters && p < TILES_MOST - 3; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         double was = d->base->parameters[p].value;
-        if (p < v->nspread && verdict_sets(v) > 1)
-            tile_spread(document, v, p);
-        else if (value)
+        if (p < d->nparameters && v->nexplanations > 1 && v->kind != ROTID_NAMED) {
+            const rotid_averaged_parameter *mean = &d->parameters[p];
+            const rotid_fitted_parameter whole = {
+                .name = mean->name, .unit = mean->unit, .value = mean->value, .ci95 = {mean->ci95[0], mean->ci95[1]}, .identifiable = 1};
+            tile_parameter(document, &whole, "averaged over the explanations by their probabilities");
+        } else if (value)
             tile_parameter(document, value,
                            d->extended ? pool_format(pool, "was %s", human_value(pool, was, value->unit)) : NULL);
     }
@@ -292,7 +265,7 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
 {
     struct reasons reasons = {.pool = document->pool};
     on_chance(&reasons, d);
-    on_lead(&reasons, d);
+    on_shares(&reasons, d);
     on_parameters(&reasons, d);
     on_today(&reasons, d);
     if (!reasons.count)
@@ -302,20 +275,6 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
 }
 
 /* ---- parameters */
-
-/* What the dispute is worth, in a paragraph. */
-static void say_spread(struct document *document, const rotid_verdict *v)
-{
-    char figure[32];
-    for (int p = 0; p < v->nspread && verdict_sets(v) > 1; p++) {
-        const rotid_spread *s = &v->spread[p];
-        struct human_unit unit = human_unit(s->highest, s->unit);
-        document_paragraph(document, "%s lies between %s and %s%s%s, %s apart, depending on the cause.", s->name,
-                           human_digits(document->pool, s->lowest * unit.factor, 4),
-                           human_digits(document->pool, s->highest * unit.factor, 4), *unit.text ? "\xc2\xa0" : "", unit.text,
-                           percent_text(200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest), figure));
-    }
-}
 
 /* Two digits: more is not known of a size that would have shown. */
 static const char *size_of(struct pool *pool, double size, const char *unit)
@@ -362,7 +321,6 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     if (!d->base || !fit || d->verdict.kind < 0 || !d->base->nparameters)
         return;
     document_section(document, "verdict-parameters", "Parameters of the verdict");
-    say_spread(document, &d->verdict);
     document_figures(document, "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
@@ -387,8 +345,6 @@ static void section_explanations(struct document *document, const rotid_diagnosi
 
 static void section_evidence(struct document *document, const rotid_diagnosis *d)
 {
-    static const char *const kinds[] = {"no verdict", "the model is adequate", "a cause is named", "the data cannot tell",
-                                        "no cause explains the misfit"};
     struct pool *pool = document->pool;
     if (!d->nrounds)
         return;
@@ -400,8 +356,8 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
         const rotid_candidate *candidate = diagnosis_candidates(d, i, &count);
         for (int k = 0; k < count; k++)
             fitted += candidate[k].refitted;
-        document_paragraph(document, "Round %d: %s. The misfit \xcf\x87\xc2\xb2 before it is %s%s%s%s.", i + 1,
-                           kinds[round->kind + 1], human_digits(pool, round->chi2, 4),
+        document_paragraph(document, "The misfit \xcf\x87\xc2\xb2 of the model without causes is %s%s%s%s.",
+                           human_digits(pool, round->chi2, 4),
                            isfinite(round->threshold) ? "; chance alone lowers it by " : "",
                            isfinite(round->threshold) ? human_digits(pool, round->threshold, 3) : "",
                            isfinite(round->threshold) ? " in 3 of 100 tests" : "");
@@ -411,8 +367,7 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
         }
         struct table *table = table_of_candidates(pool, d, i, 1);
         if (table)
-            table->caption =
-                or_nothing(pool_format(pool, "Candidates of round %d: sizes and places with 95 %% intervals", i + 1));
+            table->caption = "Single causes: sizes and places with 95 % intervals";
         document_table(document, table);
     }
 }

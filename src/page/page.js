@@ -817,16 +817,16 @@
       const stay = list.filter((c) => c.fate === 'named' || c.fate.startsWith('possible'));
       const names = stay.map((c) => c.label);
       const several = (key) => list.filter((c) => known(c[key])).length > 1;
-      const out = several('mode_out_rms') ? ['mode_out_rms', 'error of modes left out [%]'] : several('holdout_rms') ? ['holdout_rms', 'error of held-out modes [%]'] : several('sensor_out_rms') ? ['sensor_out_rms', 'error at sensors left out, over its noise'] : null;
+      const out = several('holdout_rms') ? ['holdout_rms', 'error of held-out modes [%]'] : several('sensor_out_rms') ? ['sensor_out_rms', 'error at sensors left out, over its noise'] : null;
       const tint = (c) => (c.fate === 'named' ? 'green' : c.fate.startsWith('possible') ? 'ochre' : 'steel');
-      const title = stay.length && stay[0].fate === 'named' ? `Round ${round.round}: ${names[0]} lowers the misfit by ${num(stay[0].chi2_drop, 3)} of ${num(round.chi2, 3)}`
-        : stay.length ? `Round ${round.round}: ${stay.length} ${stay.length === 1 ? 'cause' : 'causes'} cannot be told apart: ${names.slice(0, 3).join('; ')}${names.length > 3 ? '; \u2026' : ''}`
-          : `Round ${round.round}: none of ${list.length} causes that were fitted is accepted`;
+      const title = stay.length && stay[0].fate === 'named' ? `${names[0]} lowers the misfit by ${num(stay[0].chi2_drop, 3)} of ${num(round.chi2, 3)}`
+        : stay.length ? `${stay.length} ${stay.length === 1 ? 'cause' : 'causes'} cannot be told apart: ${names.slice(0, 3).join('; ')}${names.length > 3 ? '; \u2026' : ''}`
+          : `None of ${list.length} single causes that were fitted is likely`;
       const columns = [{ label: 'drop of the misfit \u03c7\u00b2', domain: padded(list.map((c) => Math.max(c.chi2_drop, 0)).concat(known(round.threshold) ? round.threshold : 0), 0.04, true), head: ['drop of the misfit', 'what became of it'], value: (c) => [c.chi2_drop, c.fate],
         draw: (c, x, y, content) => { bar(content, x(0), x(Math.max(c.chi2_drop, 0)), y, tint(c)); if (known(round.threshold)) content.append(line(x(round.threshold), y - 10, x(round.threshold), y + 10, 'vermilion', { 'stroke-dasharray': '3 2' })); } }];
       if (out) columns.push({ label: out[1], domain: padded(list.map((c) => c[out[0]]), 0.06, true), value: (c) => c[out[0]], draw: (c, x, y, content) => known(c[out[0]]) && dot(content, x(c[out[0]]), y, tint(c) === 'steel' ? 'muted' : tint(c)) });
       return rows({ id: `causes-${round.round}`, title, caption: `Causes that were fitted${all.length > list.length ? `; ${all.length - list.length} more in the table` : ''}. Red: what chance alone reaches in 3 of 100 tests.${out ? ' The longest bar need not win: the right panel is the error on data that were not fitted.' : ''}`,
-        legend: [['named', 'green', 'face'], ['possible', 'ochre', 'face'], ['not needed or refused', 'steel', 'face']].filter(([, own]) => list.some((c) => tint(c) === own)) }, list.map((c) => ({ ...c, name: c.label, strong: stay.includes(c) })), columns);
+        legend: [['named', 'green', 'face'], ['possible', 'ochre', 'face'], ['unlikely', 'steel', 'face']].filter(([, own]) => list.some((c) => tint(c) === own)) }, list.map((c) => ({ ...c, name: c.label, strong: stay.includes(c) })), columns);
     });
   }
   function gainFigures(entry) {

@@ -121,8 +121,7 @@ const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid
 
 const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
-    const char *label = cause_label(pool, d, &c->cause);
-    return c->with ? or_nothing(pool_format(pool, "%s with %s", label, cause_label(pool, d, c->with))) : label;
+    return cause_label(pool, d, &c->cause);
 }
 
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)

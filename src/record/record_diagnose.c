@@ -21,16 +21,9 @@ static const struct record_field cause_fields[] = {
     TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
     STRUCTS(rotid_cause, parameters, 0, value_record),
     TEXT(rotid_cause, state, MAY_BE_NULL | SINCE_LATER),
-    STRUCTS(rotid_cause, identified, SINCE_LATER, value_record),
     {0},
 };
 const struct record cause_record = RECORD(rotid_cause, cause_fields);
-
-static const struct record_field spread_fields[] = {
-    TEXT(rotid_spread, name, 0),      TEXT(rotid_spread, unit, 0),     NUMBER(rotid_spread, lowest, 0),
-    NUMBER(rotid_spread, highest, 0), INTERVAL(rotid_spread, ci95, 0), {0},
-};
-static const struct record spread_record = RECORD(rotid_spread, spread_fields);
 
 static const struct record_field explanation_fields[] = {
     STRUCTS(rotid_explanation, causes, 0, cause_record),
@@ -69,7 +62,6 @@ static const struct record_field verdict_fields[] = {
     TEXT(rotid_verdict, sentence, MAY_BE_NULL),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
     FLAG(rotid_verdict, confident, SINCE_LATER),
-    STRUCTS(rotid_verdict, spread, SINCE_LATER, spread_record),
     STRUCTS(rotid_verdict, explanations, SINCE_LATER, explanation_record),
     STRUCTS(rotid_verdict, marginals, SINCE_LATER, marginal_record),
     NUMBER(rotid_verdict, nothing, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
@@ -107,7 +99,6 @@ static const struct record numerical_finding_record = RECORD(rotid_numerical_fin
 
 static const struct record_field round_fields[] = {
     INTEGER(rotid_round, round, FROM_1),
-    WORD(rotid_round, kind, 0, verdict_words),
     NUMBER(rotid_round, chi2, MAY_BE_NULL),
     NUMBER(rotid_round, chi2_frequency, MAY_BE_NULL),
     INTEGER(rotid_round, dof, 0),
@@ -117,8 +108,6 @@ static const struct record_field round_fields[] = {
     NUMBER(rotid_round, p_scan, MAY_BE_NULL | PROBABILITY),
     NUMBER(rotid_round, p_frequency, MAY_BE_NULL | PROBABILITY),
     NUMBER(rotid_round, p_total, MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_round, required_margin, MAY_BE_NULL),
-    INTEGER(rotid_round, set, FROM_0),
     {0},
 };
 static const struct record round_record = RECORD(rotid_round, round_fields);
@@ -132,17 +121,10 @@ static const struct record_field candidate_fields[] = {
     NUMBER(rotid_candidate, chi2, MAY_BE_NULL),
     NUMBER(rotid_candidate, chi2_frequency, MAY_BE_NULL),
     NUMBER(rotid_candidate, chi2_drop, MAY_BE_NULL),
-    NUMBER(rotid_candidate, bic, MAY_BE_NULL),
     NUMBER(rotid_candidate, holdout_rms, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_candidate, mode_out_rms, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_candidate, sensor_out_rms, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_candidate, p_value, MAY_BE_NULL | PROBABILITY),
     FLAG(rotid_candidate, at_bound, 0),
-    TEXT(rotid_candidate, collinear_with, MAY_BE_NULL),
-    TEXT(rotid_candidate, collinear_target, MAY_BE_NULL),
-    NUMBER(rotid_candidate, cosine, MAY_BE_NULL),
-    TEXT(rotid_candidate, rejected_because, MAY_BE_NULL),
-    STRUCT(rotid_candidate, with, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, cause_record),
+    NUMBER(rotid_candidate, probability, PROBABILITY),
     {0},
 };
 static const struct record candidate_record = RECORD(rotid_candidate, candidate_fields);

@@ -89,45 +89,24 @@ static int is_among(const rotid_candidate *c, int count, const rotid_cause cause
 
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
-    const rotid_verdict *v = &d->verdict;
-    const rotid_round *round = c->round >= 1 && c->round <= d->nrounds ? &d->rounds[c->round - 1] : NULL;
-    if (round && round->kind == ROTID_NAMED && is_among(c, v->ncauses, v->causes) && !c->rejected_because)
+    if (is_among(c, d->verdict.ncauses, d->verdict.causes))
         return "named";
-    if (round && round->kind != ROTID_NAMED && c->refitted && is_among(c, v->nalternative_causes, v->alternative_causes))
-        return c->rejected_because ? or_nothing(pool_format(pool, "possible, but %s", c->rejected_because)) : "possible";
-    if (c->rejected_because)
-        return or_nothing(pool_format(pool, "refused: %s", c->rejected_because));
-    return c->refitted ? "not needed" : "not fitted";
+    return c->probability > 0 ? or_nothing(pool_format(pool, "possible (%.2g %%)", 100 * c->probability))
+           : c->refitted      ? "unlikely"
+                              : "not fitted";
 }
 
-/* "named; mass 22 kg (95 %: 19 to 25), with joint of core|right: ...; at a bound; similar to stiffness_local (0.85)" */
+/* "named; mass 22 kg (95 %: 19 to 25); at a bound" */
 static const char *note_of(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
     const char *values = c->refitted ? values_of(pool, &c->cause) : "", *text = candidate_fate(pool, d, c);
     text = pool_format(pool, "%s%s%s", text, *values ? ": " : "", values);
-    if (c->with && text)
-        text = pool_format(pool, "%s; with %s: %s", text, label_of(pool, c->with, c->with->id), values_of(pool, c->with));
     if (c->at_bound && text)
         text = pool_format(pool, "%s; at a bound", text);
-    if (c->suspect && text)
-        text = pool_format(pool, "%s; your suspicion, a %s", text, c->cause.id);
-    if (c->collinear_with && isfinite(c->cosine) && text)
-        text = pool_format(pool, "%s; similar to %s%s%s (%.2f)", text, c->collinear_with,
-                           before_target(or_nothing(c->collinear_target)), or_nothing(c->collinear_target), c->cosine);
-    return text;
+    return c->suspect && text ? pool_format(pool, "%s; your suspicion, a %s", text, c->cause.id) : text;
 }
 
 /* ---- tables */
-
-/* Whether candidate i of a round is told when not all are: what was suspected, the first of the set, the first others that were
- * fitted. */
-static int is_told(const rotid_round *round, const rotid_candidate *list, int i)
-{
-    int others = 0;
-    for (int k = round->set; k < i; k++)
-        others += list[k].refitted;
-    return list[i].suspect || (i < round->set ? i < SET_SHOWN : list[i].refitted && others < SHOWN);
-}
 
 struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, int round, int all)
 {
@@ -136,20 +115,17 @@ struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, i
     struct table *table = table_open(pool, "");
     for (int i = 0; i < count; i++) {
         const rotid_candidate *c = &list[i];
-        if (!all && !is_told(&d->rounds[round], list, i)) {
+        if (!all && !c->suspect && i >= SHOWN) {
             more++;
             continue;
         }
         table_row(table);
-        text_column(table, "", SHOW_TEXT, i < d->rounds[round].set ? "*" : "");
         text_column(table, "cause", MAY_BE_CUT, c->suspect ? c->cause.name : c->cause.id);
         text_column(table, "target", MAY_BE_CUT, c->cause.target);
         text_column(table, "state", MAY_BE_CUT, c->cause.state);
         number_column(table, "expected", NULL, SHOW_DIGITS(4), c->predicted_drop);
         number_column(table, "chi2 drop", NULL, SHOW_DIGITS(4), c->chi2_drop);
-        number_column(table, "BIC", NULL, SHOW_DIGITS(5), c->bic);
-        number_column(table, "p-value", NULL, SHOW_CHANCE(3), c->p_value);
-        number_column(table, "modes", "%", SHOW_DIGITS(3), c->mode_out_rms);
+        number_column(table, "share", "%", SHOW_DIGITS(3), 100 * c->probability);
         number_column(table, "sensors", NULL, SHOW_DIGITS(3), c->sensor_out_rms);
         number_column(table, "held out", NULL, SHOW_DIGITS(3), c->holdout_rms);
         row_note(table, note_of(pool, d, c));
@@ -192,18 +168,6 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
         if (strcmp(hidden->component, "presence") != 0 && text)
             text = pool_format(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size),
                                layout_gap(hidden->size_unit), layout_unit(hidden->size_unit));
-    }
-    return text;
-}
-
-/* "stiffness_gradient of right with joint of core|right": the set of alternative cause i. */
-static const char *set_of(struct pool *pool, const rotid_verdict *v, int i)
-{
-    const char *text = "";
-    for (int k = i; k < v->nalternative_causes && (k == i || verdict_is_pair(v, k)) && text; k++) {
-        const rotid_cause *cause = &v->alternative_causes[k];
-        text = pool_format(pool, "%s%s%s", text, k > i ? " with " : "",
-                           label_of(pool, cause, cause->name && cause->variant ? cause->name : cause->id));
     }
     return text;
 }
@@ -261,9 +225,8 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
             value_row(table, value->name, averaged ? d->extended ? "the extended model" : "the model of the deck" : "", value);
             row_note(table, unseen ? hidden_of(pool, d, value) : "");
         }
-        for (int i = 0; i < v->nalternative_causes; i++) {
-            const rotid_cause *cause = &v->alternative_causes[i];
-            const rotid_cause_value *by = p < cause->nidentified && !verdict_is_pair(v, i) ? &cause->identified[p] : NULL;
+        for (int i = 0; i < v->nexplanations && v->kind == ROTID_AMBIGUOUS; i++) {
+            const rotid_cause_value *by = p < v->explanations[i].nidentified ? &v->explanations[i].identified[p] : NULL;
             if (!by)
                 continue;
             if (shown == LISTED && !all) {
@@ -271,7 +234,7 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
                 continue;
             }
             shown++;
-            value_row(table, by->name, set_of(pool, v, i),
+            value_row(table, by->name, explanation_of(pool, &v->explanations[i]),
                       &(rotid_fitted_parameter){.value = by->value,
                                                 .unit = by->unit,
                                                 .ci95 = {by->ci95[0], by->ci95[1]},
@@ -513,7 +476,6 @@ static void print_round(const struct screen *to, const rotid_diagnosis *d, int n
     const rotid_round *round = &d->rounds[number];
     struct wrap wrap;
     wrap_open(&wrap, to->out, 4, to->width, "  ");
-    wrap_item(&wrap, "round %d, %s:", round->round, rotid_verdict_name(round->kind));
     if (isfinite(round->chi2))
         wrap_item(&wrap, "chi2 %.4g of %d degrees of freedom", round->chi2, round->dof);
     if (isfinite(round->largest) && isfinite(round->threshold))
@@ -523,16 +485,13 @@ static void print_round(const struct screen *to, const rotid_diagnosis *d, int n
     print_chance(&wrap, ", of chi2", round->p_total);
     wrap_close(&wrap);
     table_write_text(to->out, table_of_candidates(to->pool, d, number, to->verbose), to->width);
-    if (isfinite(round->required_margin) && round->set > 1)
-        (void)fprintf(to->out, "    a cause is named alone where its chi2 drop leads every other by %.3g\n",
-                      round->required_margin);
 }
 
 static void print_evidence(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->nrounds)
         (void)fprintf(to->out,
-                      "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; modes in %%, sensors res./sigma)\n");
+                      "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; sensors res./sigma)\n");
     for (int i = 0; i < d->nrounds; i++)
         print_round(to, d, i);
 }
@@ -553,7 +512,6 @@ static void print_shares(const struct screen *to, const rotid_diagnosis *d)
 static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
-    char figure[32];
     if (!v->sentence || !d->base || !d->base->nparameters)
         return;
     (void)fprintf(to->out, "\nPARAMETERS  %s, 95 %% intervals%s\n", d->extended ? "extended model" : "model of the deck",
@@ -564,15 +522,6 @@ static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
     if (table)
         table->caption = "";
     table_write_text(to->out, table, to->width);
-    for (int p = 0; p < v->nspread && verdict_sets(v) > 1; p++) {
-        const rotid_spread *s = &v->spread[p];
-        struct human_unit unit = human_unit(s->highest, s->unit);
-        double f = unit.factor;
-        (void)fprintf(to->out, "  these causes leave %s %s to %s%s%s, %s apart; their intervals %s to %s\n", s->name,
-                      IN_DIGITS(4, f * s->lowest), IN_DIGITS(4, f * s->highest), *unit.text ? " " : "", unit.text,
-                      percent_text(200 * (s->highest - s->lowest) / fabs(s->highest + s->lowest), figure),
-                      IN_DIGITS(4, f * s->ci95[0]), IN_DIGITS(4, f * s->ci95[1]));
-    }
 }
 
 static void print_heading(const struct screen *to, const struct result_head *head)

@@ -137,19 +137,6 @@ int diagnosis_is_suspected(const rotid_diagnosis *d, const rotid_cause *cause)
     return 0;
 }
 
-static int searched(const rotid_cause *cause)
-{
-    int count = 0;
-    for (int p = 0; p < cause->nparameters; p++)
-        count += !cause->parameters[p].fixed;
-    return count;
-}
-
-static int searched_by(const rotid_candidate *c)
-{
-    return searched(&c->cause) + (c->with ? searched(c->with) : 0);
-}
-
 int verdict_is_pair(const rotid_verdict *v, int i)
 {
     return i > 0 && i < v->nalternative_sets && v->alternative_sets[i] > 0 &&
@@ -164,30 +151,3 @@ int verdict_sets(const rotid_verdict *v)
     return count;
 }
 
-double candidate_lead(const rotid_candidate *a, const rotid_candidate *b)
-{
-    return a->chi2_drop - b->chi2_drop - PARAMETER_PENALTY * (searched_by(a) - searched_by(b));
-}
-
-/* The result has the reasons as sentences alone. */
-static int candidate_is_rival(const rotid_candidate *c)
-{
-    const char *why = c->rejected_because;
-    return c->refitted && isfinite(c->chi2_drop) &&
-           (!why || !strncmp(why, "loses to ", 9) || !strncmp(why, "gains no more ", 14));
-}
-
-void diagnosis_leaders(const rotid_diagnosis *d, int round, int *first, int *second)
-{
-    int count;
-    const rotid_candidate *candidate = diagnosis_candidates(d, round, &count);
-    *first = d->rounds[round].set ? 0 : -1; /* whatever fits better was refused, and says why */
-    *second = -1;
-    for (int i = 0; i < count; i++) {
-        const rotid_candidate *c = &candidate[i];
-        if (!candidate_is_rival(c) || i == *first)
-            continue;
-        if (*second < 0 || candidate_lead(c, &candidate[*second]) > 0)
-            *second = i;
-    }
-}

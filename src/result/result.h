@@ -299,15 +299,10 @@ int verdict_is_pair(const rotid_verdict *verdict, int i);
 
 /* The fit as the deck states it, where it gives other parameters than the base model by a different choice; else NULL. */
 const rotid_identification *diagnosis_today(const rotid_diagnosis *d);
-/* The candidates of a round, from 0: the set first, then the others, best first; their count. */
+/* The candidates of a round, from 0, best first; their count. */
 const rotid_candidate *diagnosis_candidates(const rotid_diagnosis *d, int round, int *count);
 /* Whether a card of the deck asked for the cause, which has the name of that card then. */
 int diagnosis_is_suspected(const rotid_diagnosis *d, const rotid_cause *cause);
-/* By how much a candidate leads another one of its round: chi2 and a penalty for each parameter that was searched for, as the
- * decision counts them. */
-double candidate_lead(const rotid_candidate *a, const rotid_candidate *b);
-/* The best candidate of a round, and the best other one that is a rival, as indices of diagnosis_candidates; -1: none. */
-void diagnosis_leaders(const rotid_diagnosis *d, int round, int *first, int *second);
 
 /* ----------------------------------------------------------------------------------------------------------------- place */
 

@@ -9,7 +9,8 @@
 
 #define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
 #define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
-#define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
+#define ODDS       19.0 /* of a name, over all others */
+#define LEAST      1e-12 /* probability: what was left out of the sum may have so much */
 
 struct sources {                 /* of rivals */
     const struct states *base;   /* the model with what is named */
@@ -78,7 +79,6 @@ static int take_fit(struct pool *pool, const struct sources *from, const struct 
     rival->job = home->job;
     rival->x = state_values(pool, home, refit->fit->x);
     rival->fit = refit->fit;
-    rival->score = refit->chi2;
     return rival->x && rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -92,9 +92,9 @@ static const char *label_of(struct pool *pool, int count, const struct candidate
                                    : text;
 }
 
-/* Fits a rival; one that cannot be fitted is none. */
+/* Fits a rival of that probability; one that cannot be fitted is none. */
 static int add(struct pool *pool, const struct sources *from, int count, const struct candidate *cause, double other_place,
-               struct rivals *rivals)
+               double probability, struct rivals *rivals)
 {
     struct rival *rival = &rivals->rival[rivals->n];
     struct refit refit = {.chi2 = INFINITY};
@@ -108,15 +108,14 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     }
     if (status)
         return status;
-    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause};
+    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause, .share = probability};
     rivals->n++;
     status = take_fit(pool, from, &refit, rival);
-    for (int i = 0; i < count; i++)
-        rival->score += candidate_score(&cause[i]) - cause[i].result.chi2;
+    rival->score = -2 * log(fmax(LEAST, probability));
     return status;
 }
 
-static int add_base(struct pool *pool, const struct sources *from, struct rivals *rivals)
+static int add_base(struct pool *pool, const struct sources *from, double probability, struct rivals *rivals)
 {
     struct states states;
     struct refit refit = {0};
@@ -129,7 +128,7 @@ static int add_base(struct pool *pool, const struct sources *from, struct rivals
     if (status)
         return status;
     struct rival *rival = &rivals->rival[rivals->n++];
-    *rival = (struct rival){.label = "the model as it is"};
+    *rival = (struct rival){.label = "the model as it is", .score = -2 * log(fmax(LEAST, probability))};
     return take_fit(pool, from, &refit, rival);
 }
 
@@ -139,51 +138,17 @@ static int by_score(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
+/* By their probabilities; among: what they have together, the model as it is and something else being the rest. */
 static void share(struct rivals *rivals)
 {
-    double least = INFINITY, sum = 0;
+    double sum = 0;
     if (rivals->n > 1)
         qsort(rivals->rival, (size_t)rivals->n - 1, sizeof *rivals->rival, by_score);
     for (int i = 0; i + 1 < rivals->n; i++)
-        least = fmin(least, rivals->rival[i].score);
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i + 1 < rivals->n; i++) {
-            double weight = exp(-(rivals->rival[i].score - least) / 2);
-            if (pass)
-                rivals->rival[i].share = weight / sum;
-            else
-                sum += weight;
-        }
-}
-
-static int is_rival(const struct rivals *rivals, const struct candidate *c)
-{
-    for (int i = 0; i + 1 < rivals->n; i++) {
-        const struct candidate *r = rivals->rival[i].cause;
-        int pair = rivals->rival[i].ncause > 1;
-        if (r->cause == c->cause && r->effect.target == c->effect.target && r->state == c->state && pair == (c->with != NULL) &&
-            (!pair ||
-             (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
-            return 1;
-    }
-    return 0;
-}
-
-/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED)
- * with the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
-static double share_among(const struct rivals *rivals, const struct diagnosis_round *round)
-{
-    const struct rival *best = rivals->rival;
-    double inside = 0, all = exp(-(rivals->rival[rivals->n - 1].score - best->score) / 2),
-           p = best->fit->dof > 0 ? chi_square_tail(best->fit->chi2, best->fit->dof) : 1;
+        sum += rivals->rival[i].share;
     for (int i = 0; i + 1 < rivals->n; i++)
-        inside += exp(-(rivals->rival[i].score - best->score) / 2);
-    for (int i = 0; i < round->ncandidate; i++) {
-        const struct candidate *c = &round->candidate[i];
-        if (c->result.refitted && !c->refused && isfinite(c->result.chi2) && !is_rival(rivals, c))
-            all += exp(-fmax(0, candidate_score(c) - best->score) / 2);
-    }
-    return inside / (inside + all) * p / (p + JUDGED);
+        rivals->rival[i].share /= sum > 0 ? sum : 1;
+    rivals->among = sum;
 }
 
 int rivals_home(const struct states *states)
@@ -226,29 +191,28 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
             if (s == from.home && !from.holdout[at])
                 rivals->number[rivals->nmode++] = from.number[at];
         }
-    rivals->margin = fmax(LEAST_MARGIN, isfinite(last->result.required_margin) ? last->result.required_margin : 0);
-    rivals->base_margin = fmax(rivals->margin, CLEAR * last->result.threshold);
+    rivals->margin = rivals->base_margin = 2 * log(ODDS);
     for (int i = 0, count; i < d->nalternative && !status; i += count) {
         const struct candidate *c = &d->alternative[i];
-        count = 1 + (i + 1 < d->nalternative && c[1].set == c->set); /* a pair has one number */
-        if (!is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
+        for (count = 1; i + count < d->nalternative && c[count].set == c->set;)
+            count++;
+        if (count > 2 || !is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
             rivals->left_out++;
             continue;
         }
-        status = add(pool, &from, count, c, NAN, rivals);
         int elsewhere =
             count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] && c->other_chi2 - c->result.chi2 < rivals->margin;
+        double here = elsewhere ? 1 / (1 + exp((c->result.chi2 - c->other_chi2) / 2)) : 1;
+        status = add(pool, &from, count, c, NAN, here * c->probability, rivals);
         if (!status && elsewhere && rivals->n < MOST_RIVALS)
-            status = add(pool, &from, count, c, c->other_place, rivals);
+            status = add(pool, &from, count, c, c->other_place, (1 - here) * c->probability, rivals);
     }
     if (!status && rivals->n)
-        status = add_base(pool, &from, rivals);
+        status = add_base(pool, &from, d->posterior.nothing, rivals);
     if (status)
         rivals_free(rivals);
     else
         share(rivals);
-    if (rivals->n)
-        rivals->among = share_among(rivals, last);
     return status;
 }
 

@@ -17,20 +17,19 @@ static const char usage[] =
     "  --jobs N         cases at once (2)\n"
     "  --only KIND      of `hide --random`: none, an id, physical, data, outside, pair; in place of the mixture\n"
     "  --changed        pairs of states with an error of the model in both: what changed between them\n"
-    "  --posterior      decides by the probabilities of explanations, in place of the rules\n"
     "  --log FILE       a line of JSON a case; goes on with what the file holds\n"
     "  --keep FOLDER    leaves there the deck of a case and its truth: case_N.inp, case_N.json\n"
     "  --suggest        makes the tests that rotid suggest proposes of ambiguous cases, and counts what becomes of its promises\n"
     "Interrupted, it shows what is finished. Exit code: 0 all requirements hold, 1 one does not, 2 wrong usage, 3 a file or "
     "memory.\n";
 
-enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, SUGGEST, POSTERIOR, HELP };
+enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, SUGGEST, HELP };
 
 static const struct option long_options[] = {
     {"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST},         {"seed", 1, NULL, SEED},
     {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},           {"changed", 0, NULL, CHANGED},
     {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},           {"suggest", 0, NULL, SUGGEST},
-    {"help", 0, NULL, HELP},   {"posterior", 0, NULL, POSTERIOR}, {NULL, 0, NULL, 0}};
+    {"help", 0, NULL, HELP}, {NULL, 0, NULL, 0}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -76,9 +75,6 @@ static int take(int option, struct power_options *o)
         return 0;
     case KEEP:
         o->keep = optarg;
-        return 0;
-    case POSTERIOR:
-        o->posterior = 1;
         return 0;
     case SUGGEST:
         o->suggest = 1;

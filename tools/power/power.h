@@ -14,7 +14,6 @@ struct power_options {
     const char *only; /* kind of effect of `hide --random`, or NULL: the mixture */
     const char *log;  /* a line of JSON a case; what it holds is not done again. NULL: none */
     int suggest;      /* what becomes of the tests that are proposed, in place of the diagnosis alone */
-    int posterior; /* decide by the probabilities of explanations */
     const char *keep; /* directory for decks and truths, NULL: they are removed */
 };
 

@@ -26,16 +26,12 @@ static cJSON *candidate_line(const struct candidate *c)
         add_number(o, c->effect.kind->parameter[p].name, c->effect.value[p]);
     if (c->cause->variant[0] && c->effect.kind)
         cJSON_AddStringToObject(o, "variant", c->cause->variant[c->effect.variant]);
-    if (c->with)
-        cJSON_AddItemToObject(o, "with", candidate_line(c->with));
     add_number(o, "predicted", c->result.predicted_drop);
     if (c->result.refitted) {
         add_number(o, "drop", c->result.chi2_drop);
-        add_number(o, "mode_out", c->result.mode_out_rms);
         add_number(o, "sensor_out", c->result.sensor_out_rms);
     }
-    if (c->result.rejected_because)
-        cJSON_AddStringToObject(o, "rejected", c->result.rejected_because);
+    add_number(o, "probability", c->result.probability);
     return o;
 }
 
@@ -43,7 +39,7 @@ static cJSON *candidates(int count, const struct candidate *c)
 {
     cJSON *list = cJSON_CreateArray();
     for (int i = 0; i < count; i++)
-        if (c[i].result.refitted || !c[i].result.rejected_because || i < 3)
+        if (c[i].result.refitted || i < 3)
             cJSON_AddItemToArray(list, candidate_line(&c[i]));
     return list;
 }
@@ -51,7 +47,6 @@ static cJSON *candidates(int count, const struct candidate *c)
 static cJSON *round_line(const struct diagnosis_round *r)
 {
     cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "kind", rotid_verdict_name(r->result.kind));
     add_number(o, "chi2", r->result.chi2);
     add_number(o, "dof", r->result.dof);
     add_number(o, "largest", r->result.largest);
@@ -59,8 +54,6 @@ static cJSON *round_line(const struct diagnosis_round *r)
     add_number(o, "p_scan", r->result.p_scan);
     add_number(o, "p_frequency", r->result.p_frequency);
     add_number(o, "p_total", r->result.p_total);
-    add_number(o, "required_margin", r->result.required_margin);
-    add_number(o, "nset", r->result.set);
     cJSON_AddItemToObject(o, "candidate", candidates(r->ncandidate, r->candidate));
     return o;
 }

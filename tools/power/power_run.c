@@ -74,7 +74,6 @@ static int run_case(void *context, int index, int worker)
         return ROTID_ERROR_MEMORY;
     c.hidden.directory = run->directory;
     c.hidden.keep = run->options->keep != NULL;
-    c.hidden.posterior = run->options->posterior;
     int status = hidden_run(&c.hidden, &environment, write_line, &writing, &result->score);
     free(c.deck);
     if (status)

@@ -302,39 +302,21 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     return status;
 }
 
-/* How many of the causes of a candidate, one or two, are there. */
-static int true_causes(const struct diagnosis *d, const struct candidate *c, const cJSON *truth)
-{
-    return (hidden_which(&d->job, c, truth) >= 0) + (c->with && hidden_which(&d->job, c->with, truth) >= 0);
-}
-
-static double chi2_of(const struct candidate *c)
-{
-    return c->result.chi2;
-}
-
-/* How far the best of the candidates that are true leads the best other one. A pair of which one is true neither leads nor is
- * led. */
-static double lead(const struct diagnosis *d, const cJSON *truth, double (*value)(const struct candidate *))
-{
-    for (int r = 0; r < d->nround; r++) {
-        double right = INFINITY, other = INFINITY;
-        for (int i = 0; i < d->round[r].ncandidate; i++) {
-            const struct candidate *c = &d->round[r].candidate[i];
-            int found = true_causes(d, c, truth);
-            double *best = found ? &right : &other;
-            if (c->result.refitted && isfinite(c->result.chi2) && (!found || found == 1 + (c->with != NULL)))
-                *best = fmin(*best, value(c));
-        }
-        if (isfinite(right))
-            return fmin(other - right, 1e9);
-    }
-    return NAN;
-}
-
+/* Twice ln of the odds of the likeliest explanation all of whose causes are there over the likeliest other one. One of which some
+ * are there neither leads nor is led. */
 double hidden_lead(const struct diagnosis *d, const cJSON *truth)
 {
-    return lead(d, truth, candidate_score);
+    double right = -INFINITY, other = -INFINITY;
+    for (int i = 0; i < d->posterior.count; i++) {
+        const struct explanation *e = &d->posterior.item[i];
+        int found = 0;
+        for (int m = 0; m < e->nmember; m++)
+            found += hidden_which(&d->job, &e->member[m], truth) >= 0;
+        double *best = found ? &right : &other;
+        if (!found || (found == e->nmember && !e->something_else))
+            *best = fmax(*best, e->log_posterior);
+    }
+    return isfinite(right) ? fmin(2 * (right - other), 1e9) : NAN;
 }
 
 /* ---- intervals, places, sizes */
@@ -434,7 +416,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;
     int found = judge_findings(d, effects, s), status = measure_chi2(pool, d, read, truth, s);
-    s->margin = lead(d, truth, chi2_of);
+    s->margin = hidden_lead(d, truth);
     s->outcome = judge_verdict(d, truth, s);
     if ((s->class == HIDDEN_DATA || s->class == HIDDEN_NOISE) && s->outcome != HIDDEN_WRONG) {
         if (found)
