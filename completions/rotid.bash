@@ -35,7 +35,6 @@ _rotid_options=(
     '--no-baseline:identify::'
     '--extended:diagnose:files:inp'
     '--changed:diagnose:value:'
-    '--posterior:diagnose::'
     '--extended:suggest:files:inp'
     '--interval:suggest:value:'
     '--sensors:suggest:value:'

@@ -592,8 +592,6 @@ module rotid
     integer(c_int) :: nparameters = 0
     type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_value
     type(c_ptr) :: state = c_null_ptr ! text
-    integer(c_int) :: nidentified = 0
-    type(c_ptr) :: identified = c_null_ptr ! rotid_cause_value
   end type rotid_cause
 
   type, bind(C) :: rotid_spread
@@ -683,7 +681,6 @@ module rotid
 
   type, bind(C) :: rotid_round
     integer(c_int) :: round = 0
-    integer(c_int) :: kind = 0
     real(c_double) :: chi2 = 0
     real(c_double) :: chi2_frequency = 0
     integer(c_int) :: dof = 0
@@ -693,8 +690,6 @@ module rotid
     real(c_double) :: p_scan = 0
     real(c_double) :: p_frequency = 0
     real(c_double) :: p_total = 0
-    real(c_double) :: required_margin = 0
-    integer(c_int) :: set = 0
   end type rotid_round
 
   type, bind(C) :: rotid_candidate
@@ -706,17 +701,10 @@ module rotid
     real(c_double) :: chi2 = 0
     real(c_double) :: chi2_frequency = 0
     real(c_double) :: chi2_drop = 0
-    real(c_double) :: bic = 0
     real(c_double) :: holdout_rms = 0
-    real(c_double) :: mode_out_rms = 0
     real(c_double) :: sensor_out_rms = 0
-    real(c_double) :: p_value = 0
     integer(c_int) :: at_bound = 0
-    type(c_ptr) :: collinear_with = c_null_ptr ! text
-    type(c_ptr) :: collinear_target = c_null_ptr ! text
-    real(c_double) :: cosine = 0
-    type(c_ptr) :: rejected_because = c_null_ptr ! text
-    type(c_ptr) :: with = c_null_ptr ! rotid_cause
+    real(c_double) :: probability = 0
   end type rotid_candidate
 
   type, bind(C) :: rotid_pair
