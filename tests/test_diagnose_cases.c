@@ -197,8 +197,7 @@ static void a_bolted_lap_is_found(void **state)
     assert_true(d->result.gain.holdout_frequency_rms_percent.after <= 0.5 * 14.3);
     const struct candidate *shear = suspect(d, "lap_shear");
     assert_non_null(shear);
-    assert_non_null(shear->result.rejected_because);
-    assert_non_null(strstr(shear->result.rejected_because, "modes held out"));
+    assert_true(shear->result.chi2 < d->cause[0].result.chi2 + 10); /* the same zone with a parameter more */
     assert_true(shear->result.holdout_rms > d->cause[0].result.holdout_rms);
     check_extended(&r);
     close_run(&r);
@@ -215,7 +214,6 @@ static void the_monolithic_beam_leaves_what_it_is_measured_by(void **state)
     const struct candidate *spring = find(r.d.round[0].ncandidate, r.d.round[0].candidate, "support_extra");
     assert_non_null(spring);
     assert_true(spring->result.chi2_drop > 1000);
-    assert_string_equal(spring->result.rejected_because, "gains less for a parameter than it leaves for a degree of freedom");
     close_run(&r);
 }
 
@@ -233,14 +231,10 @@ static void supports_are_a_false_lead(void **state)
         refused++;
         assert_true(c->result.chi2_drop > 0.5 * d->round[0].result.chi2); /* they do look good */
         assert_true(c->result.holdout_rms > 1.5 * d->result.gain.holdout_frequency_rms_percent.before);
-        assert_non_null(c->result.rejected_because);
-        assert_non_null(strstr(c->result.rejected_because, "prediction of held-out modes gets worse"));
     }
     assert_int_equal(refused, 2);
     assert_null(find(d->ncause, d->cause, "support"));
     assert_null(find(d->nalternative, d->alternative, "support"));
-    for (int i = 0; i < d->nalternative; i++) /* what cannot be told apart: nothing that loses stands there to make two */
-        assert_null(d->alternative[i].result.rejected_because);
     close_run(&r);
 }
 
@@ -289,11 +283,12 @@ static void a_cause_is_refitted_from_the_deck_where_the_base_has_strayed(void **
     diagnose(&r, ROTID_SOURCE_DIR "/tests/data/decks/strayed_base.inp");
     const struct diagnosis *d = &r.d;
     assert_true(d->base.fit->x[1] > 5 * 1.23447e10);
-    assert_kind(&r, ROTID_NAMED);
-    assert_int_equal(d->ncause, 1);
-    assert_string_equal(d->cause[0].cause->id, "step_stiffness");
-    assert_close(d->cause[0].effect.value[0], 41.7797, 0, 3);
-    assert_true(d->extended.fit->ci_lower[1] < 1.23447e10 && d->extended.fit->ci_upper[1] > 1.23447e10);
+    const struct explanation *lead = &d->posterior.item[0];
+    assert_int_equal(lead->nmember, 1);
+    assert_string_equal(lead->member[0].cause->id, "step_stiffness");
+    assert_true(lead->probability > 0.5);
+    assert_close(lead->member[0].effect.value[0], 41.7797, 0, 3);
+    assert_true(d->posterior.averaged[1].ci95[0] < 1.23447e10 && d->posterior.averaged[1].ci95[1] > 1.23447e10);
     close_run(&r);
 }
 

@@ -23,7 +23,7 @@ static const struct {
     unsigned seed;
     const char *effect[2]; /* at most */
 } table[] = {
-    {BOTH, 2, {"stiffness:group=left,factor=0.92", "stiffness:group=right,factor=0.93"}},
+    {BOTH, 2, {"stiffness:group=left,factor=0.88", "stiffness:group=right,factor=0.85"}},
     {BOTH, 3, {"stiffness_local:depth=0.5,z=0.857,width=0.04,shape=gaussian", "added_mass:mass=10,z=1.6"}},
     {BOTH, 5, {"joint:at=left.end,flexibility=2e-9", "density:group=core,factor=0.92"}},
     {BOTH,
@@ -38,7 +38,7 @@ static const struct {
 #define COUNT ((int)(sizeof table / sizeof *table))
 
 static struct seen { /* of one diagnosis, while it is there */
-    int kind, adequate_after, ncause, pairs, covered;
+    int kind, adequate_after, ncause, covered;
     char sentence[400];
 } seen[COUNT];
 static struct hidden_score score[COUNT];
@@ -72,9 +72,6 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
     s->ncause = d->ncause;
     for (int i = 0; i < d->ncause; i++)
         s->covered += covers(&d->cause[i], cJSON_GetObjectItem(truth, "effects"));
-    for (int r = 0; r < d->nround; r++)
-        for (int i = 0; i < d->round[r].ncandidate; i++)
-            s->pairs += d->round[r].candidate[i].with != NULL;
     snprintf(s->sentence, sizeof s->sentence, "%s", d->result.verdict.sentence);
 }
 
@@ -111,7 +108,7 @@ static int is_as_expected(int i)
     case BOTH:
         return named && d->ncause == 2 && s->found == 2;
     case ALONE:
-        return d->kind == ROTID_NAMED && d->adequate_after && d->ncause == 1 && d->covered == 1 && !d->pairs;
+        return d->kind == ROTID_NAMED && d->adequate_after && d->ncause == 1 && d->covered == 1;
     default:
         return d->ncause < 2;
     }
@@ -126,9 +123,9 @@ static void check(enum expected expected)
             continue;
         int as_expected = is_as_expected(i) && s->outcome != HIDDEN_FAILED;
         bad += !as_expected;
-        print_message("%s seed %-2u %s %s: %s%s, drop %.1f, %d pairs, %.1f s; %s\n", as_expected ? "     " : "  BAD",
+        print_message("%s seed %-2u %s %s: %s%s, drop %.1f, %.1f s; %s\n", as_expected ? "     " : "  BAD",
                       table[i].seed, table[i].effect[0], table[i].effect[1] ? table[i].effect[1] : "alone",
-                      hidden_outcome_name(s->outcome), s->failure, s->drop, seen[i].pairs, s->seconds, seen[i].sentence);
+                      hidden_outcome_name(s->outcome), s->failure, s->drop, s->seconds, seen[i].sentence);
     }
     assert_int_equal(bad, 0);
 }

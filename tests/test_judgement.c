@@ -66,43 +66,6 @@ static void noise_explains_a_misfit_or_the_model_is_not_adequate(void **state)
     }
 }
 
-/* A cause with one more parameter that was searched for has to earn it; one that was given costs nothing. */
-static void a_lead_counts_what_was_searched_for(void **state)
-{
-    (void)state;
-    rotid_cause_value searched[] = {{.fixed = 0}, {.fixed = 0}}, given[] = {{.fixed = 0}, {.fixed = 1}};
-    rotid_candidate candidates[] = {
-        {.round = 1, .refitted = 1, .chi2_drop = 50, .cause = {.nparameters = 2, .parameters = searched}},
-        {.round = 1, .refitted = 1, .chi2_drop = 49, .cause = {.nparameters = 2, .parameters = given}},
-        {.round = 1,
-         .refitted = 1,
-         .chi2_drop = 60,
-         .cause = {.nparameters = 1, .parameters = given},
-         .rejected_because = "is larger than any rotor has"},
-        {.round = 1,
-         .refitted = 1,
-         .chi2_drop = 48,
-         .cause = {.nparameters = 1, .parameters = given},
-         .rejected_because = "loses to the first by 3"},
-        {.round = 2, .refitted = 1, .chi2_drop = 90, .cause = {.nparameters = 1, .parameters = given}},
-    };
-    rotid_round rounds[] = {{.round = 1, .set = 1}, {.round = 2, .set = 0}};
-    const rotid_diagnosis d = {.ncandidates = 5, .candidates = candidates, .nrounds = 2, .rounds = rounds};
-    int count, first, second;
-    assert_close(candidate_lead(&candidates[1], &candidates[3]), 1, 1e-15, 0);
-    double more = 1 - candidate_lead(&candidates[0], &candidates[1]);
-    assert_true(more > 2); /* what one parameter too many gains by chance, on average, is 1 */
-    assert_close(candidate_lead(&candidates[1], &candidates[0]), more - 1, 1e-15, 0);
-    assert_ptr_equal(diagnosis_candidates(&d, 1, &count), &candidates[4]);
-    assert_int_equal(count, 1);
-    assert_ptr_equal(diagnosis_candidates(&d, 0, &count), candidates);
-    assert_int_equal(count, 4);
-    diagnosis_leaders(&d, 0, &first, &second);
-    assert_true(first == 0 && second == 1); /* 2 was refused for a reason of its own */
-    diagnosis_leaders(&d, 1, &first, &second);
-    assert_true(first == -1 && second == 0);
-}
-
 /* The fit as the deck states it is shown where it says something else by another choice. */
 static void the_fit_of_today_is_shown_where_it_differs(void **state)
 {
@@ -118,42 +81,6 @@ static void the_fit_of_today_is_shown_where_it_differs(void **state)
     today.parameters = now;
     today.functional = "LIKELIHOOD";
     assert_null(diagnosis_today(&d));
-}
-
-/* Over sets of causes, a pair counting once by its first member; one interval that is missing leaves none. */
-static void the_spread_is_that_of_all_members(void **state)
-{
-    (void)state;
-    rotid_cause_value value[3][2] = {
-        {{"core.E", "Pa", 1.00, 0.02, {0.96, 1.04}, 0}, {"core.G", "Pa", 0.40, 0.01, {0.38, 0.42}, 0}},
-        {{"core.E", "Pa", 1.20, 0.02, {1.16, 1.24}, 0}, {"core.G", "Pa", 0.30, 0.01, {NAN, NAN}, 0}},
-        {{"core.E", "Pa", 1.10, 0.20, {0.70, 1.50}, 0}, {"core.G", "Pa", 0.35, 0.01, {0.33, 0.37}, 0}}};
-    struct candidate member[4] = {{.set = 1, .nidentified = 2, .identified = value[0]},
-                                  {.set = 2, .nidentified = 2, .identified = value[1]},
-                                  {.set = 2},
-                                  {.set = 3, .nidentified = 2, .identified = value[2]}};
-    struct diagnosis d = {.nalternative = 4, .alternative = member};
-    struct pool pool;
-    pool_open(&pool, NULL);
-    struct engine engine = {.pool = &pool, .nown = 2, .out = &d};
-    assert_int_equal(spread_of_alternatives(&engine), ROTID_OK);
-    const rotid_verdict *v = &d.result.verdict;
-    assert_int_equal(v->nspread, 2);
-    assert_string_equal(v->spread[1].name, "core.G");
-    assert_close(v->spread[0].lowest, 1.00, 0, 0);
-    assert_close(v->spread[0].highest, 1.20, 0, 0);
-    assert_close(v->spread[0].ci95[0], 0.70, 0, 0);
-    assert_close(v->spread[0].ci95[1], 1.50, 0, 0);
-    assert_close(v->spread[1].lowest, 0.30, 0, 0);
-    assert_close(v->spread[1].highest, 0.40, 0, 0);
-    assert_true(isnan(v->spread[1].ci95[0]) && isnan(v->spread[1].ci95[1]));
-    assert_string_equal(spread_sentence(&engine), " Between these causes differ: core.E by 18 %, core.G by 29 %.");
-    d.nalternative = 1; /* a cause alone is no dispute */
-    assert_string_equal(spread_sentence(&engine), "");
-    d.nalternative = 0;
-    assert_int_equal(spread_of_alternatives(&engine), ROTID_OK);
-    assert_int_equal(v->nspread, 0);
-    pool_close(&pool);
 }
 
 /* One rule for a wide interval, in identify as in a diagnosis. */
@@ -205,11 +132,9 @@ static void an_interval_is_wide_from_15_per_cent_on(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_spread_is_that_of_all_members),
         cmocka_unit_test(an_interval_is_wide_from_15_per_cent_on),
         cmocka_unit_test(errors_of_fitted_modes_and_of_those_held_out_stand_apart),
         cmocka_unit_test(noise_explains_a_misfit_or_the_model_is_not_adequate),
-        cmocka_unit_test(a_lead_counts_what_was_searched_for),
         cmocka_unit_test(the_fit_of_today_is_shown_where_it_differs),
     };
     return cmocka_run_group_tests_name("judgement", tests, open_test_pool, close_test_pool);

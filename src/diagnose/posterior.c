@@ -36,10 +36,16 @@ static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
 
 /* ---- sets */
 
+/* One name: whatever its variant, and whoever asked for it. */
 static int same_cause(const struct candidate *a, const struct candidate *b)
 {
-    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target) &&
-           a->result.suspect == b->result.suspect;
+    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target);
+}
+
+static int same_model(const struct candidate *a, const struct candidate *b)
+{
+    return same_cause(a, b) && a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
+           (!a->result.suspect || !strcmp(a->effect.name, b->effect.name));
 }
 
 static int has(const struct explanation *e, const struct candidate *c)
@@ -53,8 +59,12 @@ static int has(const struct explanation *e, const struct candidate *c)
 static int same_set(const struct explanation *a, const struct explanation *b)
 {
     int same = a->nmember == b->nmember && a->something_else == b->something_else;
-    for (int m = 0; m < a->nmember && same; m++)
-        same = has(a, &a->member[m]) == has(b, &a->member[m]);
+    for (int m = 0; m < a->nmember && same; m++) {
+        int balance = 0;
+        for (int k = 0; k < a->nmember; k++)
+            balance += same_model(&a->member[k], &a->member[m]) - same_model(&b->member[k], &a->member[m]);
+        same = !balance;
+    }
     return same;
 }
 

@@ -63,11 +63,10 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
         return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "",
                            shifts);
     case ROTID_AMBIGUOUS:
-        return verdict_sets(&d->verdict) == 1
-                   ? "Ambiguous: no name can be given"
-                   : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, verdict_sets(&d->verdict)));
+        return pool_format(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
     case ROTID_UNEXPLAINED:
-        return "Unexplained";
+        return pool_format(pool, "Unexplained: something outside of the catalogue with %s %%",
+                           human_digits(pool, 100 * d->verdict.something_else, 2));
     default:
         return "Interrupted: no verdict";
     }

@@ -50,7 +50,7 @@ const struct cause_kind cause_added_mass = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_NONE,
     .effect = &kind,
-    .parameter = {{.typical = 1, .one_sided = 1, PRIOR_OF_BOUND(0.5)},
+    .parameter = {{.typical = 1, .one_sided = 1, PRIOR_OF_BOUND(0.125)},
                   {0},
                   {.typical = 0.05, .one_sided = 1, PRIOR_OF_BOUND(0.5)}},
     .place = PLACE,

@@ -12,45 +12,26 @@ int cause_parameters(const struct effect *effect)
     return effect_parameters(effect);
 }
 
+/* A lower bound above zero is a ratio; a negative one lies where the stiffness would vanish. */
+void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
+                 double *upper)
+{
+    double neutral = cause->parameter[cause->size].neutral;
+    cause->bounds(rotor, effect, p, lower, upper);
+    if (p != cause->size || !(cause->widest > 1))
+        return;
+    *upper = neutral + cause->widest * (*upper - neutral);
+    *lower = *lower > 0 ? *lower / cause->widest : *lower;
+}
+
 void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                   double *upper)
 {
-    cause->bounds(rotor, effect, p, lower, upper);
+    cause_reach(cause, rotor, effect, p, lower, upper);
     if (p != cause->size || !(effect->bound[0] < effect->bound[1]))
         return;
     *lower = effect->bound[0];
     *upper = effect->bound[1];
-}
-
-/* A lower bound above zero is a ratio; a negative one lies where the stiffness would vanish. */
-static void usual_times(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, double times,
-                        double *lower, double *upper)
-{
-    double neutral = cause->parameter[cause->size].neutral, most = fmin(times, fmax(1, cause->widest));
-    cause->bounds(rotor, effect, cause->size, lower, upper);
-    *upper = most > 1 ? neutral + most * (*upper - neutral) : *upper;
-    *lower = *lower > 0 ? *lower / most : *lower;
-}
-
-void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
-                 double *upper)
-{
-    if (p == cause->size)
-        usual_times(cause, rotor, effect, INFINITY, lower, upper);
-    else
-        cause->bounds(rotor, effect, p, lower, upper);
-}
-
-int cause_widen(const struct cause_kind *cause, const struct rotor *rotor, double times, struct effect *effect)
-{
-    double lower, upper, bound[2];
-    cause_bounds(cause, rotor, effect, cause->size, &lower, &upper);
-    usual_times(cause, rotor, effect, times, &bound[0], &bound[1]);
-    if (!(bound[0] < lower || bound[1] > upper))
-        return 0;
-    effect->bound[0] = bound[0];
-    effect->bound[1] = bound[1];
-    return 1;
 }
 
 const char *cause_target_name(struct pool *pool, const struct rotor *rotor, const struct cause_kind *cause, int target)

@@ -6,7 +6,7 @@
  * cause_kind: how the cause changes the model or the data, its bounds, when it applies, its words for reports and CAUSE cards.
  *
  *   catalogue      catalogue.c (catalogue_item, catalogue_find, catalogue_of): by number, by id, by effect; correction_apply
- *   bounds         cause.c (cause_bounds, cause_reach, cause_widen): usual and physically possible bounds of a parameter
+ *   bounds         cause.c (cause_bounds, cause_reach): physically possible bounds of a parameter
  *   numbers        mesh.c, guyan_reduction.c, beam_theory.c: entries without an effect; the last one asks for a solid
  *   measurement    sensor_gain.c, sensor_sign.c, sensor_swap.c, sensor_position.c, sensor_line.c, duplicate_channel.c,
  *                  noise_level.c, mode_pairing.c: hook `correct` takes the fault out of a job's data; sensor.c: shared routines
@@ -108,16 +108,13 @@ int cause_of_beam(const struct cause_kind *cause);
 /* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
 int cause_parameters(const struct effect *effect);
 
-/* Bounds of parameter p: those of the effect where it is the size and has some, else those of its cause. */
+/* Bounds of parameter p: those of the effect where it is the size and has some, else as far as is physically possible. */
 void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                   double *upper);
 
-/* The same as far as is physically possible. */
+/* As far as is physically possible. */
 void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                  double *upper);
-
-/* The bounds of the effect's size `times` as far as usual, within what is possible. 1 where that is farther than before. */
-int cause_widen(const struct cause_kind *cause, const struct rotor *rotor, double times, struct effect *effect);
 
 /* What a cause acts on, by name: a group, "left|right" for an interface, a spring or its place, a tie rod; "" where it has no
  * such target. NULL where memory is out. */

@@ -52,7 +52,7 @@ const struct cause_kind cause_joint = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_INTERFACE,
     .effect = &kind,
-    .parameter = {{.typical = 2e-10, .one_sided = 1, PRIOR_DECADES(3)}},
+    .parameter = {{.typical = 2e-10, .one_sided = 1, PRIOR_DECADES(5)}},
     .place = -1,
     .width = -1,
     .limit_of = "stiffness_local",
