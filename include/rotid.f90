@@ -615,6 +615,7 @@ module rotid
     type(c_ptr) :: id = c_null_ptr ! text
     type(c_ptr) :: target = c_null_ptr ! text
     type(c_ptr) :: state = c_null_ptr ! text
+    real(c_double) :: z_m = 0
     real(c_double) :: probability = 0
   end type rotid_marginal
 

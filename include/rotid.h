@@ -712,6 +712,7 @@ typedef struct rotid_marginal {
     const char *id;     /* of the catalogue */
     const char *target; /* as that of a cause */
     const char *state;  /* the one state in which it acts; NULL: in all that have its target */
+    double z_m;         /* place, which a cause elsewhere does not share; NaN: it has none */
     double probability; /* of all explanations that have it */
 } rotid_marginal;
 

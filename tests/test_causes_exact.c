@@ -148,6 +148,17 @@ static struct change cone(const struct rotor *rotor, const double *value, int se
     return (struct change){inertia / own_inertia, area / own_area, 1};
 }
 
+static struct change turned(const struct rotor *rotor, const double *value, int segment, double z)
+{
+    double area, inertia, own_area, own_inertia, outer = rotor->segment[segment].outer;
+    (void)z;
+    if (rotor->segment[segment].group != 2)
+        return (struct change){1, 1, 1};
+    bench_section(rotor, segment, outer, &own_area, &own_inertia);
+    bench_section(rotor, segment, value[0] * outer, &area, &inertia);
+    return (struct change){inertia / own_inertia, area / own_area, area / own_area};
+}
+
 static const struct axis_case {
     const char *name;
     const struct cause_kind *cause;
@@ -164,6 +175,7 @@ static const struct axis_case {
     {"shear-soft zone", &cause_stiffness_local, -1, 2, 0.006, {0, 1.1, 0.05, 0.6}, gaussian_shear, 2e-6, 1.95},
     {"density", &cause_density, 1, 0, 1, {1.2}, heavier, 2e-6, 1.95},
     {"stiffness", &cause_stiffness, 1, 0, 1, {0.8}, stiffer, 2e-6, 1.95},
+    {"diameter", &cause_diameter, 2, 0, 1, {1.04}, turned, 2e-6, 1.95},
     {"shear coefficient", &cause_shear_coefficient, 1, 0, 1, {0.8}, sheared, 2e-6, 1.95},
     {"cones", &cause_step_stiffness, -1, 0, 0.0042, {31}, cone, 1e-4, 1.5},
     {"flat cones", &cause_step_stiffness, -1, 0, 0.0042, {14}, cone, 2e-4, 1.2},

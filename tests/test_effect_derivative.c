@@ -29,6 +29,8 @@ static const struct subject {
     {NULL, -1, 0, {9, LEFT_INTERFACE + 0.009, 0.3}},
     {NULL, -1, 0, {9, LEFT_INTERFACE - 0.009, 0.3}},
     {&cause_density, 1, 0, {1.1}},
+    {&cause_diameter, 0, 0, {1.03}},
+    {&cause_diameter, 1, 0, {0.97}},
     {&cause_stiffness, 0, 0, {0.9}},
     {&cause_tie_stiffness, 0, 0, {0.6}},
     {&cause_tie_tension, 0, 0, {0.7}},

@@ -160,7 +160,7 @@ static double of_gradient(double x)
 static double heaviest, bar_length;
 static double of_mass(double x)
 {
-    return normal(x, 0.5 * heaviest) + log(2) - log(erf(2 / sqrt(2)));
+    return normal(x, 0.125 * heaviest) + log(2) - log(erf(8 / sqrt(2)));
 }
 
 static double of_place(double x)
@@ -239,7 +239,7 @@ static void a_size_at_its_bound(void **state)
     heaviest = states.bounds[1].upper;
     bar_length = states.bounds[2].upper;
     const struct axis axis[3] = {
-        modulus_axis(x[0], 0.015, 12), {30, 0, 0, 0.08 * heaviest, of_mass}, {48, 0, 0, bar_length, of_place}};
+        modulus_axis(x[0], 0.015, 12), {30, 0, 0, 0.02 * heaviest, of_mass}, {48, 0, 0, bar_length, of_place}};
     open_likelihood(&states.state->job, &l);
     check("a mass, by its columns", nothing + sum, over_grid(&l, 3, axis));
     rotid_fit_free(fit);
@@ -247,8 +247,30 @@ static void a_size_at_its_bound(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
+/* What a cause that is an approximation leaves is noise behind it, in arrays of its own. */
+static void what_an_approximation_leaves_is_noise(void **state)
+{
+    (void)state;
+    static const int in_all[] = {1};
+    double frequency[] = {1e-4, NAN}, shape[] = {0.01, NAN, 0.02, 0.03}, any[4] = {0};
+    const struct candidate cone = {.cause = catalogue_find("step_stiffness"), .in = in_all},
+                           exact = {.cause = catalogue_find("density"), .in = in_all};
+    struct state one = {
+        .job = {.rotor.nsensor = 2, .measurement = {.nmode = 2, .frequency_std = frequency, .shape_std = shape, .shape = any}}};
+    struct states with = {.nstate = 1, .state = &one};
+    const struct job_measurement *m = &one.job.measurement;
+    assert_status(discrepancy_add(&test_pool, &exact, &with), ROTID_OK);
+    assert_ptr_equal(m->frequency_std, frequency);
+    assert_status(discrepancy_add(&test_pool, &cone, &with), ROTID_OK);
+    assert_close(m->frequency_std[0], hypot(1e-4, cone.cause->discrepancy_frequency), 1e-14, 0);
+    assert_close(m->shape_std[3], hypot(0.03, cone.cause->discrepancy_shape), 1e-14, 0);
+    assert_true(isnan(m->frequency_std[1]) && isnan(m->shape_std[1])); /* what is not measured stays so */
+    assert_close(frequency[0], 1e-4, 0, 0);                            /* others may have the same arrays */
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(nothing_but_a_modulus), TEST(a_size_with_a_sign), TEST(a_size_at_its_bound)};
+    const struct CMUnitTest tests[] = {TEST(nothing_but_a_modulus), TEST(a_size_with_a_sign), TEST(a_size_at_its_bound),
+                                       TEST(what_an_approximation_leaves_is_noise)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

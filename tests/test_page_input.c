@@ -259,7 +259,6 @@ static void a_result_that_contradicts_itself_is_refused(void **state)
         {"identify.json", "/matrix_rows", "as rows of mac_matrix"},
         {"modes.json", "modes.shape", "modes[].shape has "},
         {"diagnose.json", "/modes_standardised", "as base.modes"},
-        {"diagnose.json", "/rounds", "expected one of the "},
     };
     make_results();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -292,7 +291,7 @@ static void a_value_out_of_its_range_is_refused(void **state)
         {"identify.json", "parameters.std", -1, "parameters[0].std: is -1, expected no number below 0"},
         {"identify.json", "mass_kg", 0, "mass_kg: is 0, expected a number above 0"},
         {"identify.json", "intervals_widened_by", 0.9, "intervals_widened_by: is 0.9, expected no number below 1"},
-        {"diagnose.json", "candidates.p_value", -0.001, "candidates[0].p_value: is -0.001, expected a number from 0 to 1"},
+        {"diagnose.json", "candidates.probability", -0.001, "candidates[0].probability: is -0.001, expected a number from 0 to 1"},
     };
     make_results();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -72,7 +72,8 @@ static void fill_explanations(struct pool *pool, const struct diagnosis *d, roti
     room = POOL_LIST(pool, out->marginals, p->nmarginal);
     for (int i = 0; i < room; i++) {
         const struct candidate *c = &p->marginal[i].cause;
-        out->marginals[out->nmarginals++] = (rotid_marginal){c->cause->id, c->target, c->state_name, p->marginal[i].probability};
+        double z = c->cause->place < 0 ? (double)NAN : c->effect.value[c->cause->place];
+        out->marginals[out->nmarginals++] = (rotid_marginal){c->cause->id, c->target, c->state_name, z, p->marginal[i].probability};
     }
     out->nothing = p->count ? p->nothing : (double)NAN;
     out->nothing_prior = p->count ? p->nothing_prior : (double)NAN;

@@ -508,7 +508,11 @@ static int search(struct engine *engine, struct round_result *last)
     if (!status)
         status = localise(engine, &last->scan);
     out->result.verdict.p_value = fmin(round->result.p_scan, fmin(round->result.p_frequency, round->result.p_total));
-    return status ? status : posterior_verdict(engine, &out->posterior);
+    if (!status)
+        status = posterior_verdict(engine, &out->posterior);
+    if (!status && out->ncause) /* the limits are those of the extended model */
+        status = scan_run(engine->pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &last->scan);
+    return status;
 }
 
 /* What the user does today; should that fail, there is still the judged model. */

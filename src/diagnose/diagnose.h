@@ -10,12 +10,12 @@
  *   3 scan       scan_list.c: causes at all targets and places; columns.c: c = dr/da by adjoints (K - lambda M)^+; scan.c
  *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
  *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
- *   5 refit      refit.c (refit_set), widen.c; round.c (round_run): steps 3 to 7 of a round, pairs of causes; far_starts.c
- *   6 doubts     pairing.c; faults.c with sensor_check.c and sensor_field.c: channels; noise_check.c: level of the noise
- *   7 decision   evidence.c, leave_out.c: modes and sensors left out; decide.c (decide): score S = chi2 + 3 n, margins
- *   8 verdict    verdict.c (accept_cause, reach_verdict); discrepancy.c: noise that an approximate cause leaves
- *     posterior  in place of 7 and 8 where options ask for it: laplace.c (evidence_of_fit): ln Z of a fit; posterior.c
- *                (posterior_run, posterior_verdict): beam search over sets of causes, probabilities, averaged moduli
+ *   5 refit      refit.c (refit_cause): fits with one cause more; far_starts.c
+ *   6 posterior  laplace.c (evidence_of_fit): ln Z of a fit; posterior.c (posterior_run, posterior_verdict): beam search over sets
+ *                of causes, probabilities, averaged moduli; discrepancy.c: noise that an approximate cause leaves; advice.c
+ *   7 doubts     of the data, after which 3 to 6 are repeated (round.c, round_run): pairing.c; faults.c with sensor_check.c and
+ *                sensor_field.c: channels; noise_check.c: level of the noise
+ *   8 evidence   evidence.c, leave_out.c: single causes for the reader; modes and sensors left out
  *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
  *
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
@@ -98,6 +98,7 @@ struct posterior {
     struct evidence_data *data;
     const struct scan *base;
     int nown;
+    double length; /* of the rotor */
     double nothing, nothing_prior; /* probability that nothing is wrong, after and before */
     double something_else;         /* of all explanations with something else */
     int nmarginal;
@@ -301,12 +302,6 @@ int scan_list(struct pool *pool, const struct states *states, struct scan *scan)
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
 const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
 
-/* Whether what acts in the states a [nstate] and what acts in b are together in one of them. */
-int states_meet(int nstate, const int *a, const int *b);
-
-/* Whether the candidates a and b may be there together: the same cause at the same target needs two places. */
-int scan_allows(const struct states *states, const struct scan *scan, int a, int b);
-
 /* Columns and drops at the parameters x of the fitted states; number and holdout of all modes. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
              struct scan *scan);
@@ -472,18 +467,6 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
 /* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);
 
-/* Does one of the first nown parameters end at a bound? */
-int fit_at_bound(const rotid_fit_result *fit, int nown);
-
-/* Fits once more with the first nown parameters starting at `own`; *fit is replaced where that is better. */
-int refit_again(struct pool *pool, const struct states *states, int nown, const double *own, const int *number,
-                const int *holdout, const rotid_environment *environment, rotid_fit_result **fit);
-
-/* *drop of chi2 that is gained where the bounds at which the first nown parameters end in `fit` are ten times as far; 0 where
- * none does, or where there is no such model. */
-int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
-                 const int *holdout, const rotid_environment *environment, double *drop);
-
 /* One fit with the options of a diagnosis, which ends where another step would gain less than this part of the objective
  * (REFIT_OBJECTIVE; 0: at the minimum). */
 int refit_until(struct pool *pool, const struct states *states, const int *number, const int *holdout, double objective,
@@ -619,12 +602,9 @@ int localise(struct engine *engine, const struct scan *scan);
 
 /* What a cause that is an approximation, such as the cone at a step, leaves: noise behind it. */
 
-int discrepancy_of(const struct cause_kind *cause); /* nonzero: it leaves something */
-
-/* sigma := sqrt(sigma^2 + sign d^2) in the states in which the candidate acts, in arrays of their own: d is what its cause leaves
- * of a frequency, and of the largest component of a shape. sign -1 takes out again what was added. ROTID_OK or
- * ROTID_ERROR_MEMORY. */
-int discrepancy_add(struct pool *pool, const struct candidate *c, int sign, struct states *states);
+/* sigma := sqrt(sigma^2 + d^2) in the states in which the candidate acts, in arrays of their own: d is what its cause leaves of a
+ * frequency, and of the largest component of a shape. ROTID_OK or ROTID_ERROR_MEMORY. */
+int discrepancy_add(struct pool *pool, const struct candidate *c, struct states *states);
 
 /* -------------------------------------------------------------------------------------------------------------- evidence */
 

@@ -2,25 +2,23 @@
 
 #include <math.h>
 
-int discrepancy_of(const struct cause_kind *cause)
+static int discrepancy_of(const struct cause_kind *cause)
 {
     return cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0;
 }
 
-static int change(struct pool *pool, ptrdiff_t n, double discrepancy, int sign, double **std)
+static int change(struct pool *pool, ptrdiff_t n, double discrepancy, double **std)
 {
     double *changed = POOL_ARRAY(pool, double, n);
     if (!changed)
         return ROTID_ERROR_MEMORY;
-    for (ptrdiff_t i = 0; i < n; i++) {
-        double square = (*std)[i] * (*std)[i] + sign * discrepancy * discrepancy; /* NaN where nothing is measured */
-        changed[i] = square < 0 ? 0 : sqrt(square);
-    }
+    for (ptrdiff_t i = 0; i < n; i++)
+        changed[i] = hypot((*std)[i], discrepancy); /* NaN where nothing is measured */
     *std = changed;
     return ROTID_OK;
 }
 
-int discrepancy_add(struct pool *pool, const struct candidate *c, int sign, struct states *states)
+int discrepancy_add(struct pool *pool, const struct candidate *c, struct states *states)
 {
     int status = ROTID_OK;
     for (int s = 0; s < states->nstate && discrepancy_of(c->cause) && !status; s++) {
@@ -28,9 +26,9 @@ int discrepancy_add(struct pool *pool, const struct candidate *c, int sign, stru
         struct job_measurement *m = &job->measurement;
         if (!c->in[s])
             continue;
-        status = change(pool, m->nmode, c->cause->discrepancy_frequency, sign, &m->frequency_std);
+        status = change(pool, m->nmode, c->cause->discrepancy_frequency, &m->frequency_std);
         if (!status && m->shape && c->cause->discrepancy_shape > 0)
-            status = change(pool, (ptrdiff_t)job->rotor.nsensor * m->nmode, c->cause->discrepancy_shape, sign, &m->shape_std);
+            status = change(pool, (ptrdiff_t)job->rotor.nsensor * m->nmode, c->cause->discrepancy_shape, &m->shape_std);
     }
     return status;
 }

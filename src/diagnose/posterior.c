@@ -48,12 +48,20 @@ static int same_model(const struct candidate *a, const struct candidate *b)
            (!a->result.suspect || !strcmp(a->effect.name, b->effect.name));
 }
 
-static int has(const struct explanation *e, const struct candidate *c)
+/* Of those with a place near it, too: far from there it is another one. */
+static int same_name(const struct posterior *p, const struct candidate *a, const struct candidate *b)
 {
-    int count = 0;
+    int place = a->cause->place;
+    return same_cause(a, b) &&
+           (place < 0 || fabs(a->effect.value[place] - b->effect.value[place]) < NEAR_PLACE * p->length);
+}
+
+static int has(const struct posterior *p, const struct explanation *e, const struct candidate *c)
+{
     for (int m = 0; m < e->nmember; m++)
-        count += same_cause(&e->member[m], c);
-    return count;
+        if (same_name(p, &e->member[m], c))
+            return 1;
+    return 0;
 }
 
 static int same_set(const struct explanation *a, const struct explanation *b)
@@ -520,9 +528,9 @@ static int find_marginals(struct engine *engine, struct posterior *p)
         for (int m = 0; m < e->nmember && e->probability > LEAST_SHARE; m++) {
             int known = 0;
             for (int k = 0; k < m; k++) /* twice in one set */
-                known |= same_cause(&e->member[m], &e->member[k]);
+                known |= same_name(p, &e->member[m], &e->member[k]);
             for (int j = 0; j < p->nmarginal && !known; j++)
-                if (same_cause(&p->marginal[j].cause, &e->member[m])) {
+                if (same_name(p, &p->marginal[j].cause, &e->member[m])) {
                     p->marginal[j].probability += e->probability;
                     known = 1;
                 }
@@ -538,10 +546,10 @@ static int find_marginals(struct engine *engine, struct posterior *p)
 
 double posterior_of_cause(const struct posterior *p, const struct candidate *c)
 {
+    double sum = 0;
     for (int i = 0; i < p->nmarginal; i++)
-        if (same_cause(&p->marginal[i].cause, c))
-            return p->marginal[i].probability;
-    return 0;
+        sum += same_cause(&p->marginal[i].cause, c) ? p->marginal[i].probability : 0;
+    return fmin(1, sum);
 }
 
 /* Probability of unknown q below x, cut at its bounds. */
@@ -614,6 +622,7 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
                             .item = POOL_ARRAY(engine->pool, struct explanation, ROOM),
                             .nkind = DATA_KINDS,
                             .nown = engine->nown,
+                            .length = rotor_length(&engine->job->rotor),
                             .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
     if (!p->item)
         return ROTID_ERROR_MEMORY;
@@ -675,7 +684,7 @@ static const struct explanation *model_with(const struct posterior *p, int count
     for (int i = 0; i < p->count; i++) {
         int all = p->item[i].refit != NULL && !p->item[i].something_else && (!only || p->item[i].nmember == count);
         for (int j = 0; j < count && all; j++)
-            all = has(&p->item[i], &named[j]);
+            all = has(p, &p->item[i], &named[j]);
         if (all)
             return &p->item[i];
     }
@@ -687,7 +696,7 @@ static double together(const struct posterior *p, const struct candidate *a, con
 {
     double sum = 0;
     for (int i = 0; i < p->count; i++)
-        sum += has(&p->item[i], a) && has(&p->item[i], b) ? p->item[i].probability : 0;
+        sum += has(p, &p->item[i], a) && has(p, &p->item[i], b) ? p->item[i].probability : 0;
     return sum;
 }
 
@@ -702,7 +711,7 @@ static int choose_names(const struct engine *engine, const struct posterior *p, 
             joint &= together(p, &named[j], c) >= NAMED;
         const struct explanation *with = model_with(p, 1, c, 0);
         for (int m = 0; with && m < with->nmember; m++)
-            if (same_cause(&with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {
+            if (same_name(p, &with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {
                 named[count++] = with->member[m];
                 break;
             }
@@ -721,7 +730,7 @@ static int accept(struct engine *engine, const struct explanation *model)
         struct candidate *cause = &out->cause[out->ncause++];
         *cause = model->member[m];
         cause->result.refitted = 1;
-        status = discrepancy_add(engine->pool, cause, 1, &states);
+        status = discrepancy_add(engine->pool, cause, &states);
     }
     if (!status)
         status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);

@@ -9,7 +9,6 @@
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
-#define WIDER      10.0
 #define STRAYED    3.0 /* times the start of the deck */
 
 static double inside(const rotid_parameter *bounds, double value)
@@ -326,73 +325,12 @@ static void note_place(const struct states *extended, const struct scan_candidat
     }
 }
 
-int fit_at_bound(const rotid_fit_result *fit, int nown)
+static int fit_at_bound(const rotid_fit_result *fit, int nown)
 {
     int any = 0;
     for (int p = 0; p < nown; p++)
         any |= fit->at_bound[p];
     return any;
-}
-
-int refit_again(struct pool *pool, const struct states *states, int nown, const double *own, const int *number,
-                const int *holdout, const rotid_environment *environment, rotid_fit_result **fit)
-{
-    struct states other;
-    rotid_fit_result *second = NULL;
-    double *start = POOL_ARRAY(pool, double, states->nparameter);
-    if (!start)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < states->nparameter; p++)
-        start[p] = p < nown ? own[p] : states->bounds[p].start;
-    int status = states_started_at(pool, states, start, &other);
-    if (!status)
-        status = refit_states(pool, &other, number, holdout, environment, &second);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    int better = !status && second->chi2 < (*fit)->chi2;
-    rotid_fit_free(better ? *fit : second);
-    *fit = better ? second : *fit;
-    return ROTID_OK;
-}
-
-/* Kind of the model's parameter that an unknown of all is. */
-static int kind_of(const struct states *states, int p)
-{
-    for (int s = 0; s < states->nstate; s++)
-        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
-            if (state_unknown(&states->state[s], q) == p)
-                return (int)states->state[s].job.unknowns.parameter[q].kind;
-    return -1;
-}
-
-int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
-                 const int *holdout, const rotid_environment *environment, double *drop)
-{
-    struct states wider;
-    rotid_fit_result *beyond = NULL;
-    int widened = 0, status = states_started_at(pool, states, fit->x, &wider);
-    *drop = 0;
-    for (int p = 0; p < nown && !status; p++) {
-        rotid_parameter *bounds = &wider.bounds[p];
-        if (!fit->at_bound[p] || kind_of(states, p) == PARAMETER_NU) /* whose bounds are physical */
-            continue;
-        if (fit->x[p] - bounds->lower < bounds->upper - fit->x[p])
-            bounds->lower = bounds->lower > 0 ? bounds->lower / WIDER : bounds->lower * WIDER;
-        else
-            bounds->upper = bounds->upper > 0 ? bounds->upper * WIDER : bounds->upper / WIDER;
-        bounds->start = fit->x[p];
-        states_share_bounds(&wider, p);
-        widened = 1;
-    }
-    if (status || !widened)
-        return status;
-    status = refit_states(pool, &wider, number, holdout, environment, &beyond);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    if (!status)
-        *drop = fmax(0, fit->chi2 - beyond->chi2);
-    rotid_fit_free(beyond);
-    return ROTID_OK;
 }
 
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)

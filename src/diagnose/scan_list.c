@@ -238,25 +238,6 @@ static int add_suspect(struct listing *l, int home, const struct suspect *suspec
     return status;
 }
 
-int states_meet(int nstate, const int *a, const int *b)
-{
-    for (int s = 0; s < nstate; s++)
-        if (a[s] && b[s])
-            return 1;
-    return 0;
-}
-
-int scan_allows(const struct states *states, const struct scan *scan, int a, int b)
-{
-    const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
-    if (first->cause != second->cause || first->effect.target != second->effect.target ||
-        !states_meet(states->nstate, first->in, second->in))
-        return a != b;
-    int place = first->cause->place;
-    return place >= 0 && !first->fixed[place] && !second->fixed[place] && !first->suspect && !second->suspect &&
-           !effects_alike(&states->state[first->home].job.rotor, first->cause, first->effect.target);
-}
-
 static int open_listing(struct listing *l)
 {
     int most = 0, count = l->states->nstate;

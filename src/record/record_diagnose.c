@@ -38,6 +38,7 @@ static const struct record_field marginal_fields[] = {
     TEXT(rotid_marginal, id, 0),
     TEXT(rotid_marginal, target, 0),
     TEXT(rotid_marginal, state, MAY_BE_NULL),
+    NUMBER(rotid_marginal, z_m, MAY_BE_NULL),
     NUMBER(rotid_marginal, probability, PROBABILITY),
     {0},
 };

@@ -136,18 +136,3 @@ int diagnosis_is_suspected(const rotid_diagnosis *d, const rotid_cause *cause)
     }
     return 0;
 }
-
-int verdict_is_pair(const rotid_verdict *v, int i)
-{
-    return i > 0 && i < v->nalternative_sets && v->alternative_sets[i] > 0 &&
-           v->alternative_sets[i] == v->alternative_sets[i - 1];
-}
-
-int verdict_sets(const rotid_verdict *v)
-{
-    int count = v->nalternative_causes;
-    for (int i = 0; i < v->nalternative_causes; i++)
-        count -= verdict_is_pair(v, i);
-    return count;
-}
-

@@ -292,11 +292,6 @@ const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, con
  */
 const rotid_hidden *hidden_in(int count, const rotid_hidden *hidden, const rotid_fitted_parameter *parameter);
 
-/* How many sets of causes cannot be told apart, a pair being one. */
-int verdict_sets(const rotid_verdict *verdict);
-/* Whether alternative cause i is meant together with the one before it. */
-int verdict_is_pair(const rotid_verdict *verdict, int i);
-
 /* The fit as the deck states it, where it gives other parameters than the base model by a different choice; else NULL. */
 const rotid_identification *diagnosis_today(const rotid_diagnosis *d);
 /* The candidates of a round, from 0, best first; their count. */

@@ -142,6 +142,8 @@ static int draw_stiffness(struct draw *d, const char *id, char spec[HIDE_SPEC])
         return of_group(d, id, "profile", either_sign(d, 0.02, 0.8), any, spec);
     if (!strcmp(id, "stiffness"))
         return of_group(d, id, "factor", factor(d, 0.003, 0.25), known_modulus, spec);
+    if (!strcmp(id, "diameter"))
+        return of_group(d, id, "factor", factor(d, 0.003, 0.08), known_modulus, spec);
     if (!strcmp(id, "shear_coefficient"))
         return of_group(d, id, "factor", factor(d, 0.01, 0.4), known_modulus, spec);
     if (!strcmp(id, "stiffness_local")) {
@@ -364,7 +366,7 @@ static const struct hide_kind *draw_class(struct draw *d, enum hide_class class,
                                           char spec[HIDE_SPEC])
 {
     for (int tries = 0; tries < 1000; tries++) {
-        const struct hide_kind *kind = hide_kind(hide_pick(d->random, class == HIDE_DATA ? hide_kinds() : hide_kinds() - 1));
+        const struct hide_kind *kind = hide_kind(hide_pick(d->random, hide_kinds() - (class == HIDE_DATA ? 1 : 2)));
         if (kind->class == class && kind != without && draw_kind(d, kind, spec))
             return kind;
     }

@@ -75,6 +75,8 @@ static const struct hide_kind table[] = {
     {"outside", "sine", HIDE_OUTSIDE, {TARGET("group", HIDE_GROUP), NUMBER("amplitude", -0.95, 0.95), NUMBER("waves", 0.01, 20)}},
     /* last, and no candidate for other classes: what a seed draws of those stays as it was */
     {"sensor_line", NULL, HIDE_DATA, {OPTION("flip", 0, 0, 1), OPTION("shift", 0, -ANY, ANY), OPTION("scale", 1, 0.1, 10)}},
+    /* asked for by name alone */
+    {"diameter", NULL, HIDE_PHYSICAL, {TARGET("group", HIDE_KNOWN_GROUP), NUMBER("factor", 0.5, 2)}},
 };
 
 int hide_kinds(void)

@@ -115,7 +115,14 @@ static void add_part(const struct hide_physics *physics, int group, const struct
                      struct hide_section *section, struct wall *wall)
 {
     const struct hide_material *m = &physics->rotor->group[group].material;
+    struct hide_segment turned = *s;
     struct hide_section part;
+    for (int i = 0; i < physics->effects; i++)
+        if (hide_is(&physics->effect[i], "diameter") && hide_get(&physics->effect[i], "group")->index == group) {
+            turned.outer *= hide_get(&physics->effect[i], "factor")->number;
+            stiff *= hide_get(&physics->effect[i], "factor")->number;
+            s = &turned;
+        }
     struct moments whole = ring(stiff, s->inner);
     section_of(&physics->rotor->group[group], s, stiff, &part);
     double g = hide_shear_modulus(m);

@@ -29,6 +29,7 @@
     X(clamp)                                                                                                                     \
     X(added_mass)                                                                                                                \
     X(added_inertia)                                                                                                             \
+    X(diameter)                                                                                                                  \
     X(density)                                                                                                                   \
     X(stiffness)                                                                                                                 \
     X(layer_slip)                                                                                                                \
