@@ -575,7 +575,7 @@ static void sensors_at_one_end(void **state)
     append_data(&d, MODES, 0, 1, 5, 1);
     (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
-    assert_honest(&r, NULL);
+    assert_honest(&r, "stiffness_gradient");
     assert_true(says(&r, "the sensors cover"));
     close_run(&r);
 }

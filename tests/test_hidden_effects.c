@@ -71,7 +71,7 @@ static const struct {
     {MISSTATED, 42, {"noise_level:block=FREQUENCY,factor=2"}, 0},
     {TWO, 43, {"stiffness:group=left,factor=1.08", "added_mass:mass=20,z=1.2"}, 0},
     {TWO, 44, {"tie_shear:at=ties", "joint:at=core.end,flexibility=1e-9"}, 0},
-    {OUTSIDE, 46, {"outside:kind=sine,group=core,amplitude=0.4,waves=2"}, 0},
+    {OUTSIDE, 46, {"outside:kind=sine,group=core,amplitude=0.15,waves=2"}, 0},
     {TWO, 47, {"stiffness_local:depth=0.8,z=0.4,width=0.03", "stiffness_local:depth=0.8,z=1.5,width=0.03"}, 0},
 };
 
