@@ -867,6 +867,9 @@ module rotid
     real(c_double) :: z_m = 0
     real(c_double) :: chance = 0
     real(c_double) :: wrong = 0
+    real(c_double) :: entropy = 0
+    integer(c_int) :: nexpected_percent = 0
+    type(c_ptr) :: expected_percent = c_null_ptr ! real
     integer(c_int) :: nmargins = 0
     type(c_ptr) :: margins = c_null_ptr ! rotid_expected_margin
     type(c_ptr) :: cards = c_null_ptr ! text
@@ -894,6 +897,7 @@ module rotid
     integer(c_int) :: nrivals = 0
     type(c_ptr) :: rivals = c_null_ptr ! rotid_rival
     real(c_double) :: among = 0
+    real(c_double) :: entropy = 0
     integer(c_int) :: ntests = 0
     type(c_ptr) :: tests = c_null_ptr ! rotid_suggested_test
     real(c_double) :: set_up_cost = 0

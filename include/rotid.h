@@ -784,32 +784,32 @@ typedef struct rotid_numerical_finding {
 
 /* The model of the deck before any cause. */
 typedef struct rotid_round {
-    int round;              /* from 1 */
-    double chi2;            /* of the model before the round [1] */
-    double chi2_frequency;  /* the part of the frequencies [1] */
-    int dof;                /* degrees of freedom */
-    int frequencies;        /* number of frequencies that were fitted */
-    double largest;         /* predicted drop of chi2 in the scan [1] */
-    double threshold;       /* that noise alone exceeds in 3 % of tests [1] */
-    double p_scan;          /* of the largest drop */
-    double p_frequency;     /* of the frequencies */
-    double p_total;         /* of chi2 */
+    int round;             /* from 1 */
+    double chi2;           /* of the model before the round [1] */
+    double chi2_frequency; /* the part of the frequencies [1] */
+    int dof;               /* degrees of freedom */
+    int frequencies;       /* number of frequencies that were fitted */
+    double largest;        /* predicted drop of chi2 in the scan [1] */
+    double threshold;      /* that noise alone exceeds in 3 % of tests [1] */
+    double p_scan;         /* of the largest drop */
+    double p_frequency;    /* of the frequencies */
+    double p_total;        /* of chi2 */
 } rotid_round;
 
 /* A cause at one target, tried in one round. */
 typedef struct rotid_candidate {
     int round; /* from 1 */
     rotid_cause cause;
-    int suspect;                  /* asked for by a CAUSE card with SUSPECT */
-    int refitted;                 /* judged by a nonlinear fit; else the numbers of that fit are NaN */
-    double predicted_drop;        /* of chi2, from the linear scan [1] */
-    double chi2;                  /* with the cause in the model [1] */
-    double chi2_frequency;        /* the part of the frequencies [1] */
-    double chi2_drop;             /* against the model of the round [1] */
-    double holdout_rms;           /* error of the frequencies that the deck holds out [%] */
-    double sensor_out_rms;        /* standardised shape residual of sensors left out in turn [1] */
-    int at_bound;                 /* a parameter is pressed against a physical bound */
-    double probability;           /* that this cause is there, alone or with others */
+    int suspect;           /* asked for by a CAUSE card with SUSPECT */
+    int refitted;          /* judged by a nonlinear fit; else the numbers of that fit are NaN */
+    double predicted_drop; /* of chi2, from the linear scan [1] */
+    double chi2;           /* with the cause in the model [1] */
+    double chi2_frequency; /* the part of the frequencies [1] */
+    double chi2_drop;      /* against the model of the round [1] */
+    double holdout_rms;    /* error of the frequencies that the deck holds out [%] */
+    double sensor_out_rms; /* standardised shape residual of sensors left out in turn [1] */
+    int at_bound;          /* a parameter is pressed against a physical bound */
+    double probability;    /* that this cause is there, alone or with others */
 } rotid_candidate;
 
 /* Of the base and of the extended model. */
@@ -988,6 +988,9 @@ typedef struct rotid_suggested_test {
     double z_m;        /* where it goes, or the support [m]; NaN without */
     double chance;     /* that the true one of the rivals is named afterwards */
     double wrong;      /* that another one is named */
+    double entropy;    /* of the probabilities of the rivals afterwards, expected [nat] */
+    int nexpected_percent;
+    double *expected_percent; /* half of the 95 % intervals of the parameters afterwards, averaged over the rivals [%] */
     int nmargins;
     rotid_expected_margin *margins;
     const char *cards; /* of the deck: the *STATE of this test, with comments where its measurements go */
@@ -1017,6 +1020,7 @@ typedef struct rotid_suggestion {
     int nrivals;
     rotid_rival *rivals; /* best first; empty where nothing is open. The last is the model as it is */
     double among;        /* how likely the true cause is one of them; NaN without rivals */
+    double entropy;      /* of the probabilities of the rivals now [nat]; NaN without */
     int ntests;
     rotid_suggested_test *tests; /* by chance, then by cost */
     double set_up_cost;          /* of a set-up, in points [1] */

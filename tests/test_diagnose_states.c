@@ -218,7 +218,8 @@ static void a_cause_of_both_is_surer_than_of_one_alone(void **state)
 static void a_cause_in_one_state_is_named_with_it(void **state)
 {
     (void)state;
-    static const char *const mass[] = {"added_mass:mass=1.5,z=0.7"}, *const soft[] = {"stiffness_local:depth=0.4,z=0.5,width=0.03"};
+    static const char *const mass[] = {"added_mass:mass=1.5,z=0.7"}, *const soft[] = {
+                                                                         "stiffness_local:depth=0.4,z=0.5,width=0.03"};
     static const struct hidden_state second[] = {{"bare", "", 0, NULL}, {"disc", DISC, 1, mass}},
                                      first[] = {{"bare", "", 1, soft}, {"disc", DISC, 0, NULL}};
     const struct hide_request r = request(4, 7, 100);

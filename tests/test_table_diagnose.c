@@ -405,8 +405,8 @@ static void everything_nan(void)
         s.local[i].indicator = NAN;
     for (int i = 0; i < 4; i++) {
         struct candidate *c = &s.candidate[i];
-        c->result.predicted_drop = c->result.chi2 = c->result.chi2_frequency = c->result.chi2_drop =
-            c->result.sensor_out_rms = NAN;
+        c->result.predicted_drop = c->result.chi2 = c->result.chi2_frequency = c->result.chi2_drop = c->result.sensor_out_rms =
+            NAN;
         for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
             c->effect.value[p] = c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     }

@@ -9,11 +9,8 @@
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
-    rotid_cause out = {.id = c->cause->id,
-                       .target = c->target,
-                       .name = c->effect.name,
-                       .variant = candidate_variant(c),
-                       .state = c->state_name};
+    rotid_cause out = {
+        .id = c->cause->id, .target = c->target, .name = c->effect.name, .variant = candidate_variant(c), .state = c->state_name};
     int room = POOL_LIST(pool, out.parameters, EFFECT_MOST_PARAMETERS);
     for (int p = 0; p < room && (parameter = candidate_parameter(c, p)); p++)
         out.parameters[out.nparameters++] = (rotid_cause_value){.name = parameter->name,
@@ -73,7 +70,8 @@ static void fill_explanations(struct pool *pool, const struct diagnosis *d, roti
     for (int i = 0; i < room; i++) {
         const struct candidate *c = &p->marginal[i].cause;
         double z = c->cause->place < 0 ? (double)NAN : c->effect.value[c->cause->place];
-        out->marginals[out->nmarginals++] = (rotid_marginal){c->cause->id, c->target, c->state_name, z, p->marginal[i].probability};
+        out->marginals[out->nmarginals++] =
+            (rotid_marginal){c->cause->id, c->target, c->state_name, z, p->marginal[i].probability};
     }
     out->nothing = p->count ? p->nothing : (double)NAN;
     out->nothing_prior = p->count ? p->nothing_prior : (double)NAN;

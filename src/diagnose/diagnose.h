@@ -11,12 +11,12 @@
  *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
  *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
  *   5 refit      refit.c (refit_cause): fits with one cause more; far_starts.c
- *   6 posterior  laplace.c (evidence_of_fit): ln Z of a fit; posterior.c (posterior_run, posterior_verdict): beam search over sets
- *                of causes, probabilities, averaged moduli; discrepancy.c: noise that an approximate cause leaves; advice.c
- *   7 doubts     of the data, after which 3 to 6 are repeated (round.c, round_run): pairing.c; faults.c with sensor_check.c and
- *                sensor_field.c: channels; noise_check.c: level of the noise
- *   8 evidence   evidence.c, leave_out.c: single causes for the reader; modes and sensors left out
- *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
+ *   6 posterior  laplace.c (evidence_of_fit): ln Z of a fit; posterior.c (posterior_run, posterior_verdict): beam search over
+ * sets of causes, probabilities, averaged moduli; discrepancy.c: noise that an approximate cause leaves; advice.c 7 doubts     of
+ * the data, after which 3 to 6 are repeated (round.c, round_run): pairing.c; faults.c with sensor_check.c and sensor_field.c:
+ * channels; noise_check.c: level of the noise 8 evidence   evidence.c, leave_out.c: single causes for the reader; modes and
+ * sensors left out 9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx =
+ * (J'J)^-1 J'c s
  *
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
  * properties of a cause by struct cause_kind; it must not read files, print, or change the deck. */
@@ -67,6 +67,7 @@ struct diagnosis_round {
 };
 
 #define MOST_MEMBERS  3
+#define VERDICT_NAMED 0.95 /* probability of a name */
 #define SEARCH_PASSES 4
 #define SEARCH_FITS   40 /* of all passes, at most */
 
@@ -98,7 +99,7 @@ struct posterior {
     struct evidence_data *data;
     const struct scan *base;
     int nown;
-    double length; /* of the rotor */
+    double length;                 /* of the rotor */
     double nothing, nothing_prior; /* probability that nothing is wrong, after and before */
     double something_else;         /* of all explanations with something else */
     int nmarginal;
@@ -487,11 +488,11 @@ void effect_at(const struct state *state, int effect, const double *x, struct ef
 struct round_result {
     struct scan scan;
     struct bootstrap bootstrap;
-    int adequate;         /* noise explains what the base leaves */
-    int nsingle;          /* the first fits are of these candidates; those of the search for explanations follow */
-    int *candidate;       /* [nsingle] */
+    int adequate;   /* noise explains what the base leaves */
+    int nsingle;    /* the first fits are of these candidates; those of the search for explanations follow */
+    int *candidate; /* [nsingle] */
     int nrefit, room;
-    struct refit *refit;  /* [nrefit] */
+    struct refit *refit;     /* [nrefit] */
     struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
 };
 

@@ -16,16 +16,13 @@ const char *candidate_label(struct pool *pool, const struct candidate *c)
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)
 {
-    struct candidate c = {.result = {.chi2 = NAN,
-                                     .chi2_drop = NAN,
-                                     .chi2_frequency = NAN,
-                                     .holdout_rms = NAN,
-                                     .sensor_out_rms = NAN},
-                          .cause = cause,
-                          .target = target,
-                          .state = -1,
-                          .other_place = NAN,
-                          .other_chi2 = NAN};
+    struct candidate c = {
+        .result = {.chi2 = NAN, .chi2_drop = NAN, .chi2_frequency = NAN, .holdout_rms = NAN, .sensor_out_rms = NAN},
+        .cause = cause,
+        .target = target,
+        .state = -1,
+        .other_place = NAN,
+        .other_chi2 = NAN};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c.std[p] = c.ci_lower[p] = c.ci_upper[p] = NAN;
     return c;

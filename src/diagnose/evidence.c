@@ -193,7 +193,8 @@ static int compare(const void *left, const void *right)
     if (a->refitted != b->refitted)
         return b->refitted - a->refitted;
     double one = isfinite(a->chi2) ? a->chi2 : INFINITY, two = isfinite(b->chi2) ? b->chi2 : INFINITY;
-    return (one > two) - (one < two) + ((one == two) ? (a->predicted_drop < b->predicted_drop) - (a->predicted_drop > b->predicted_drop) : 0);
+    return (one > two) - (one < two) +
+           ((one == two) ? (a->predicted_drop < b->predicted_drop) - (a->predicted_drop > b->predicted_drop) : 0);
 }
 
 int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,

@@ -335,11 +335,11 @@ static const char *change_sentence(const struct engine *engine, const char *caus
                                                    : "the rest still exceeds the noise",
                            chance, end);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool, "The data cannot tell what changed between %s and %s (%s): %s.%s", from, to, chance, others, end);
+        return pool_format(pool, "The data cannot tell what changed between %s and %s (%s): %s.%s", from, to, chance, others,
+                           end);
     default:
-        return pool_format(pool,
-                           "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s", from,
-                           to, chance, 100 * verdict->something_else, others, end);
+        return pool_format(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
+                           from, to, chance, 100 * verdict->something_else, others, end);
     }
 }
 

@@ -5,8 +5,8 @@
  *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is
  *            scored by the evidence of its columns, the most promising are fitted and scored by laplace.c, until none is left
  *            within WITHIN of the best; what was not fitted enters by its columns
- *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of NAMED and more, placed in one interval; ADEQUATE:
- *            nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
+ *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval;
+ * ADEQUATE: nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,9 +26,8 @@
 #define LEAST_SHARE    1e-7 /* of an explanation whose causes count for the marginals */
 #define LEAST_MARGINAL 0.001
 #define LISTED_SHARE   0.99
-#define HARMLESS       0.2 /* a cause below it is none */
-#define ODDS           3.0 /* of anything over nothing, times those before */
-#define NAMED          0.95
+#define HARMLESS       0.2   /* a cause below it is none */
+#define ODDS           3.0   /* of anything over nothing, times those before */
 #define SUSPECTED      10.0  /* times: a cause that the user suspects */
 #define NEAR_PLACE     0.125 /* of the length: half of the interval of a place that is named */
 
@@ -52,8 +51,7 @@ static int same_model(const struct candidate *a, const struct candidate *b)
 static int same_name(const struct posterior *p, const struct candidate *a, const struct candidate *b)
 {
     int place = a->cause->place;
-    return same_cause(a, b) &&
-           (place < 0 || fabs(a->effect.value[place] - b->effect.value[place]) < NEAR_PLACE * p->length);
+    return same_cause(a, b) && (place < 0 || fabs(a->effect.value[place] - b->effect.value[place]) < NEAR_PLACE * p->length);
 }
 
 static int has(const struct posterior *p, const struct explanation *e, const struct candidate *c)
@@ -704,11 +702,11 @@ static double together(const struct posterior *p, const struct candidate *a, con
 static int choose_names(const struct engine *engine, const struct posterior *p, struct candidate *named)
 {
     int count = 0;
-    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= NAMED && count < MOST_MEMBERS; i++) {
+    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && count < MOST_MEMBERS; i++) {
         const struct candidate *c = &p->marginal[i].cause;
         int joint = 1;
         for (int j = 0; j < count; j++)
-            joint &= together(p, &named[j], c) >= NAMED;
+            joint &= together(p, &named[j], c) >= VERDICT_NAMED;
         const struct explanation *with = model_with(p, 1, c, 0);
         for (int m = 0; with && m < with->nmember; m++)
             if (same_name(p, &with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {

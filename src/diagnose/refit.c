@@ -9,7 +9,7 @@
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
-#define STRAYED    3.0 /* times the start of the deck */
+#define STRAYED    3.0  /* times the start of the deck */
 
 static double inside(const rotid_parameter *bounds, double value)
 {

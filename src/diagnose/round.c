@@ -1,5 +1,5 @@
-/* The search once: scan, chance by the bootstrap, fits of what is promising, explanations; and again where they show that the data
- * are at fault. */
+/* The search once: scan, chance by the bootstrap, fits of what is promising, explanations; and again where they show that the
+ * data are at fault. */
 #include "diagnose/diagnose.h"
 
 #include <math.h>
@@ -142,16 +142,16 @@ static int noise_settle(struct engine *engine, const struct scan *scan, const do
     return status;
 }
 
-#define MOST_REFITS         16
-#define MOST_PASSES         5    /* of a round, each with better data */
-#define WORTH               3.0  /* a promised drop below this is noise */
-#define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
+#define MOST_REFITS 16
+#define MOST_PASSES 5    /* of a round, each with better data */
+#define WORTH       3.0  /* a promised drop below this is noise */
+#define SHARE       0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
 struct refits {
     const struct engine *engine;
     struct round_result *result;
     const double *deck; /* [nparameter] the starts of the deck, of causes that were named their values */
-    struct pool *pool; /* one a task: pools are not shared between threads */
+    struct pool *pool;  /* one a task: pools are not shared between threads */
 };
 
 static int refit_task(void *context, int index, int worker)

@@ -222,8 +222,11 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
         double was = d->base->parameters[p].value;
         if (p < d->nparameters && v->nexplanations > 1 && v->kind != ROTID_NAMED) {
             const rotid_averaged_parameter *mean = &d->parameters[p];
-            const rotid_fitted_parameter whole = {
-                .name = mean->name, .unit = mean->unit, .value = mean->value, .ci95 = {mean->ci95[0], mean->ci95[1]}, .identifiable = 1};
+            const rotid_fitted_parameter whole = {.name = mean->name,
+                                                  .unit = mean->unit,
+                                                  .value = mean->value,
+                                                  .ci95 = {mean->ci95[0], mean->ci95[1]},
+                                                  .identifiable = 1};
             tile_parameter(document, &whole, "averaged over the explanations by their probabilities");
         } else if (value)
             tile_parameter(document, value,
@@ -356,8 +359,7 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
         for (int k = 0; k < count; k++)
             fitted += candidate[k].refitted;
         document_paragraph(document, "The misfit \xcf\x87\xc2\xb2 of the model without causes is %s%s%s%s.",
-                           human_digits(pool, round->chi2, 4),
-                           isfinite(round->threshold) ? "; chance alone lowers it by " : "",
+                           human_digits(pool, round->chi2, 4), isfinite(round->threshold) ? "; chance alone lowers it by " : "",
                            isfinite(round->threshold) ? human_digits(pool, round->threshold, 3) : "",
                            isfinite(round->threshold) ? " in 3 of 100 tests" : "");
         if (!fitted) {

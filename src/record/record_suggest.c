@@ -53,13 +53,14 @@ static const struct record_field margin_fields[] = {
 static const struct record margin_record = RECORD(rotid_expected_margin, margin_fields);
 
 static const struct record_field test_fields[] = {
-    TEXT_OF(rotid_suggested_test, id, 0, tests),      TEXT(rotid_suggested_test, text, 0),
-    NUMBER(rotid_suggested_test, cost, FROM_0),       INTEGER(rotid_suggested_test, setups, FROM_0),
-    INTEGER(rotid_suggested_test, points, FROM_1),    INTEGER(rotid_suggested_test, modes, FROM_1),
-    NUMBERS(rotid_suggested_test, sensors_m, 0),      NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),   NUMBER(rotid_suggested_test, chance, PROBABILITY),
-    NUMBER(rotid_suggested_test, wrong, PROBABILITY), STRUCTS(rotid_suggested_test, margins, 0, margin_record),
-    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),   {0},
+    TEXT_OF(rotid_suggested_test, id, 0, tests),        TEXT(rotid_suggested_test, text, 0),
+    NUMBER(rotid_suggested_test, cost, FROM_0),         INTEGER(rotid_suggested_test, setups, FROM_0),
+    INTEGER(rotid_suggested_test, points, FROM_1),      INTEGER(rotid_suggested_test, modes, FROM_1),
+    NUMBERS(rotid_suggested_test, sensors_m, 0),        NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),     NUMBER(rotid_suggested_test, chance, PROBABILITY),
+    NUMBER(rotid_suggested_test, wrong, PROBABILITY),   NUMBER(rotid_suggested_test, entropy, FROM_0),
+    NUMBERS(rotid_suggested_test, expected_percent, 0), STRUCTS(rotid_suggested_test, margins, 0, margin_record),
+    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),     {0},
 };
 static const struct record test_record = RECORD(rotid_suggested_test, test_fields);
 
@@ -78,6 +79,7 @@ static const struct record_field suggestion_fields[] = {
     TEXT(rotid_suggestion, verdict, MAY_BE_NULL),
     STRUCTS(rotid_suggestion, rivals, 0, rival_record),
     NUMBER(rotid_suggestion, among, MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_suggestion, entropy, MAY_BE_NULL | FROM_0),
     STRUCTS(rotid_suggestion, tests, 0, test_record),
     NUMBER(rotid_suggestion, set_up_cost, FROM_0),
     TEXT(rotid_suggestion, state, MAY_BE_NULL),

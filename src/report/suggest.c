@@ -85,18 +85,28 @@ static const rotid_expected_margin *closest(const rotid_suggestion *s, const rot
 struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Tests: the chance that the true one of the rivals is named, what it takes");
-    if (table)
+    int narrow = 0; /* the test after which the first parameter is known best */
+    for (int i = 1; i < s->ntests; i++)
+        if (s->tests[i].nexpected_percent && s->tests[i].expected_percent[0] < s->tests[narrow].expected_percent[0])
+            narrow = i;
+    if (table && s->ntests)
         table->note =
             pool_format(pool,
-                        "margin: lead of rival 1 that is expected, were it true, over the closest other one; a set-up costs "
-                        "as much as %g points.",
-                        s->set_up_cost);
+                        "First what lowers the entropy of the shares of the rivals most (now %.2f); %s is known best after test "
+                        "%d. +-: half of the 95 %% interval, averaged over the rivals; margin: lead of rival 1 that is expected, "
+                        "were it true, over the closest other one; a set-up costs as much as %g points.",
+                        s->entropy, s->nparameters ? s->parameters[0].name : "nothing", narrow + 1, s->set_up_cost);
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         const rotid_expected_margin *m = closest(s, t);
         table_row(table);
         number_column(table, "chance", NULL, SHOW_FIXED(2), t->chance);
         number_column(table, "wrong", NULL, SHOW_FIXED(2), t->wrong);
+        number_column(table, "entropy", NULL, SHOW_FIXED(2), t->entropy);
+        for (int p = 0; p < t->nexpected_percent && p < s->nparameters && p < 2; p++) {
+            const char *head = pool_format(pool, "%s +-", s->parameters[p].name);
+            number_column(table, head ? head : "", "%", SHOW_DIGITS(3), t->expected_percent[p]);
+        }
         number_column(table, "cost", NULL, SHOW_TRIMMED(4), t->cost);
         number_column(table, "set-ups", NULL, SHOW_COUNT, t->setups);
         number_column(table, "points", NULL, SHOW_COUNT, t->points);

@@ -172,7 +172,7 @@ static int pair_designs(struct pool *pool, const struct rivals *rivals, const st
 #define MOST_MORE     12
 #define AVERAGES      4    /* measurements of a point that halve its noise */
 #define MOVED         0.1  /* of the length */
-#define SAME_CHANCE   0.05 /* that is worth no cost */
+#define SAME_ENTROPY  0.05 /* that is worth no cost */
 #define MOST_REFITTED 3    /* tests */
 #define MOST_BESIDE   2    /* rivals of the best one */
 #define DRAWS         400  /* a chance to 0.025 */
@@ -228,12 +228,12 @@ static int test_again(struct judging *j, enum test_kind kind, struct test *t)
 static int compare_tests(const void *left, const void *right)
 {
     const rotid_suggested_test *a = *(const rotid_suggested_test *const *)left, *b = *(const rotid_suggested_test *const *)right;
-    double x = floor(a->chance / SAME_CHANCE + 0.5), y = floor(b->chance / SAME_CHANCE + 0.5);
+    double x = floor(a->entropy / SAME_ENTROPY + 0.5), y = floor(b->entropy / SAME_ENTROPY + 0.5);
     if (x != y)
-        return (x < y) - (x > y);
+        return (x > y) - (x < y);
     if (a->cost != b->cost)
         return (a->cost > b->cost) - (a->cost < b->cost);
-    return (a->chance < b->chance) - (a->chance > b->chance);
+    return (a->entropy > b->entropy) - (a->entropy < b->entropy);
 }
 
 /* The frequencies that the best rival expects, for the comments of the deck. */

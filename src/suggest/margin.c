@@ -18,6 +18,10 @@ struct side { /* a rival in the state of a test */
     double *spread; /* [n * n] factor of J1'J1 + I */
     double *work;   /* [nrow + n] */
     double trace;   /* of H^-1 J2'J2 */
+    /* the unknowns of all rivals: */
+    double *value, *variance,
+        *moved; /* [nown] x, the variance of its relative error by both states, and relative step of a draw */
+    int *at;    /* [nown] among the n, -1: it cannot follow */
 };
 
 /* ------------------------------------------------------------------------------------------------ a rival in a state */
@@ -168,13 +172,36 @@ int margin_distances(struct pool *pool, const struct rivals *rivals, const struc
     return status;
 }
 
-/* Whether a lead M [n] of rival `truth` over each other one names it: the last one is the model as it is. */
-static int margin_suffices(const struct rivals *rivals, int truth, const double *lead)
+/* The unknowns that the model as it is has, which every rival has, too. */
+static int open_unknowns(struct pool *pool, const struct rival *rival, int nown, struct side *s)
 {
-    for (int b = 0; b < rivals->n; b++)
-        if (b != truth && !(lead[b] > (b == rivals->n - 1 ? rivals->base_margin : rivals->margin)))
-            return 0;
-    return 1;
+    double *column = POOL_ARRAY(pool, double, s->n);
+    s->value = POOL_ARRAY(pool, double, nown);
+    s->variance = POOL_ARRAY(pool, double, nown);
+    s->moved = POOL_ARRAY(pool, double, nown);
+    s->at = POOL_ARRAY(pool, int, nown);
+    if (!column || !s->value || !s->variance || !s->moved || !s->at)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0, used = 0; p < nown; p++) {
+        s->value[p] = rival->fit->x[p];
+        s->at[p] = rival_uses(rival, p) ? used++ : -1;
+        if (s->at[p] < 0)
+            continue;
+        memset(column, 0, (size_t)s->n * sizeof *column);
+        column[s->at[p]] = 1;
+        cholesky_solve(s->n, s->factor, 1, column);
+        s->variance[p] = column[s->at[p]];
+    }
+    return ROTID_OK;
+}
+
+/* The steps of the unknowns in the fit that remainder_of has just made: H^-1 J2'z. */
+static void take_steps(int nown, struct side *s)
+{
+    double *along = s->work + s->nrow;
+    cholesky_backward_leading(s->n, s->n, s->factor, along);
+    for (int p = 0; p < nown; p++)
+        s->moved[p] = s->at[p] < 0 ? 0 : along[s->at[p]];
 }
 
 /* The lead expected: noise is white, and what is not known of the truth lies along the columns of J_a2 C_a^(1/2). */
@@ -204,20 +231,47 @@ static void make_spread(const struct side *a, double *spread)
     }
 }
 
-struct counts {
+struct counts { /* sums over draws */
     int named, wrong;
+    double entropy;
+    double *variance; /* [nown] of the mixture of all rivals */
 };
+
+/* Probabilities of the rivals by a draw, chi2 [n] in, and what follows of them. */
+static void weigh_draw(int n, int truth, int nown, const struct side *side, double *chi2, struct counts *count)
+{
+    double least = INFINITY, sum = 0;
+    for (int b = 0; b < n; b++)
+        least = fmin(least, chi2[b]);
+    for (int b = 0; b < n; b++)
+        sum += chi2[b] = exp((least - chi2[b]) / 2);
+    for (int b = 0; b < n; b++) {
+        double share = chi2[b] /= sum;
+        count->entropy -= share > 0 ? share * log(share) : 0;
+        if (b + 1 < n && share >= VERDICT_NAMED)
+            *(b == truth ? &count->named : &count->wrong) += 1;
+    }
+    for (int p = 0; p < nown; p++) {
+        double mean = 0, square = 0;
+        for (int b = 0; b < n; b++) {
+            double x = side[b].value[p], at = x * (1 + side[b].moved[p]);
+            mean += chi2[b] * at;
+            square += chi2[b] * (at * at + x * x * side[b].variance[p]);
+        }
+        count->variance[p] += fmax(0, square - mean * mean);
+    }
+}
 
 /* *count over the draws; won [n] how often the lead over each rival suffices */
 static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, struct side *side, const double *spread, int draws,
                     unsigned long seed, struct counts *count, int *won)
 {
+    int nown = rivals->rival[rivals->n - 1].fit->n;
     struct side *a = &side[truth];
     int n = rivals->n;
     struct random_stream stream = {seed};
-    double *w = POOL_ARRAY(pool, double, a->nrow), *z = POOL_ARRAY(pool, double, a->nrow), *chi2 = POOL_ARRAY(pool, double, n),
-           *lead = POOL_ARRAY(pool, double, n);
-    if (!w || !z || !chi2 || !lead)
+    double *w = POOL_ARRAY(pool, double, a->nrow), *z = POOL_ARRAY(pool, double, a->nrow), *chi2 = POOL_ARRAY(pool, double, n);
+    if (!w || !z || !chi2)
         return ROTID_ERROR_MEMORY;
     for (int draw = 0; draw < draws; draw++) {
         for (int i = 0; i < a->nrow; i++)
@@ -231,15 +285,11 @@ static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, s
             for (int i = 0; i < a->nrow; i++)
                 z[i] = w[i] - (b == truth ? 0 : side[b].d[i]);
             chi2[b] = rivals->rival[b].score + remainder_of(&side[b], z);
-        }
-        for (int named = 0; named + 1 < n; named++) {
-            for (int b = 0; b < n; b++)
-                lead[b] = chi2[b] - chi2[named];
-            if (margin_suffices(rivals, named, lead))
-                *(named == truth ? &count->named : &count->wrong) += 1;
+            take_steps(nown, &side[b]);
         }
         for (int b = 0; b < n; b++)
-            won[b] += chi2[b] - chi2[truth] > (b == n - 1 ? rivals->base_margin : rivals->margin);
+            won[b] += chi2[b] - chi2[truth] > rivals->margin;
+        weigh_draw(n, truth, nown, side, chi2, count);
     }
     return ROTID_OK;
 }
@@ -247,12 +297,14 @@ static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, s
 static int judge_truth(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, int draws,
                        unsigned long seed, rotid_suggested_test *out, int *feasible)
 {
-    int n = rivals->n, *won = POOL_ARRAY(pool, int, n);
+    int n = rivals->n, nown = rivals->rival[n - 1].fit->n, *won = POOL_ARRAY(pool, int, n);
     struct side *side = POOL_ARRAY(pool, struct side, n);
-    struct counts count = {0};
-    if (!side || !won)
+    struct counts count = {.variance = POOL_ARRAY(pool, double, nown)};
+    if (!side || !won || !count.variance)
         return ROTID_ERROR_MEMORY;
     int status = open_sides(pool, rivals, test, truth, side, feasible);
+    for (int b = 0; b < n && !status && *feasible; b++)
+        status = open_unknowns(pool, &rivals->rival[b], nown, &side[b]);
     if (status || !*feasible)
         return status;
     struct side *a = &side[truth];
@@ -264,6 +316,9 @@ static int judge_truth(struct pool *pool, const struct rivals *rivals, const str
     const struct rival *true_one = &rivals->rival[truth];
     out->chance += rivals->among * true_one->share * count.named / draws;
     out->wrong += rivals->among * true_one->share * count.wrong / draws;
+    out->entropy += true_one->share * count.entropy / draws;
+    for (int p = 0; p < out->nexpected_percent; p++)
+        out->expected_percent[p] += true_one->share * count.variance[p] / draws;
     for (int b = 0; b < n && !status; b++) {
         double before = rivals->rival[b].score - true_one->score;
         if (b != truth)
@@ -282,9 +337,11 @@ int margin_judge(struct pool *pool, const struct rivals *rivals, const struct te
                  rotid_suggested_test *out, int *feasible)
 {
     int status = ROTID_OK, n = rivals->n;
-    out->chance = out->wrong = 0;
+    int nown = rivals->rival[n - 1].fit->n;
+    out->chance = out->wrong = out->entropy = 0;
     out->nmargins = 0;
-    *feasible = POOL_LIST(pool, out->margins, (size_t)n * (size_t)n) > 0;
+    out->nexpected_percent = POOL_LIST(pool, out->expected_percent, nown);
+    *feasible = POOL_LIST(pool, out->margins, (size_t)n * (size_t)n) > 0 && out->nexpected_percent == nown;
     if (!*feasible)
         return ROTID_ERROR_MEMORY;
     for (int a = 0; a + 1 < n && !status && *feasible; a++) {
@@ -294,5 +351,7 @@ int margin_judge(struct pool *pool, const struct rivals *rivals, const struct te
         status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&scratch);
     }
+    for (int p = 0; p < nown; p++) /* variances so far */
+        out->expected_percent[p] = 196 * sqrt(out->expected_percent[p]) / fabs(rivals->rival->fit->x[p]);
     return status;
 }

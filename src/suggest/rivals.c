@@ -7,9 +7,8 @@
 #include "fit/fit.h"
 #include "linalg/linalg.h"
 
-#define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
-#define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
-#define ODDS       19.0 /* of a name, over all others */
+#define SAME_CHI2  1.0   /* of a fit on a mesh that may be finer */
+#define SAME_MODEL 2.0   /* times chi2: beyond that the fit did not find what the diagnosis had found */
 #define LEAST      1e-12 /* probability: what was left out of the sum may have so much */
 
 struct sources {                 /* of rivals */
@@ -108,7 +107,8 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     }
     if (status)
         return status;
-    *rival = (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause, .share = probability};
+    *rival =
+        (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause, .share = probability};
     rivals->n++;
     status = take_fit(pool, from, &refit, rival);
     rival->score = -2 * log(fmax(LEAST, probability));
@@ -191,7 +191,7 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
             if (s == from.home && !from.holdout[at])
                 rivals->number[rivals->nmode++] = from.number[at];
         }
-    rivals->margin = rivals->base_margin = 2 * log(ODDS);
+    rivals->margin = 2 * log(VERDICT_NAMED / (1 - VERDICT_NAMED));
     for (int i = 0, count; i < d->nalternative && !status; i += count) {
         const struct candidate *c = &d->alternative[i];
         for (count = 1; i + count < d->nalternative && c[count].set == c->set;)

@@ -629,8 +629,14 @@ static int list_rivals(struct pool *pool, struct suggestion *out)
     rotid_suggestion *r = &out->result;
     int n = POOL_LIST(pool, r->rivals, out->rivals.n);
     r->among = n ? out->rivals.among : (double)NAN;
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += exp(-out->rivals.rival[i].score / 2);
+    r->entropy = n ? 0 : (double)NAN;
     for (int i = 0; i < n; i++) {
         const struct rival *rival = &out->rivals.rival[i];
+        double share = exp(-rival->score / 2) / sum;
+        r->entropy -= share > 0 ? share * log(share) : 0;
         r->rivals[r->nrivals++] =
             (rotid_rival){.label = rival->label, .chi2 = rival->fit->chi2, .score = rival->score, .share = rival->share};
     }

@@ -44,13 +44,12 @@ struct rival {
 struct rivals {
     int n; /* best first; the last one is the model as it is */
     struct rival *rival;
-    int home;           /* the state that tests are made like */
-    int nmode;          /* its fitted ones */
-    int *number;        /* [nmode] of the model */
-    double margin;      /* lead over another rival that is needed for a name */
-    double base_margin; /* the same over the model as it is */
-    int left_out;       /* of the set: no causes of the rotor, as solids, or beyond the most */
-    double among;       /* how likely the true one is one of them, by what is measured */
+    int home;      /* the state that tests are made like */
+    int nmode;     /* its fitted ones */
+    int *number;   /* [nmode] of the model */
+    double margin; /* lead over another rival that is needed for a name */
+    int left_out;  /* of the set: no causes of the rotor, as solids, or beyond the most */
+    double among;  /* how likely the true one is one of them, by what is measured */
 };
 
 /* What a diagnosis leaves as alternatives, beside the causes that it names, each fitted anew: n is 0 where it leaves none that is

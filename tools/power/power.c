@@ -25,11 +25,10 @@ static const char usage[] =
 
 enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, SUGGEST, HELP };
 
-static const struct option long_options[] = {
-    {"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST},         {"seed", 1, NULL, SEED},
-    {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},           {"changed", 0, NULL, CHANGED},
-    {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},           {"suggest", 0, NULL, SUGGEST},
-    {"help", 0, NULL, HELP}, {NULL, 0, NULL, 0}};
+static const struct option long_options[] = {{"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST}, {"seed", 1, NULL, SEED},
+                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},   {"changed", 0, NULL, CHANGED},
+                                             {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},   {"suggest", 0, NULL, SUGGEST},
+                                             {"help", 0, NULL, HELP},   {NULL, 0, NULL, 0}};
 
 static volatile sig_atomic_t interrupted;
 
