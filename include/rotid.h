@@ -745,7 +745,7 @@ typedef struct rotid_verdict {
     int nspread;
     rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
     int nexplanations;
-    rotid_explanation *explanations; /* most probable first, together 0.99; none where margins decided */
+    rotid_explanation *explanations; /* most probable first, together 0.99 */
     int nmarginals;
     rotid_marginal *marginals; /* of each cause above 0.001, most probable first */
     double nothing;            /* probability that nothing is wrong; NaN without explanations */
@@ -884,7 +884,7 @@ typedef struct rotid_diagnosis {
     int nnumerical_findings;
     rotid_numerical_finding *numerical_findings; /* errors of the model's own numbers, removed */
     int nrounds;
-    rotid_round *rounds; /* one cause a round, or two at once; the last names nothing more */
+    rotid_round *rounds; /* one: the model of the deck before any cause */
     int ncandidates;
     rotid_candidate *candidates; /* of all rounds, best first within a round */
     rotid_gain gain;

@@ -539,6 +539,8 @@ static int find_marginals(struct engine *engine, struct posterior *p)
     qsort(p->marginal, (size_t)p->nmarginal, sizeof *p->marginal, by_probability);
     while (p->nmarginal && p->marginal[p->nmarginal - 1].probability < LEAST_MARGINAL)
         p->nmarginal--;
+    for (int j = 0; j < p->nmarginal; j++)
+        p->marginal[j].probability = fmin(1, p->marginal[j].probability); /* rounding */
     return ROTID_OK;
 }
 
@@ -760,15 +762,25 @@ static void list_alternatives(struct diagnosis *out, const struct posterior *p)
     }
 }
 
-/* What would tell the two likeliest sets apart that were fitted. */
+/* What would tell the two likeliest sets apart that were fitted, each by a cause that the other one has not. */
 static const char *advice(struct engine *engine, const struct posterior *p)
 {
     struct possible model[2] = {{0}};
+    const struct explanation *first = NULL;
     int count = 0;
     for (int i = 0; i < p->count && count < 2; i++) {
         const struct explanation *e = &p->item[i];
-        if (e->nmember && e->refit && !e->something_else)
-            model[count++] = (struct possible){&e->member[e->nmember - 1], &e->refit->states, e->refit->fit->x};
+        const struct candidate *own = NULL;
+        for (int m = 0; m < e->nmember && e->refit && !e->something_else; m++)
+            if (!first || !has(p, first, &e->member[m]))
+                own = &e->member[m];
+        for (int m = 0; m < (first ? first->nmember : 0) && own; m++)
+            if (!has(p, e, &first->member[m]))
+                model[0].cause = &first->member[m];
+        if (!own)
+            continue;
+        model[count++] = (struct possible){own, &e->refit->states, e->refit->fit->x};
+        first = first ? first : e;
     }
     return advise_between(engine, count, model);
 }
@@ -779,14 +791,12 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     rotid_verdict *verdict = &out->result.verdict;
     const struct explanation *lead = &p->item[0], *model = NULL;
     struct candidate named[MOST_MEMBERS];
-    int stated = 1, count;
+    int count;
     out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
     if (!out->cause || !out->alternative)
         return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < engine->states.nstate; s++)
-        stated &= job_knows_frequency_noise(&out->given.state[s].job);
-    count = stated ? choose_names(engine, p, named) : 0;
+    count = verdict->confident ? choose_names(engine, p, named) : 0;
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
     verdict->something_else = p->something_else;
