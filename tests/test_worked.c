@@ -79,7 +79,7 @@ static void what_is_printed_is_what_the_program_prints(void **state)
         at = end + strlen(FENCE) - 1;
         blocks++;
     }
-    assert_int_equal(blocks, 7);
+    assert_int_equal(blocks, 6);
 }
 
 int main(void)
