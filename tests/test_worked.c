@@ -1,12 +1,12 @@
-/* The worked cases of docs/diagnosis.md over states: their commands are run, and every line that is printed there is one that
- * they print, in that order. */
+/* The worked cases of docs/diagnosis_reference.md: their commands are run, and every line that is printed there is one that they
+ * print, in that order. */
 #include <string.h>
 
 #include "folder.h"
 #include "shell.h"
 #include "support.h"
 
-#define FIRST "### 8. "
+#define FIRST "## Worked cases\n"
 #define LAST  "## Practising\n"
 #define FENCE "```\n"
 
@@ -67,11 +67,10 @@ static void check_block(const char *block, size_t size)
 static void what_is_printed_is_what_the_program_prints(void **state)
 {
     (void)state;
-    const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/diagnosis.md"), *at = strstr(text, FIRST),
+    const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/diagnosis_reference.md"), *at = strstr(text, FIRST),
                *last = strstr(text, LAST);
     int blocks = 0;
-    (void)folder_path("strip.inp"); /* what the commands leave there */
-    (void)folder_path("roller.inp");
+    (void)folder_path("roller.inp"); /* what the commands leave there */
     assert_true(at && last && at < last);
     while ((at = strstr(at, "\n" FENCE)) && at < last) {
         const char *block = at + 1 + strlen(FENCE), *end = strstr(block, FENCE);
@@ -88,5 +87,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_is_printed_is_what_the_program_prints, open_test_pool, close_test_pool),
     };
-    return cmocka_run_group_tests_name("worked_states", tests, folder_make, folder_remove);
+    return cmocka_run_group_tests_name("worked", tests, folder_make, folder_remove);
 }
