@@ -218,6 +218,7 @@ const struct deck_card deck_card_table[] = {
     {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]", nothing, OF_MACHINE},
     {"PROBE", CARD_RUNNING, 10, deck_probe, "position [, angle from x [deg]]", probe, OF_MACHINE},
     {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
+    {"RUNUP", CARD_RUNNING, 10, deck_runup, "number, critical speed, standard deviation [rpm] [, BACKWARD]", nothing, OF_MACHINE, .once = 1},
     {.name = NULL}};
 /* clang-format on */
 

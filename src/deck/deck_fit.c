@@ -181,6 +181,19 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
     return missing;
 }
 
+int deck_whole_runup(const char **rest)
+{
+    static const char word[] = "RUNUP";
+    const char *begin = *rest + strspn(*rest, " "), *end = begin + strlen(word);
+    if (strncasecmp(begin, word, strlen(word)) != 0)
+        return 0;
+    end += strspn(end, " ");
+    if (*end && *end != ',')
+        return 0;
+    *rest = end + (*end == ',');
+    return 1;
+}
+
 const char *deck_whole_state(struct deck_reader *reader, const char **rest)
 {
     static const char head[] = "STATE:";
@@ -209,6 +222,7 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
     }
     const char *rest = holdout ? holdout->value : "", *state;
     int bad = modes && mark_modes(reader, modes, fitted);
+    (void)deck_whole_runup(&rest);
     while ((state = deck_whole_state(reader, &rest)))
         reader->held_out |= reader->state && !reader->alone && same_text(state, reader->state);
     if (holdout && (*rest || rest == holdout->value)) /* not of states, or not to its end */

@@ -37,9 +37,9 @@ void deck_split_running(struct deck_reader *reader, int *nread)
         else if (is_of_machine(card) && begin < 0)
             deck_error(reader, card->place, "*%s stands before *RUNNING, expected *RUNNING in front of what the machine has",
                        card->name);
-        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK"))
+        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK") && !is(card, "IDENTIFY"))
             deck_error(reader, card->place,
-                       "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, "
+                       "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, *IDENTIFY, "
                        "*BEARING and what docs/deck.md lists with them",
                        card->name);
     }
@@ -275,7 +275,7 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
     struct machine *machine = reader->machine;
     const struct card_option *name = card_option(card, "NAME"), *file = card_option(card, "FILE"),
                              *like = card_option(card, "LIKE");
-    struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing};
+    struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing, .unknown = {-1, -1}};
     if (deck_lines(reader, card, 1, 1, reader->layout) != 1)
         return;
     const struct data_line *line = &card->line[0];
@@ -476,6 +476,127 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
     machine->has_operation = 1;
 }
 
+void deck_runup(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    int lines = deck_lines(reader, card, 1, DECK_MOST_MODES, reader->layout);
+    for (int i = 0; i < lines; i++) {
+        const struct data_line *line = &card->line[i];
+        struct runup_reading reading = {.place = {line->place.file, line->place.line, line->place.column}};
+        int bad = deck_count(reader, line, 4, reader->layout) |
+                  deck_integer(reader, line, 0, "number of the critical speed", 1, DECK_MOST_MODES, &reading.number) |
+                  deck_number(reader, line, 1, "critical speed [rpm]", POSITIVE, &reading.speed) |
+                  deck_number(reader, line, 2, "standard deviation of it [rpm]", POSITIVE, &reading.std);
+        if (!bad && deck_has(line, 3)) {
+            reading.backward = same_text(line->field[3].text, "BACKWARD");
+            bad = !reading.backward && !same_text(line->field[3].text, "FORWARD");
+            if (bad)
+                deck_error(reader, line->field[3].place, "%s is no whirl, expected FORWARD or BACKWARD", line->field[3].text);
+        }
+        for (int j = 0; j < machine->nrunup && !bad; j++)
+            if (machine->runup[j].number == reading.number && machine->runup[j].backward == reading.backward) {
+                deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
+                           reading.number);
+                bad = 1;
+            }
+        reading.speed *= RPM;
+        reading.std *= RPM;
+        struct runup_reading *added = bad ? NULL : DECK_APPEND(reader, machine->runup, machine->nrunup, reader->running_room[7]);
+        if (added) {
+            *added = reading;
+            machine->nrunup++;
+        }
+    }
+}
+
+/* NAME.k or NAME.c of a *BEARING: -1 after an error. */
+static int unknown_bearing(struct deck_reader *reader, const struct field *field, int *damping)
+{
+    const struct machine *machine = reader->machine;
+    const char *dot = strrchr(field->text, '.'), *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - field->text), field->text) : NULL;
+    *damping = dot && same_text(dot + 1, "c");
+    for (int i = 0; i < machine->nbearing && name && (*damping || same_text(dot + 1, "k")); i++) {
+        const struct bearing *b = &machine->bearing[i];
+        if (!b->name || !same_text(b->name, name))
+            continue;
+        if (b->like == i)
+            return i;
+        deck_error(reader, field->place, "%s is like %s, expected %s.%s", name, machine->bearing[b->like].name,
+                   machine->bearing[b->like].name, dot + 1);
+        return -1;
+    }
+    deck_error(reader, field->place,
+               "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
+               field->text);
+    return -1;
+}
+
+/* *IDENTIFY behind *RUNNING */
+static void add_unknowns(struct deck_reader *reader, const struct card *card)
+{
+    const char *layout = deck_card_find("IDENTIFY")->lines;
+    struct machine *machine = reader->machine;
+    for (int i = 0, count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout); i < count; i++) {
+        const struct data_line *line = &card->line[i];
+        struct machine_unknown u = {.bounds = {.name = line->field[0].text, .unit = "1"}};
+        u.bearing = unknown_bearing(reader, &line->field[0], &u.damping);
+        int bad = u.bearing < 0 || deck_count(reader, line, 4, layout);
+        bad = bad || deck_number(reader, line, 1, "lower bound", POSITIVE, &u.bounds.lower) |
+                         deck_number(reader, line, 2, "upper bound", POSITIVE, &u.bounds.upper) |
+                         deck_number(reader, line, 3, "start", POSITIVE, &u.bounds.start);
+        if (!bad && !(u.bounds.lower < u.bounds.start && u.bounds.start < u.bounds.upper)) {
+            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", u.bounds.name,
+                       line->field[3].text);
+            bad = 1;
+        }
+        for (int j = 0; j < reader->job->unknowns.nparameter && !bad; j++)
+            bad = same_text(reader->job->unknowns.bounds[j].name, u.bounds.name);
+        for (int j = 0; j < machine->nunknown && !bad; j++)
+            bad = machine->unknown[j].bearing == u.bearing && machine->unknown[j].damping == u.damping;
+        if (bad && u.bearing >= 0 && !reader->messages->errors)
+            deck_error(reader, line->field[0].place, "%s is given twice, expected once", u.bounds.name);
+        struct machine_unknown *added =
+            bad ? NULL : DECK_APPEND(reader, machine->unknown, machine->nunknown, reader->running_room[8]);
+        if (!added)
+            continue;
+        *added = u;
+        for (int j = u.bearing; j < machine->nbearing; j++)
+            if (machine->bearing[j].like == u.bearing)
+                machine->bearing[j].unknown[u.damping] = reader->job->unknowns.nparameter + machine->nunknown;
+        machine->nunknown++;
+    }
+}
+
+/* Whether a *FIT holds out the run-up; its place. */
+static const struct card_option *held_runup(const struct deck_text *text)
+{
+    for (int c = 0; c < text->ncard; c++) {
+        const struct card_option *holdout = is(&text->card[c], "FIT") ? card_option(&text->card[c], "HOLDOUT") : NULL;
+        const char *rest = holdout ? holdout->value : NULL;
+        if (rest && deck_whole_runup(&rest))
+            return holdout;
+    }
+    return NULL;
+}
+
+/* What was measured of the machine beside what is to be identified. */
+static void check_runup(struct deck_reader *reader, const struct place running)
+{
+    struct machine *machine = reader->machine;
+    const struct job *job = reader->job;
+    const struct card_option *held = held_runup(&reader->text);
+    machine->runup_held = held != NULL;
+    if (held && !machine->nrunup)
+        deck_error(reader, held->value_place, "HOLDOUT=RUNUP, but the machine has no *RUNUP, expected measured critical speeds");
+    if (machine->nunknown && (!machine->nrunup || held))
+        deck_error(reader, running, "%s is to be identified%s, expected *RUNUP with measured critical speeds that are fitted",
+                   machine->unknown[0].bounds.name, held ? " and the run-up is held out" : "");
+    if (machine->nrunup && !held && job->measurement.nmode && job->options.fit.functional != ROTID_LIKELIHOOD)
+        deck_error(reader, running,
+                   "*RUNUP is weighed by its standard deviation, expected *FIT, FUNCTIONAL=LIKELIHOOD with the noise of the modes, "
+                   "or HOLDOUT=RUNUP");
+}
+
 static void add_disk(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find("DISK");
@@ -519,6 +640,9 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                               .job = job,
                               .length = rotor_length(&job->rotor)};
     const struct card *none = NULL;
+    if (!reader->nrunning && held_runup(&reader->text))
+        deck_error(reader, held_runup(&reader->text)->value_place,
+                   "HOLDOUT=RUNUP, but the deck has no machine, expected *RUNNING with *RUNUP");
     if (!reader->nrunning)
         return;
     for (int c = 0; c < reader->text.ncard; c++)
@@ -533,11 +657,16 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
             const struct card *card = &reader->running[c];
             const struct deck_card *kind = deck_card_find(card->name);
             none = card;
-            if (!kind || (is(card, "DISK") ? 10 : kind->phase) != phase)
+            int borrowed = is(card, "DISK") || is(card, "IDENTIFY"); /* from the cards of the rotor at rest */
+            if (!kind || (borrowed ? 10 : kind->phase) != phase)
                 continue;
             own.layout = kind->lines;
             if (is(card, "DISK"))
                 add_disk(&own, card);
+            else if (is(card, "IDENTIFY"))
+                add_unknowns(&own, card);
+            else if (kind->once && own.seen[kind - deck_card_table]++)
+                deck_error(&own, card->place, "*%s is given twice, expected once", card->name);
             else
                 kind->read(&own, card);
         }
@@ -553,6 +682,7 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         deck_error(reader, reader->running[0].place,
                    "the machine has no *BEARING: a free rotor has no critical speed, expected at "
                    "least one");
+    check_runup(&own, reader->running[0].place);
     doubt_disks(&own, reader->running[0].place);
     for (int s = 0; s < states->nstate; s++) {
         states->state[s].job.nfile = own.text.nfile;

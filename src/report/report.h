@@ -389,14 +389,12 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
-struct speeds;
-struct critical_speed;
-struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_shares(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_campbell(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_response(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_shares(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_campbell(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
 /* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
-const char *speeds_judgement(struct pool *pool, const struct critical_speed *critical, const struct speeds *speeds);
+const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *critical, const rotid_speeds *speeds);
 
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 

@@ -224,7 +224,7 @@ char *line_identified(const struct line *line, const struct experiment *experime
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
     rotid_identification *said = states->nstate > 1 ? result_identification_states(&pool, states, result, fit)
-                                                    : result_identification(&pool, &states->state->job, result);
+                                                    : result_identification(&pool, &states->state->job, states->bounds, result);
     int whole = add_fit(&pool, experiment, NULL, states, said, notes, &run);
     if (whole && !(line->study->plan->spread > 0)) /* the way from each start is what such a plan is about */
         said->history = NULL;
