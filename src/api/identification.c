@@ -94,8 +94,12 @@ static int identify_deck(struct call *call, const rotid_deck *deck, int baseline
     int status = states ? runup_join(&call->entry.scratch, states, &call->notes, &joined, &runup) : ROTID_ERROR_ARGUMENT;
     if (!status)
         status = identify(call, states, &joined, baseline, result);
-    runup_close(runup);
-    return status;
+    int lost = runup_close(runup);
+    if (lost) {
+        rotid_identification_free(*result);
+        *result = NULL;
+    }
+    return lost ? lost : status;
 }
 
 int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,

@@ -104,7 +104,7 @@ static int fit_all(struct command *command, const struct states *states, struct 
     int status = runup_join(&command->pool, states, &command->messages, &joined, &runup);
     if (!status)
         status = identify_states(&command->pool, &joined, 0, &environment, &command->messages, found, &fit->fit);
-    runup_close(runup);
+    status = runup_close(runup) ? ROTID_ERROR_MEMORY : status;
     for (int s = 0; s < states->nstate && !status && states->nstate > 1; s++)
         status = identify_own_unknowns(&command->pool, &states->state[s], &found[s]);
     if (environment.progress)

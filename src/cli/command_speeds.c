@@ -7,8 +7,6 @@
 #include "report/report.h"
 #include "running/running.h"
 
-#define SPEEDS 41
-
 static int refuse_deck(struct command *command, const char *why)
 {
     message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", why);
@@ -18,7 +16,7 @@ static int refuse_deck(struct command *command, const char *why)
 /* FROM:TO[:N] in rpm */
 static int parse_speeds(struct command *command, struct speeds_options *options)
 {
-    double value[3] = {0, 0, SPEEDS};
+    double value[3] = {0, 0, SPEEDS_COUNT};
     const char *at = command->speeds.range;
     char *end;
     int count = 0, good = 1;
@@ -63,7 +61,7 @@ static int run(struct command *command, const struct states *states, const rotid
     const struct machine *machine = states->machine;
     const struct job *job = &states->state[0].job;
     rotid_speeds *speeds = POOL_NEW(&command->pool, rotid_speeds);
-    struct speeds_options options = {.count = SPEEDS,
+    struct speeds_options options = {.count = SPEEDS_COUNT,
                                      .harmonic = command->speeds.harmonic,
                                      .draws = command->speeds.draws,
                                      .seed = command->seed,

@@ -244,6 +244,9 @@ enum whirl pair_whirl(const struct system *system, const double complex *u);
 
 /* --------------------------------------------------------------------------------------------------------------- results */
 
+#define SPEEDS_COUNT 41 /* of a Campbell diagram */
+#define SPEEDS_DRAWS 2000
+
 /* What is computed beside the machine. */
 struct speeds_options {
     double from, to; /* rad/s; to = 0: by the running range, else to beyond the third critical speed */
@@ -359,11 +362,11 @@ int bands_linear(struct pool *pool, struct search *search, int ncritical, const 
 /* Measured critical speeds W^ as residuals (W - W^)/std of a fit of all states, over their unknowns and behind these the machine's
  * own: dW/dp by critical_rate. *joined: the states with both, which lean on *runup; as they are, and *runup NULL, where nothing
  * was measured or it is held out. Statuses of search_until, ROTID_ERROR_ARGUMENT where the model at its start has no such critical
- * speed; the list says why. runup_close in any case. */
+ * speed; the list says why. runup_close in any case: it says whether an evaluation ran out of memory. */
 struct runup;
 int runup_join(struct pool *pool, const struct states *states, struct message_list *notes, struct states *joined,
                struct runup **runup);
-void runup_close(struct runup *runup);
+int runup_close(struct runup *runup);
 
 /* The measured critical speeds beside those of the model at x [machine_unknowns]; fit as for speeds_run. Statuses of search_until
  * and bands_linear. */

@@ -23,6 +23,7 @@ struct runup {
     const struct job *job;
     struct joint_more more;
     struct point anchor; /* the start, whose mesh the others share */
+    int out_of_memory;   /* in an evaluation, which a minimiser takes for a point without a model */
     int at;              /* which of the points is the last one where every reading has a critical speed */
     struct point point[2];
     struct message_list quiet;
@@ -113,6 +114,7 @@ static int residual(void *user, const double *x, double *out)
     struct runup *r = user;
     struct point *here = &r->point[1 - r->at];
     int status = open_point(r, x, here);
+    r->out_of_memory |= status != ROTID_OK;
     if (status)
         return status;
     int lost = carry(r, &r->point[r->at], here);
@@ -121,6 +123,7 @@ static int residual(void *user, const double *x, double *out)
         status = open_point(r, x, here);
         lost = status ? status : search_anew(r, here, &r->quiet);
     }
+    r->out_of_memory |= lost == ROTID_ERROR_MEMORY;
     if (lost == ROTID_ERROR_MEMORY)
         return lost;
     for (int i = 0; i < r->machine->nrunup; i++) {
@@ -175,6 +178,7 @@ static int jacobian(void *user, const double *x, int rows, double *out)
         pool_close(&own);
     }
     pool_close(&scratch);
+    r->out_of_memory |= status == ROTID_ERROR_MEMORY;
     return status;
 }
 
@@ -239,12 +243,13 @@ int runup_join(struct pool *pool, const struct states *states, struct message_li
     return status > 0 ? ROTID_ERROR_EIGEN : status;
 }
 
-void runup_close(struct runup *runup)
+int runup_close(struct runup *runup)
 {
     struct point *const all[] = {runup ? &runup->point[0] : NULL, runup ? &runup->point[1] : NULL, runup ? &runup->anchor : NULL};
     for (int i = 0; i < 3 && runup; i++)
         if (all[i]->is_open)
             pool_close(&all[i]->pool);
+    return runup && runup->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* ---- beside the model */
