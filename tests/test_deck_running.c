@@ -114,8 +114,37 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
     says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");
     says(SHAFT TWO "*OPERATION\n5000, 4000\n", ROTID_ERROR, 16, "expected the lowest speed first");
     says(SHAFT TWO "*OPERATION, MARGIN=15\n4000, 5000\n", ROTID_ERROR, 15, "expected a share below 1");
+    says(SHAFT TWO "*OPERATION\n4000, 5000\n*OPERATION\n4000, 5000\n", ROTID_ERROR, 17, "given twice");
     says("*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*BEAM, NAME=a, MATERIAL=s\n2, 0.1, 0.1\n" TWO, ROTID_ERROR, 8,
          "is a *BEAM");
+}
+
+#define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */
+
+static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
+{
+    (void)state;
+    says(SHAFT TWO "*RUNUP\n1, 4000\n", ROTID_ERROR, 16, "standard deviation of it [rpm]");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 0\n", ROTID_ERROR, 16, "standard deviation of it [rpm] is 0");
+    says(SHAFT TWO "*RUNUP\n0, 4000, 1\n", ROTID_ERROR, 16, "number of the critical speed");
+    says(SHAFT TWO "*RUNUP\n1, -4000, 1\n", ROTID_ERROR, 16, "critical speed [rpm] is -4000");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1, UPWARD\n", ROTID_ERROR, 16, "expected FORWARD or BACKWARD");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n1, 4100, 1, FORWARD\n", ROTID_ERROR, 17, "critical speed 1 is given twice");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*RUNUP\n2, 4100, 1\n", ROTID_ERROR, 17, "given twice");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\nr.k, 0.1, 2, 1\n", ROTID_ERROR, 18, "no unknown of the machine");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.m, 0.1, 2, 1\n", ROTID_ERROR, 18, "no unknown of the machine");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 3\n", ROTID_ERROR, 18, "expected a value between its bounds");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, -1, 2, 1\n", ROTID_ERROR, 18, "lower bound");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 1\np.k, 0.1, 2, 1\n", ROTID_ERROR, 19, "given twice");
+    says(SHAFT TWO "*BEARING, NAME=r, LIKE=p\n1, 1, 1\n*RUNUP\n1, 4000, 1\n*IDENTIFY\nr.k, 0.1, 2, 1\n", ROTID_ERROR, 20,
+         "r is like p, expected p.k");
+    says(SHAFT TWO "*IDENTIFY\np.k, 0.1, 2, 1\n", ROTID_ERROR, 10, "expected *RUNUP");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n" TWO, ROTID_ERROR, 15, "the machine has no *RUNUP");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n", ROTID_ERROR, 15, "the deck has no machine");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n" TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 1\n", ROTID_ERROR, 16,
+         "the run-up is held out");
+    says(SHAFT MODES "*FIT, FUNCTIONAL=HYBRID\n" TWO "*RUNUP\n1, 4000, 1\n", ROTID_ERROR, 16, "expected *FIT, FUNCTIONAL=LIKELIHOOD");
+    says(SHAFT MODES "p.k, 0.1, 2, 1\n" TWO, ROTID_ERROR, 15, "p is a *BEARING, expected its unknowns in an *IDENTIFY behind");
 }
 
 static void tables_of_bearings_are_refused_by_their_cells(void **state)
@@ -179,6 +208,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_cards_of_a_machine_are_read, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(units_of_the_deck_hold_for_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),

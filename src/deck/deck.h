@@ -437,6 +437,9 @@ struct deck_origin {
     const struct override *override;
 };
 
+/* Whether "NAME.x" names a *BEARING of the machine. */
+int deck_is_of_bearing(const struct deck_reader *reader, const char *name);
+
 /* Of *RUNNING and what stands behind it: the machine in operation ends a deck. */
 #define DECK_BEHIND_STATES DECK_MOST_CARDS
 

@@ -89,7 +89,13 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
         const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
         reader->out_of_memory |= !known;
-        if (found == 1 && !deck_cause_explains(reader, bounds.name, line->field[0].place))
+        int bearing = found == 1 && deck_is_of_bearing(reader, bounds.name);
+        if (bearing)
+            deck_error(reader, line->field[0].place,
+                       "%.*s is a *BEARING, expected its unknowns in an *IDENTIFY behind *RUNNING, where NAME.k and NAME.c are "
+                       "factors",
+                       (int)strcspn(bounds.name, "."), bounds.name);
+        if (found == 1 && !bearing && !deck_cause_explains(reader, bounds.name, line->field[0].place))
             deck_error(reader, line->field[0].place, "%s is no parameter, expected one of %s", bounds.name, known ? known : "");
         if (found == 2)
             deck_error(reader, line->field[0].place,

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "deck/card_table.h"
 #include "deck/deck.h"
@@ -60,6 +61,17 @@ void deck_split_running(struct deck_reader *reader, int *nread)
 }
 
 /* ---- names */
+
+int deck_is_of_bearing(const struct deck_reader *reader, const char *name)
+{
+    size_t length = strcspn(name, ".");
+    for (int c = 0; c < reader->nrunning; c++) {
+        const struct card_option *own = is(&reader->running[c], "BEARING") ? card_option(&reader->running[c], "NAME") : NULL;
+        if (own && strlen(own->value) == length && !strncasecmp(own->value, name, length))
+            return 1;
+    }
+    return 0;
+}
 
 static int named_group(struct deck_reader *reader, const struct place place, const char *name)
 {

@@ -43,6 +43,8 @@ void section_speeds(struct document *document, const struct result *result)
                            human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
+    if (s->nrunup)
+        document_table(document, table_of_runup(pool, s->nrunup, s->runup));
     if (s->ncritical_speeds && s->critical_speeds[0].nvariance_shares)
         document_table(document, table_of_shares(pool, s));
 }

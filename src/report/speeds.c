@@ -26,6 +26,23 @@ struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
+struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list)
+{
+    struct table *t = table_open(pool, count && list[0].holdout ? "RUN-UP, held out: measured critical speeds beside the model's"
+                                                                 : "RUN-UP: measured critical speeds beside the model's");
+    for (int i = 0; i < count; i++) {
+        table_row(t);
+        number_column(t, "no.", NULL, SHOW_COUNT, list[i].number);
+        text_column(t, "whirl", SHOW_TEXT, list[i].whirl);
+        number_column(t, "measured", "rpm", SHOW_FIXED(1), list[i].measured_rpm);
+        number_column(t, "std", "rpm", SHOW_DIGITS(3), list[i].measured_std);
+        number_column(t, "predicted", "rpm", SHOW_FIXED(1), list[i].predicted_rpm);
+        number_column(t, "std of it", "rpm", SHOW_DIGITS(3), list[i].predicted_std);
+        number_column(t, "z", NULL, SHOW_SIGNED(1), list[i].z);
+    }
+    return t;
+}
+
 struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
@@ -140,6 +157,7 @@ void screen_speeds(const struct screen *to, const struct result *result)
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));
+    screen_table(to, table_of_runup(to->pool, s->nrunup, s->runup));
     screen_table(to, table_of_shares(to->pool, s));
     screen_table(to, table_of_peaks(to->pool, s));
     screen_table(to, table_of_loads(to->pool, s));
