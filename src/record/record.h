@@ -125,6 +125,8 @@ extern const struct record verdict_record;              /* rotid_verdict */
 extern const struct record data_finding_record;         /* rotid_data_finding */
 extern const struct record cause_record;                /* rotid_cause */
 extern const struct record detectable_record;           /* rotid_detectable */
+extern const struct record speed_margin_record;         /* rotid_speed_margin */
+extern const struct record stability_record;            /* rotid_stability */
 extern const struct record runup_record;                /* rotid_runup_speed */
 extern const struct record speeds_record;               /* rotid_speeds */
 

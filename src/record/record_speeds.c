@@ -9,7 +9,7 @@ static const struct record_field margin_fields[] = {
     NUMBER(rotid_speed_margin, probability, MAY_BE_NULL | PROBABILITY),
     {0},
 };
-static const struct record margin_record = RECORD(rotid_speed_margin, margin_fields);
+const struct record speed_margin_record = RECORD(rotid_speed_margin, margin_fields);
 
 static const struct record_field peak_fields[] = {
     TEXT(rotid_response_peak, probe, 0),
@@ -37,7 +37,7 @@ static const struct record_field critical_fields[] = {
     NUMBER(rotid_critical_speed, log_decrement, 0),
     NUMBER(rotid_critical_speed, damping_ratio, 0),
     NUMBER(rotid_critical_speed, amplification, MAY_BE_NULL | FROM_0),
-    STRUCT(rotid_critical_speed, margin, 0, margin_record),
+    STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
     STRUCTS(rotid_critical_speed, peaks, 0, peak_record),
     STRUCTS(rotid_critical_speed, variance_shares, 0, share_record),
     NUMBERS(rotid_critical_speed, z, ROUNDED),
@@ -73,7 +73,7 @@ static const struct record_field stability_fields[] = {
     NUMBER(rotid_stability, probability_stable, MAY_BE_NULL | PROBABILITY),
     {0},
 };
-static const struct record stability_record = RECORD(rotid_stability, stability_fields);
+const struct record stability_record = RECORD(rotid_stability, stability_fields);
 
 static const struct record_field response_fields[] = {
     TEXT(rotid_probe_response, probe, 0),

@@ -525,7 +525,8 @@ struct study_run {
     rotid_component *truth;     /* values of the parameters in the model that made the data, those that are known, by name */
     struct run_hidden *hidden;  /* what acts in the data and not in the fitted model; NULL: nothing */
     rotid_identification *fit;  /* NULL: it failed; history only where the plan has *STARTS, baseline with BASELINE=YES */
-    rotid_diagnosis *diagnosis; /* NULL of an identification */
+    rotid_diagnosis *diagnosis; /* NULL without */
+    rotid_speeds *speeds;       /* of the machine in operation; NULL without */
     int score;                  /* the verdict beside what was hidden, docs/study.md; below 0 where the data are measured */
     int false_findings;         /* faults of the data that were found and not hidden; ROTID_NONE where the data are measured */
     int nwarnings;
