@@ -885,6 +885,13 @@ module rotid
     type(c_ptr) :: cards = c_null_ptr ! text
   end type rotid_suggested_test
 
+  type, bind(C) :: rotid_speed_test
+    type(c_ptr) :: test = c_null_ptr ! text
+    integer(c_int) :: modes = 0
+    real(c_double) :: std_rpm = 0
+    real(c_double) :: narrowed_percent = 0
+  end type rotid_speed_test
+
   type, bind(C) :: rotid_suggestion
     integer(c_int) :: nparameters = 0
     type(c_ptr) :: parameters = c_null_ptr ! rotid_fitted_parameter
@@ -916,6 +923,11 @@ module rotid
     integer(c_int) :: nmessage = 0
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: memory = c_null_ptr
+    real(c_double) :: speed_rpm = 0
+    real(c_double) :: speed_std = 0
+    real(c_double) :: speed_identified = 0
+    integer(c_int) :: nspeed_tests = 0
+    type(c_ptr) :: speed_tests = c_null_ptr ! rotid_speed_test
   end type rotid_suggestion
 
   type, bind(C) :: rotid_speed_margin
@@ -1040,10 +1052,11 @@ module rotid
   end type rotid_diagnose_options
 
   type, bind(C) :: rotid_suggest_options
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 72
     real(c_double) :: wanted_percent = 0, frequency_noise = 0, shape_noise = 0, set_up_cost = 0
     integer(c_int) :: sensors = 0, modes = 0, threads = 0, replicates = 0
     integer(c_long) :: seed = 0
+    integer(c_int) :: speed = 0, speed_backward = 0
   end type rotid_suggest_options
 
   type, bind(C) :: rotid_speeds_options

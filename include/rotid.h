@@ -1008,6 +1008,14 @@ typedef struct rotid_suggested_test {
     const char *cards; /* of the deck: the *STATE of this test, with comments where its measurements go */
 } rotid_suggested_test;
 
+/* A test at rest, for a critical speed. */
+typedef struct rotid_speed_test {
+    const char *test;        /* in words: "the 6 modes again" */
+    int modes;               /* measured in it */
+    double std_rpm;          /* of the critical speed, expected behind it, in linear prediction [rpm]; NaN where it leaves that open */
+    double narrowed_percent; /* by how much that is below the present one [%]; NaN where one of them is not known */
+} rotid_speed_test;
+
 /* What to measure, before a test and after an ambiguous diagnosis. */
 typedef struct rotid_suggestion {
     int nparameters;
@@ -1040,7 +1048,12 @@ typedef struct rotid_suggestion {
     rotid_geometry *geometry;    /* the model that all of this holds for */
     int nmessage;
     const rotid_message *message;
-    void *memory; /* internal */
+    void *memory;     /* internal */
+    double speed_rpm; /* critical speed that was asked for, of which the tests are speed_tests [rpm]; NaN where none was */
+    double speed_std; /* its standard deviation as measured, in linear prediction [rpm]; NaN where nothing is measured */
+    double speed_identified; /* share of the unknowns in its variance, of which tests at rest take away [1]; NaN as speed_rpm */
+    int nspeed_tests;
+    rotid_speed_test *speed_tests; /* by std_rpm */
 } rotid_suggestion;
 
 /* Of a critical speed to the running range. */
@@ -1221,6 +1234,9 @@ typedef struct rotid_suggest_options {
     int threads;            /* [1] of the diagnosis */
     int replicates;         /* [1000] of bootstrap and draws, at most 1e6 */
     long seed;              /* [1] >= 0 */
+    int speed;              /* [none] number of the critical speed, from 1, that tests at rest are to narrow, in place of the
+                               rest: of those with forward or mixed whirl, */
+    int speed_backward;     /* [0] nonzero: with backward whirl */
 } rotid_suggest_options;
 
 /* What `rotid suggest` does: without measured modes what sensors and modes would tell of the parameters of *IDENTIFY, at their

@@ -68,6 +68,15 @@ const struct job *deck_job_of(const rotid_deck *deck);
  * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
 void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
 
+/* --------------------------------------------------------------------------------------------------------------- machine */
+
+/* The fit of all states, with the run-up of the machine where it has one; *fit stays NULL where nothing is to be identified or
+ * measured. Statuses of runup_join and identify_states. */
+int machine_fit_all(struct call *call, const struct states *states, rotid_fit_result **fit);
+
+/* ROTID_ERROR_ARGUMENT, with the reason among the notes, where there is no machine. */
+int machine_refuse(struct call *call, const struct states *states);
+
 /* --------------------------------------------------------------------------------------------------------------- results */
 
 /* A diagnosis as hosts and files have it. deck: the states as the user states them, whose FIT `today` was fitted with. It leans

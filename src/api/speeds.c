@@ -39,8 +39,16 @@ static int take_options(const rotid_speeds_options *given, char *failure, struct
     return ROTID_OK;
 }
 
-/* The fit of all states, NULL where nothing is to be identified or measured. */
-static int fit_all(struct call *call, const struct states *states, rotid_fit_result **fit)
+int machine_refuse(struct call *call, const struct states *states)
+{
+    if (states->machine)
+        return ROTID_OK;
+    message_add(&call->notes, SEVERITY_ERROR, states->state[0].job.deck, 1, 1,
+                "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
+    return ROTID_ERROR_ARGUMENT;
+}
+
+int machine_fit_all(struct call *call, const struct states *states, rotid_fit_result **fit)
 {
     struct pool *pool = &call->entry.scratch;
     struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
@@ -89,13 +97,10 @@ static int speeds(struct call *call, const rotid_deck *deck, const rotid_speeds_
     struct speeds_options options;
     rotid_fit_result *fit = NULL;
     int no_fit, status = states ? take_options(given, call->entry.failure, &options, &no_fit) : ROTID_ERROR_ARGUMENT;
-    if (!status && !states->machine) {
-        message_add(&call->notes, SEVERITY_ERROR, states->state[0].job.deck, 1, 1,
-                    "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
-        status = ROTID_ERROR_ARGUMENT;
-    }
+    if (!status)
+        status = machine_refuse(call, states);
     if (!status && !no_fit)
-        status = fit_all(call, states, &fit);
+        status = machine_fit_all(call, states, &fit);
     if (!status)
         status = compute(call, states, fit, &options, result);
     rotid_fit_free(fit);

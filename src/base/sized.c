@@ -28,7 +28,7 @@ static const struct sized_struct table[] = {
 
 ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, after);
-ENDS_WITH(rotid_suggest_options, seed);
+ENDS_WITH(rotid_suggest_options, speed_backward);
 ENDS_WITH(rotid_speeds_options, seed);
 ENDS_WITH(rotid_model, modes);
 ENDS_WITH(rotid_measured, holdout);

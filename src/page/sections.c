@@ -179,6 +179,11 @@ void section_suggest(struct document *document, const struct result *result)
         document_table(document, table_of_tests(pool, s));
         document_table(document, table_of_rivals(pool, s));
     }
+    if (isfinite(s->speed_rpm)) {
+        document_section(document, "tests", "Tests at rest for a critical speed");
+        document_table(document, table_of_speed_tests(pool, s));
+        return;
+    }
     document_section(document, "sensors", "Sensors and modes");
     document_figures(document, "sensors");
     document_table(document, table_of_plans(pool, s));

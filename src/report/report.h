@@ -373,6 +373,7 @@ struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);
 struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of);
 struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema);
+struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);

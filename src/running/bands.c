@@ -505,6 +505,28 @@ int bands_linear(struct pool *pool, struct search *search, int ncritical, const 
     return status;
 }
 
+int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest)
+{
+    const struct speeds_options options = {.harmonic = search->harmonic};
+    int n = machine_unknowns(search->machine, search->job);
+    double *one = POOL_ARRAY(pool, double, n);
+    const rotid_fit_result all = {.n = n, .std = one}; /* every unknown is uncertain */
+    struct bands b = begin(pool, search, 1, critical, &all, &options);
+    for (int p = 0; p < n && one; p++)
+        one[p] = 1;
+    int status = one ? find_sources(&b) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = differentiate(&b);
+    *rest = 0;
+    memset(gradient, 0, (size_t)n * sizeof *gradient);
+    for (int j = 0; j < b.nsource && !status; j++)
+        if (j < b.nmodulus)
+            gradient[b.source[j].index] = b.derivative[j];
+        else
+            *rest += variance_of(&b, b.derivative, j);
+    return status;
+}
+
 int bands_make(struct pool *pool, struct search *search, const rotid_fit_result *fit, const struct speeds_options *options,
                const rotid_environment *environment, struct message_list *notes, rotid_speeds *out)
 {

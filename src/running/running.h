@@ -16,6 +16,7 @@
  *   response       response.c: unbalance response, peaks, amplification by half power; sag and bearing loads
  *   bands          bands.c: derivatives by every uncertain number, by left and right vectors; draws from the posterior of the
  *                  fit, the bearings, losses, pull; every critical speed solved again
+ *   worth          worth.c (worth_run): which test at rest narrows a critical speed most
  *   run-up         runup.c: measured critical speeds as residuals of a fit; beside the model's
  *   all of it      search.c (search_within): the range, the basis, the critical speeds; speeds.c (speeds_run)
  *
@@ -322,6 +323,9 @@ int search_within(struct pool *pool, double to, struct message_list *notes, stru
  * the range has been made larger several times. */
 int search_until(struct pool *pool, double least, int forward, int backward, struct message_list *notes, struct search *search);
 
+/* The number-th critical speed, from 1, with backward whirl, or with any other; NULL: there is none. */
+const struct critical *search_find(const struct search *search, int number, int backward);
+
 /* How many of the critical speeds are of backward whirl, or are not. */
 int search_count(const struct search *search, int backward);
 
@@ -356,6 +360,24 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
  * nothing is. Statuses of bands_make. */
 int bands_linear(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
                  const rotid_fit_result *fit, double *std);
+
+/* gradient [machine_unknowns] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0 of those
+ * that do not act in the machine. *rest: variance of ln W by bearings, losses, pull and changes, in linear prediction. Statuses of
+ * bands_make. */
+int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest);
+
+/* ------------------------------------------------------------------------------------------------ worth of a test at rest */
+
+struct worth_options {
+    int number, backward; /* of the critical speed, as of a run-up */
+    double noise;         /* of the frequencies of a test, relative */
+};
+
+/* Tests at rest by how much they narrow a critical speed: fills speed_tests, speed_rpm, speed_std, speed_identified and sentence of
+ * *out. x, fit as for speeds_run. Statuses of search_until, bands_gradient, model_open and the prediction; ROTID_ERROR_ARGUMENT
+ * where there is no such critical speed, or nothing to be identified. */
+int worth_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+              const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes, rotid_suggestion *out);
 
 /* ---------------------------------------------------------------------------------------------------------------- run-up */
 

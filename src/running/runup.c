@@ -36,18 +36,6 @@ static int of_all(const struct runup *r, int p)
     return p < at_rest ? state_unknown(&r->states->state[0], p) : r->states->nparameter + p - at_rest;
 }
 
-/* The critical speed that a reading is of by whirl and number, NULL: there is none. */
-static const struct critical *of_reading(const struct search *s, const struct runup_reading *reading)
-{
-    int number = 0;
-    for (int i = 0; i < s->ncritical; i++) {
-        number += (pair_whirl(&s->system, s->critical[i].pair.u) == WHIRL_BACKWARD) == reading->backward;
-        if (number == reading->number)
-            return &s->critical[i];
-    }
-    return NULL;
-}
-
 /* The critical speeds of a machine up to all that were measured. */
 static int search_all(struct pool *pool, struct message_list *notes, struct search *s)
 {
@@ -65,7 +53,7 @@ static int search_anew(struct runup *r, struct point *p, struct message_list *no
 {
     int lost = 0, status = search_all(&p->pool, notes, &p->search);
     for (int i = 0; i < r->machine->nrunup && !status; i++) {
-        const struct critical *found = of_reading(&p->search, &r->machine->runup[i]);
+        const struct critical *found = search_find(&p->search, r->machine->runup[i].number, r->machine->runup[i].backward);
         p->critical[i].speed = NAN;
         if (found)
             p->critical[i] = *found;
@@ -269,7 +257,7 @@ int runup_compare(struct pool *pool, const struct machine *machine, const struct
     if (!status)
         status = search_all(pool, notes, &search);
     for (int i = 0; i < machine->nrunup && !status; i++) {
-        const struct critical *own = of_reading(&search, &machine->runup[i]);
+        const struct critical *own = search_find(&search, machine->runup[i].number, machine->runup[i].backward);
         if (own)
             found[nfound++] = *own;
     }
@@ -277,7 +265,7 @@ int runup_compare(struct pool *pool, const struct machine *machine, const struct
         status = bands_linear(pool, &search, nfound, found, fit, std);
     for (int i = 0, next = 0; i < machine->nrunup && !status; i++) {
         const struct runup_reading *reading = &machine->runup[i];
-        const struct critical *own = of_reading(&search, reading);
+        const struct critical *own = search_find(&search, reading->number, reading->backward);
         double predicted = own ? own->speed : NAN, relative = own ? std[next++] : NAN;
         double doubt = machine->runup_held ? hypot(reading->std, relative * predicted) : reading->std;
         (*list)[i] = (rotid_runup_speed){.number = reading->number,

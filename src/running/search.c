@@ -90,6 +90,16 @@ int search_count(const struct search *s, int backward)
     return count;
 }
 
+const struct critical *search_find(const struct search *s, int number, int backward)
+{
+    for (int i = 0; i < s->ncritical; i++) {
+        number -= (pair_whirl(&s->system, s->critical[i].pair.u) == WHIRL_BACKWARD) == backward;
+        if (!number)
+            return &s->critical[i];
+    }
+    return NULL;
+}
+
 int search_until(struct pool *pool, double least, int forward, int backward, struct message_list *notes, struct search *s)
 {
     int status = build(pool, s, 0, notes), count;
