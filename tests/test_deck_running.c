@@ -114,9 +114,61 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
     says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");
     says(SHAFT TWO "*OPERATION\n5000, 4000\n", ROTID_ERROR, 16, "expected the lowest speed first");
     says(SHAFT TWO "*OPERATION, MARGIN=15\n4000, 5000\n", ROTID_ERROR, 15, "expected a share below 1");
+    says(SHAFT TWO "*OPERATION, MARGIN=API617\n4000, 5000\n", ROTID_ERROR, 15, "expected *UNBALANCE and *PROBE");
+    says(SHAFT TWO "*OPERATION, MARGIN=API541\n4000, 5000\n", ROTID_ERROR, 15, "MARGIN");
     says(SHAFT TWO "*OPERATION\n4000, 5000\n*OPERATION\n4000, 5000\n", ROTID_ERROR, 17, "given twice");
     says("*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*BEAM, NAME=a, MATERIAL=s\n2, 0.1, 0.1\n" TWO, ROTID_ERROR, 8,
          "is a *BEAM");
+}
+
+/* With x along the load: what holds the journal against its weight is kyy here. Signs as of a journal that drives forward whirl. */
+static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double k[4] = {4, -3, 2, 1}, d[4] = {8, -7, 6, 5};
+    assert_int_equal(running_case_open(SHAFT TWO "*BEARING, AXES=LOAD\n1, 1, -2, 3, 4, 5, -6, 7, 8\n", 100, 2, 0, &c), ROTID_OK);
+    assert_memory_equal(c.machine->bearing[2].k, k, sizeof k);
+    assert_memory_equal(c.machine->bearing[2].c, d, sizeof d);
+    running_case_close(&c);
+    says(SHAFT TWO "*BEARING, AXES=UP\n1, 1, 1\n", ROTID_ERROR, 15, "AXES");
+}
+
+/* G 2.5 of ISO 21940-11 at 3000 rpm: e = 7.96 um. */
+static void a_grade_is_an_unbalance_of_the_whole_machine(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double mass = 7800 * 3.14159265358979 / 4 * 0.01 * 2 + 30;
+    assert_int_equal(running_case_open(SHAFT TWO "*DISK\n1, 30\n*UNBALANCE, G=2.5\n0.5, 0.25\n1.5, 0.75, 180\n*UNBALANCE\n1, "
+                                                 "1e-3\n*OPERATION\n1000, 3000\n",
+                                       3000, 3, 0, &c),
+                     ROTID_OK);
+    assert_close(c.machine->unbalance[0].value, 0.25 * 7.9577e-6 * mass, 1e-4, 0);
+    assert_close(c.machine->unbalance[1].value, 0.75 * 7.9577e-6 * mass, 1e-4, 0);
+    assert_close(c.machine->unbalance[2].value, 1e-3, 0, 0);
+    running_case_close(&c);
+    says(SHAFT TWO "*UNBALANCE, G=2.5\n1, 1\n", ROTID_ERROR, 10, "expected *OPERATION");
+    says(SHAFT TWO "*UNBALANCE, G=-1\n1, 1\n", ROTID_ERROR, 15, "G");
+}
+
+/* A soft zone in the shaft makes the machine softer unless it was left at the test. */
+static void a_cause_is_left_at_the_test(void **state)
+{
+    (void)state;
+    struct running_case c;
+    double speed[3];
+    static const char *const cause = "*CAUSE, NAME=soft, TYPE=stiffness_local\ndepth, 0.5\nz, 1\nwidth, 0.14\n",
+                             *const with[3] = {"*RUNNING", "*RUNNING, WITHOUT=soft", "*RUNNING"};
+    for (int i = 0; i < 3; i++) {
+        char *text = pool_format(&test_pool, SHAFT "%s%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", i < 2 ? cause : "", with[i]);
+        assert_int_equal(running_case_open(text, 6000, 9, 0, &c), ROTID_OK);
+        assert_true(c.speeds.ncritical_speeds > 0);
+        speed[i] = c.speeds.critical_speeds[0].speed_rpm;
+        running_case_close(&c);
+    }
+    assert_true(speed[0] < 0.99 * speed[2]);
+    assert_close(speed[1], speed[2], 1e-9, 0);
 }
 
 #define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */
@@ -208,6 +260,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_cards_of_a_machine_are_read, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(units_of_the_deck_hold_for_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_bearing_is_turned_from_the_axes_of_its_load, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_grade_is_an_unbalance_of_the_whole_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_cause_is_left_at_the_test, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),

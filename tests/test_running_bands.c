@@ -78,6 +78,30 @@ static void draws_of_their_own_share_the_variance(void **state)
     running_case_close(&c);
 }
 
+/* The formula at factors of which the values are known by hand: 17 (1 - 1/1) = 0, 17 (1 - 1/8.5) = 15, and the caps. */
+static void the_margin_of_api_617_goes_by_the_amplification(void **state)
+{
+    (void)state;
+    const struct machine machine = {.api617 = 1, .low = 100, .high = 200};
+    assert_true(isnan(speeds_required(&machine, 2.49, 90)) && isnan(speeds_required(&machine, NAN, 90)));
+    assert_close(speeds_required(&machine, 2.5, 90), 0, 0, 1e-15);
+    assert_close(speeds_required(&machine, 10, 90), 0.15, 1e-12, 0);
+    assert_close(speeds_required(&machine, 10, 210), 0.25, 1e-12, 0);
+    assert_close(speeds_required(&machine, 1e3, 90), 0.16, 1e-12, 0);
+    assert_close(speeds_required(&machine, 1e3, 210), 0.26, 1e-12, 0);
+    assert_close(speeds_required(&machine, 10, 150), 0, 0, 0); /* the margin itself is below 0 there */
+    struct running_case c;
+    assert_int_equal(running_case_open(RIGID "*BEARING, NAME=p, STD=0.1\nstart, 1e6, 800\n*BEARING, LIKE=p\nend, 1e6, 800\n"
+                                             "*UNBALANCE\n0.5, 1e-3\n*PROBE, NAME=x\n0.5\n*OPERATION, MARGIN=API617\n2500, 4000\n",
+                                       5000, 9, 400, &c),
+                     ROTID_OK);
+    const rotid_critical_speed *w = forward(&c); /* zeta = 1600/(2 sqrt(2e6 50)) = 0.08: by half power 6.09 */
+    assert_close(w->amplification, 6.09, 5e-3, 0);
+    assert_close(w->margin.required, 0.17 * (1 - 1 / (w->amplification - 1.5)), 1e-12, 0);
+    assert_true(w->margin.value > 0.2 && w->margin.probability > 0.9);
+    running_case_close(&c);
+}
+
 /* A pinned shaft: W ~ sqrt(E), and a hammer test of E with few degrees of freedom: Student's t. */
 #define PINNED                                                                                                                   \
     "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, 20\n*IDENTIFY\na.E, %g, "   \
@@ -148,6 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(one_draw_for_both_bearings_is_log_normal, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(draws_of_their_own_share_the_variance, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_margin_of_api_617_goes_by_the_amplification, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_modulus_has_the_distribution_of_its_fit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(draws_end_at_the_bounds_of_the_unknown, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(threads_do_not_change_the_draws, open_test_pool, close_test_pool),

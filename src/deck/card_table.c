@@ -161,11 +161,12 @@ static const struct deck_row cause[] = {
     LAST};
 
 static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL};
+const char *const deck_axes[] = {"XY", "LOAD", NULL};
 static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
-    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), LAST},
+    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), OTHER("AXES", .words = deck_axes), LAST},
     pedestal[] = {OTHER("BEARING", .what = ""), LAST}, loss[] = {OTHER("TYPE", .words = losses), LAST},
     pull[] = {OTHER("GROUP", .what = ""), OTHER("STD", .what = "(0)"), LAST}, probe[] = {OTHER("NAME", .what = ""), LAST},
-    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST};
+    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST}, unbalance[] = {OTHER("G", .what = ""), LAST};
 
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
@@ -215,7 +216,7 @@ const struct deck_card deck_card_table[] = {
     {"LOSS", CARD_RUNNING, 10, deck_loss, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]", loss, OF_MACHINE},
     {"PULL", CARD_RUNNING, 10, deck_pull, "stiffness of the magnetic pull, without its sign [N/m]", pull, OF_MACHINE},
     {"CHANGE", CARD_RUNNING, 10, deck_change, "parameter, factor [, standard deviation of its logarithm]", nothing, OF_MACHINE},
-    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]", nothing, OF_MACHINE},
+    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]; with G: position, share of what the grade permits [, phase [deg]]", unbalance, OF_MACHINE},
     {"PROBE", CARD_RUNNING, 10, deck_probe, "position [, angle from x [deg]]", probe, OF_MACHINE},
     {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
     {"RUNUP", CARD_RUNNING, 10, deck_runup, "number, critical speed, standard deviation [rpm] [, BACKWARD]", nothing, OF_MACHINE, .once = 1},

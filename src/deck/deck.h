@@ -204,6 +204,7 @@ struct deck_reader {
     int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
     struct card *running;
     size_t running_room[9];
+    struct place margin_place; /* of *OPERATION */
     struct machine *machine; /* that they make */
     unsigned doubted;        /* kinds of numbers that a warning was given for */
     int out_of_memory;

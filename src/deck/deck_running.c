@@ -6,6 +6,7 @@
 
 #include "deck/card_table.h"
 #include "deck/deck.h"
+#include "deck/deck_row.h"
 #include "running/running.h"
 
 #define DEGREE       0.017453292519943295
@@ -111,10 +112,13 @@ static void leave_at_test(struct deck_reader *reader, struct place place, const 
     for (int i = 0; i < rotor->ndisk && !all; i++)
         if (rotor->disk[i].name && same_text(rotor->disk[i].name, name))
             found = machine->without_disk[i] = 1;
+    for (int i = 0; i < rotor->neffect && !all; i++)
+        if (rotor->effect[i].name && same_text(rotor->effect[i].name, name))
+            found = machine->without_effect[i] = 1;
     if (!found)
         deck_error(reader, place,
-                   "%s is no support or mass of the test, expected sling, all (the supports) or the name of a *SPRING or *DISK "
-                   "before *RUNNING",
+                   "%s is no support or mass of the test, expected sling, all (the supports) or the name of a *SPRING, *DISK or "
+                   "*CAUSE before *RUNNING",
                    name);
 }
 
@@ -125,7 +129,8 @@ void deck_running(struct deck_reader *reader, const struct card *card)
     const struct card_option *without = card_option(card, "WITHOUT");
     machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
     machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
-    if (!machine->without_spring || !machine->without_disk) {
+    machine->without_effect = POOL_ARRAY(reader->pool, int, rotor->neffect);
+    if (!machine->without_spring || !machine->without_disk || !machine->without_effect) {
         reader->out_of_memory = 1;
         return;
     }
@@ -282,6 +287,17 @@ static int bearing_std(struct deck_reader *reader, const struct card *card, stru
     return 0;
 }
 
+/* From axes with x along the load, which points down, and y a quarter of a turn further with the spin: (x, y) of there is
+ * (-y, x) of here, K = T' K T. */
+static void turn_to_load(double k[4])
+{
+    double xx = k[XX], xy = k[XY], yx = k[YX], yy = k[YY];
+    k[XX] = yy;
+    k[XY] = -yx;
+    k[YX] = -xy;
+    k[YY] = xx;
+}
+
 void deck_bearing(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
@@ -312,6 +328,13 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         bad |= deck_count(reader, line, 1, "position alone beside FILE") || bearing_table(reader, card, file, &b);
     } else {
         bad |= room_of_table(reader, &b, 1) || bearing_values(reader, line, 1, &b, 0);
+    }
+    const struct card_option *axes = card_option(card, "AXES");
+    int along = axes ? deck_option_word(reader, axes, deck_axes) : 0;
+    bad |= along < 0;
+    for (int i = 0; i < b.count && along > 0 && !bad; i++) {
+        turn_to_load(b.k + 4 * (ptrdiff_t)i);
+        turn_to_load(b.c + 4 * (ptrdiff_t)i);
     }
     struct bearing *added = bad ? NULL : DECK_APPEND(reader, machine->bearing, machine->nbearing, reader->running_room[0]);
     if (!added)
@@ -425,12 +448,17 @@ void deck_change(struct deck_reader *reader, const struct card *card)
 void deck_unbalance(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
-    int lines = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    const struct card_option *grade = card_option(card, "G");
+    double g = 0;
+    int lines = grade && deck_option_number(reader, grade, "mm/s", POSITIVE, &g)
+                    ? 0
+                    : deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
     for (int i = 0; i < lines; i++) {
         const struct data_line *line = &card->line[i];
-        struct unbalance u = {0};
+        struct unbalance u = {.grade = g / 1000};
         int bad = deck_count(reader, line, 3, reader->layout) || deck_position(reader, &line->field[0], "position", &u.z) ||
-                  deck_number(reader, line, 1, "unbalance [kg.m]", NOT_NEGATIVE, &u.value);
+                  deck_number(reader, line, 1, g > 0 ? "share of the permissible unbalance" : "unbalance [kg.m]", NOT_NEGATIVE,
+                              &u.value);
         if (!bad && deck_has(line, 2))
             bad = deck_number(reader, line, 2, "phase [deg]", ANY, &u.phase);
         u.phase *= DEGREE;
@@ -480,7 +508,10 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
                    "the running range goes from %g down to %g rpm, expected the lowest speed "
                    "first",
                    machine->low, machine->high);
-    if (margin && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) && machine->margin >= 1)
+    machine->api617 = margin && same_text(margin->value, "API617");
+    reader->margin_place = margin ? margin->value_place : card->place;
+    if (margin && !machine->api617 && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) &&
+        machine->margin >= 1)
         deck_error(reader, margin->value_place, "MARGIN=%s is %g %% of the speed, expected a share below 1", margin->value,
                    100 * machine->margin);
     machine->low *= RPM;
@@ -577,6 +608,32 @@ static void add_unknowns(struct deck_reader *reader, const struct card *card)
                 machine->bearing[j].unknown[u.damping] = reader->job->unknowns.nparameter + machine->nunknown;
         machine->nunknown++;
     }
+}
+
+/* U = G m/W of ISO 21940-11: m of the machine, W its highest running speed. */
+static void settle_unbalances(struct deck_reader *reader, const struct place running)
+{
+    struct machine *machine = reader->machine;
+    const struct rotor *rotor = &reader->job->rotor;
+    struct mass_properties mass = {0};
+    int graded = 0, status;
+    for (int i = 0; i < machine->nunbalance; i++)
+        graded |= machine->unbalance[i].grade > 0;
+    if (!graded)
+        return;
+    if (!machine->has_operation) {
+        deck_error(reader, running, "*UNBALANCE, G= is a grade at the highest running speed, expected *OPERATION with it");
+        return;
+    }
+    status = model_weigh(reader->pool, NULL, rotor, 0, NULL, NULL, &mass);
+    reader->out_of_memory |= status != ROTID_OK;
+    for (int i = 0; i < machine->ndisk; i++)
+        mass.mass += machine->disk[i].mass;
+    for (int i = 0; i < rotor->ndisk; i++)
+        mass.mass -= machine->without_disk[i] ? rotor->disk[i].mass : 0;
+    for (int i = 0; i < machine->nunbalance; i++)
+        if (machine->unbalance[i].grade > 0)
+            machine->unbalance[i].value *= machine->unbalance[i].grade * mass.mass / machine->high;
 }
 
 /* Whether a *FIT holds out the run-up; its place. */
@@ -694,6 +751,12 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         deck_error(reader, reader->running[0].place,
                    "the machine has no *BEARING: a free rotor has no critical speed, expected at "
                    "least one");
+    if (!reader->messages->errors)
+        settle_unbalances(&own, reader->running[0].place);
+    reader->out_of_memory |= own.out_of_memory;
+    if (own.machine->api617 && (!own.machine->nunbalance || !own.machine->nprobe))
+        deck_error(reader, own.margin_place,
+                   "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");
     check_runup(&own, reader->running[0].place);
     doubt_disks(&own, reader->running[0].place);
     for (int s = 0; s < states->nstate; s++) {

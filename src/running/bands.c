@@ -380,7 +380,7 @@ static int summarise(struct bands *b, int i, rotid_critical_speed *to)
         if (!isfinite(speed))
             continue;
         margin[count] = machine->has_operation ? speeds_margin(machine, speed * judged) : (double)NAN;
-        kept += isfinite(to->margin.required) && margin[count] >= to->margin.required;
+        kept += isfinite(to->margin.required) && margin[count] >= speeds_required(machine, to->amplification, speed * judged);
         own[count++] = speed / RPM;
         sum += speed / RPM;
         square += speed * speed / RPM / RPM;

@@ -67,8 +67,13 @@ int machine_has_unknown(const struct machine *machine, const struct job *job, in
     const struct parameter *parameter = &job->unknowns.parameter[p];
     int spring = parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT,
         disk = parameter->kind == PARAMETER_DISK_MASS || parameter->kind == PARAMETER_DISK_INERTIA;
-    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]);
+    int cause = parameter->kind == PARAMETER_EFFECT;
+    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]) &&
+           !(cause && machine->without_effect[parameter->index]);
 }
+
+/* A cause that is gone. */
+static const struct effect_kind nothing = {.id = "none"};
 
 /* What was left at the test stays in its list without stiffness or mass, so that parameters keep their indices. */
 static int add_parts(struct pool *pool, const struct machine *machine, struct rotor *rotor)
@@ -96,6 +101,9 @@ static int add_parts(struct pool *pool, const struct machine *machine, struct ro
         spring[springs++].position = machine->unbalance[i].z;
     for (int i = 0; i < machine->nprobe; i++)
         spring[springs++].position = machine->probe[i].z;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (machine->without_effect[i])
+            rotor->effect[i].kind = &nothing; /* which keeps its place and its parameters */
     rotor->disk = disk;
     rotor->ndisk = disks + machine->ndisk;
     rotor->spring = spring;

@@ -72,6 +72,7 @@ struct change { /* from rest to operation: a factor on a parameter */
 
 struct unbalance {
     double z, value, phase; /* m, kg.m, rad from x in the direction of spin */
+    double grade;           /* m/s of ISO 21940-11, of which `value` was a share in the deck; 0: none */
 };
 
 struct probe {
@@ -103,12 +104,14 @@ struct machine {
     struct unbalance *unbalance;
     struct probe *probe;
     int without_sling;
-    int *without_spring, *without_disk; /* [nspring], [ndisk] of the rotor at rest: 1 where it is gone */
+    int *without_spring, *without_disk, *without_effect; /* [nspring], [ndisk], [neffect] of the rotor at rest: 1 where it is
+                                                            gone */
     int ndisk;
     struct disk *disk; /* that the machine has beside those of the test */
     int has_operation;
     double low, high; /* rad/s: running range */
     double margin;    /* relative, required; 0: none stated */
+    int api617;       /* that of API 617 in its place, by the amplification factor */
 };
 
 /* The numbers that are uncertain: factors around the nominal values, all 1 there. */
@@ -346,6 +349,11 @@ int response_peak(struct system *system, int probe, double from, double near, do
 
 /* Weight, sag and loads at a speed into *out. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_STIFFNESS. */
 int static_loads(struct pool *pool, struct system *system, double speed, rotid_speeds *out);
+
+/* The margin that is required of a critical speed with that amplification factor, NaN: none. API Std 617, 8th edition, 6.8.2.5, as
+ * two programs quote it: none for a factor below 2.5; min(16, 17 (1 - 1/(AF - 1.5))) % of the lowest running speed below it,
+ * min(26, 10 + 17 (1 - 1/(AF - 1.5))) % of the highest one above it; inside the range 0, which is not kept. */
+double speeds_required(const struct machine *machine, double amplification, double speed);
 
 /* (low - W)/low below the running range, (W - high)/high above it, below 0 inside. */
 double speeds_margin(const struct machine *machine, double speed);

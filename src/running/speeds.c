@@ -107,6 +107,16 @@ double speeds_margin(const struct machine *machine, double speed)
     return -fmin((speed - low) / low, (high - speed) / high);
 }
 
+double speeds_required(const struct machine *machine, double amplification, double speed)
+{
+    if (!machine->api617)
+        return machine->margin > 0 ? machine->margin : NAN;
+    if (!(amplification >= 2.5))
+        return NAN;
+    double raw = 17 * (1 - 1 / (amplification - 1.5));
+    return speed < machine->low ? fmin(16, raw) / 100 : speed > machine->high ? fmin(26, 10 + raw) / 100 : 0;
+}
+
 static int fill_peaks(struct run *r, int i, rotid_critical_speed *to)
 {
     const struct machine *machine = r->search.machine;
@@ -164,7 +174,7 @@ static int fill_criticals(struct run *r)
             if (speeds_margin(r->search.machine, to->peaks[p].speed_rpm * RPM) < speeds_margin(r->search.machine, judged))
                 judged = to->peaks[p].speed_rpm * RPM;
         to->margin.value = speeds_margin(r->search.machine, judged);
-        to->margin.required = r->search.machine->margin > 0 ? r->search.machine->margin : NAN;
+        to->margin.required = speeds_required(r->search.machine, to->amplification, judged);
     }
     return out->critical_speeds ? status : ROTID_ERROR_MEMORY;
 }
