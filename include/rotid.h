@@ -482,7 +482,7 @@ typedef struct rotid_runup_speed {
     double predicted_rpm; /* of the model [rpm]; NaN where it has no such critical speed */
     double predicted_std; /* standard deviation of predicted_rpm by unknowns, bearings and what else the deck calls uncertain, in
                              linear prediction; of what was fitted, without the reading itself [rpm]; NaN with predicted_rpm */
-    double z;    /* measured less predicted over the standard deviation: of both where held out, of the reading where fitted [1] */
+    double z; /* measured less predicted over the standard deviation: of both where held out, of the reading where fitted [1] */
     int holdout; /* it took no part in the fit */
 } rotid_runup_speed;
 
@@ -799,32 +799,32 @@ typedef struct rotid_numerical_finding {
 
 /* The model of the deck before any cause. */
 typedef struct rotid_round {
-    int round;              /* from 1 */
-    double chi2;            /* of the model before the round [1] */
-    double chi2_frequency;  /* the part of the frequencies [1] */
-    int dof;                /* degrees of freedom */
-    int frequencies;        /* number of frequencies that were fitted */
-    double largest;         /* predicted drop of chi2 in the scan [1] */
-    double threshold;       /* that noise alone exceeds in 3 % of tests [1] */
-    double p_scan;          /* of the largest drop */
-    double p_frequency;     /* of the frequencies */
-    double p_total;         /* of chi2 */
+    int round;             /* from 1 */
+    double chi2;           /* of the model before the round [1] */
+    double chi2_frequency; /* the part of the frequencies [1] */
+    int dof;               /* degrees of freedom */
+    int frequencies;       /* number of frequencies that were fitted */
+    double largest;        /* predicted drop of chi2 in the scan [1] */
+    double threshold;      /* that noise alone exceeds in 3 % of tests [1] */
+    double p_scan;         /* of the largest drop */
+    double p_frequency;    /* of the frequencies */
+    double p_total;        /* of chi2 */
 } rotid_round;
 
 /* A cause at one target, tried in one round. */
 typedef struct rotid_candidate {
     int round; /* from 1 */
     rotid_cause cause;
-    int suspect;                  /* asked for by a CAUSE card with SUSPECT */
-    int refitted;                 /* judged by a nonlinear fit; else the numbers of that fit are NaN */
-    double predicted_drop;        /* of chi2, from the linear scan [1] */
-    double chi2;                  /* with the cause in the model [1] */
-    double chi2_frequency;        /* the part of the frequencies [1] */
-    double chi2_drop;             /* against the model of the round [1] */
-    double holdout_rms;           /* error of the frequencies that the deck holds out [%] */
-    double sensor_out_rms;        /* standardised shape residual of sensors left out in turn [1] */
-    int at_bound;                 /* a parameter is pressed against a physical bound */
-    double probability;           /* that this cause is there, alone or with others */
+    int suspect;           /* asked for by a CAUSE card with SUSPECT */
+    int refitted;          /* judged by a nonlinear fit; else the numbers of that fit are NaN */
+    double predicted_drop; /* of chi2, from the linear scan [1] */
+    double chi2;           /* with the cause in the model [1] */
+    double chi2_frequency; /* the part of the frequencies [1] */
+    double chi2_drop;      /* against the model of the round [1] */
+    double holdout_rms;    /* error of the frequencies that the deck holds out [%] */
+    double sensor_out_rms; /* standardised shape residual of sensors left out in turn [1] */
+    int at_bound;          /* a parameter is pressed against a physical bound */
+    double probability;    /* that this cause is there, alone or with others */
 } rotid_candidate;
 
 /* Of the base and of the extended model. */
@@ -1010,9 +1010,9 @@ typedef struct rotid_suggested_test {
 
 /* A test at rest, for a critical speed. */
 typedef struct rotid_speed_test {
-    const char *test;        /* in words: "the 6 modes again" */
-    int modes;               /* measured in it */
-    double std_rpm;          /* of the critical speed, expected behind it, in linear prediction [rpm]; NaN where it leaves that open */
+    const char *test; /* in words: "the 6 modes again" */
+    int modes;        /* measured in it */
+    double std_rpm;   /* of the critical speed, expected behind it, in linear prediction [rpm]; NaN where it leaves that open */
     double narrowed_percent; /* by how much that is below the present one [%]; NaN where one of them is not known */
 } rotid_speed_test;
 
@@ -1048,9 +1048,9 @@ typedef struct rotid_suggestion {
     rotid_geometry *geometry;    /* the model that all of this holds for */
     int nmessage;
     const rotid_message *message;
-    void *memory;     /* internal */
-    double speed_rpm; /* critical speed that was asked for, of which the tests are speed_tests [rpm]; NaN where none was */
-    double speed_std; /* its standard deviation as measured, in linear prediction [rpm]; NaN where nothing is measured */
+    void *memory;            /* internal */
+    double speed_rpm;        /* critical speed that was asked for, of which the tests are speed_tests [rpm]; NaN where none was */
+    double speed_std;        /* its standard deviation as measured, in linear prediction [rpm]; NaN where nothing is measured */
     double speed_identified; /* share of the unknowns in its variance, of which tests at rest take away [1]; NaN as speed_rpm */
     int nspeed_tests;
     rotid_speed_test *speed_tests; /* by std_rpm */
@@ -1075,20 +1075,21 @@ typedef struct rotid_response_peak {
 
 /* Of one source of doubt. */
 typedef struct rotid_variance_share {
-    const char *source;  /* identified (all unknowns of the fit together), bearing NAME, loss GROUP, pull GROUP, change PARAMETER */
+    const char
+        *source;  /* identified (all unknowns of the fit together), bearing NAME, loss GROUP, pull GROUP, change PARAMETER */
     double share; /* in the variance of the linear prediction [1] */
 } rotid_variance_share;
 
 typedef struct rotid_critical_speed {
-    int number;           /* from 1, by rising speed */
-    int mode;             /* of the Campbell diagram, from 1 */
-    double speed_rpm;     /* where Im lambda is harmonic times the speed [rpm] */
-    double std;           /* standard deviation of speed_rpm by draws [rpm]; NaN without uncertain numbers */
-    double ci95[2];       /* 95 % interval of speed_rpm by draws [rpm] */
-    const char *whirl;    /* backward, mixed (the orbits along the rotor differ) or forward */
-    double log_decrement; /* there, without the jump of loss factors [1] */
-    double damping_ratio; /* there, the same of critical damping [1] */
-    double amplification; /* largest of the peaks [1]; NaN where none is known */
+    int number;                /* from 1, by rising speed */
+    int mode;                  /* of the Campbell diagram, from 1 */
+    double speed_rpm;          /* where Im lambda is harmonic times the speed [rpm] */
+    double std;                /* standard deviation of speed_rpm by draws [rpm]; NaN without uncertain numbers */
+    double ci95[2];            /* 95 % interval of speed_rpm by draws [rpm] */
+    const char *whirl;         /* backward, mixed (the orbits along the rotor differ) or forward */
+    double log_decrement;      /* there, without the jump of loss factors [1] */
+    double damping_ratio;      /* there, the same of critical damping [1] */
+    double amplification;      /* largest of the peaks [1]; NaN where none is known */
     rotid_speed_margin margin; /* to the running range */
     int npeaks;
     rotid_response_peak *peaks; /* of the unbalance response, by probe */
@@ -1158,8 +1159,8 @@ typedef struct rotid_speeds {
     rotid_campbell_speed *campbell; /* modes over the speed */
     int nunbalance;
     rotid_probe_response *unbalance; /* response at each probe */
-    double weight_n;                  /* of the rotor [N] */
-    double sag_m;                     /* largest deflection by it, with that of the bearings [m] */
+    double weight_n;                 /* of the rotor [N] */
+    double sag_m;                    /* largest deflection by it, with that of the bearings [m] */
     int nbearing_loads;
     rotid_bearing_load *bearing_loads; /* by weight */
     int nmap;

@@ -99,8 +99,10 @@ static void structs_of_hosts_say_their_size(void **state)
 {
     (void)state;
     static const char *const fixed[] = {"rotid_allocator", "rotid_parameter", "rotid_matrix", "rotid_lm_result"};
-    static const char *const sized[] = {"rotid_environment", "rotid_diagnose_options", "rotid_suggest_options", "rotid_speeds_options", "rotid_model", "rotid_measured",
-                                        "rotid_state",       "rotid_fit_options",      "rotid_lm_options"};
+    static const char *const sized[] = {
+        "rotid_environment", "rotid_diagnose_options", "rotid_suggest_options", "rotid_speeds_options",
+        "rotid_model",       "rotid_measured",         "rotid_state",           "rotid_fit_options",
+        "rotid_lm_options"};
     struct header header;
     int count = 0;
     assert_int_equal(header_read(&test_pool, HEADER, &header), 0);

@@ -121,7 +121,8 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
          "is a *BEAM");
 }
 
-/* With x along the load: what holds the journal against its weight is kyy here. Signs as of a journal that drives forward whirl. */
+/* With x along the load: what holds the journal against its weight is kyy here. Signs as of a journal that drives forward whirl.
+ */
 static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
 {
     (void)state;
@@ -161,7 +162,8 @@ static void a_cause_is_left_at_the_test(void **state)
     static const char *const cause = "*CAUSE, NAME=soft, TYPE=stiffness_local\ndepth, 0.5\nz, 1\nwidth, 0.14\n",
                              *const with[3] = {"*RUNNING", "*RUNNING, WITHOUT=soft", "*RUNNING"};
     for (int i = 0; i < 3; i++) {
-        char *text = pool_format(&test_pool, SHAFT "%s%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", i < 2 ? cause : "", with[i]);
+        char *text =
+            pool_format(&test_pool, SHAFT "%s%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", i < 2 ? cause : "", with[i]);
         assert_int_equal(running_case_open(text, 6000, 9, 0, &c), ROTID_OK);
         assert_true(c.speeds.ncritical_speeds > 0);
         speed[i] = c.speeds.critical_speeds[0].speed_rpm;
@@ -195,7 +197,8 @@ static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
     says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n", ROTID_ERROR, 15, "the deck has no machine");
     says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n" TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 1\n", ROTID_ERROR, 16,
          "the run-up is held out");
-    says(SHAFT MODES "*FIT, FUNCTIONAL=HYBRID\n" TWO "*RUNUP\n1, 4000, 1\n", ROTID_ERROR, 16, "expected *FIT, FUNCTIONAL=LIKELIHOOD");
+    says(SHAFT MODES "*FIT, FUNCTIONAL=HYBRID\n" TWO "*RUNUP\n1, 4000, 1\n", ROTID_ERROR, 16,
+         "expected *FIT, FUNCTIONAL=LIKELIHOOD");
     says(SHAFT MODES "p.k, 0.1, 2, 1\n" TWO, ROTID_ERROR, 15, "p is a *BEARING, expected its unknowns in an *IDENTIFY behind");
 }
 

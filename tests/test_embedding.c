@@ -336,8 +336,8 @@ static void every_routine_of_the_header_links_from_fortran(void **state)
 static void the_document_shows_the_programs_that_were_built(void **state)
 {
     (void)state;
-    static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "margins.c"},            {"c", "curve.c"},
-                                          {"make", "Makefile"},      {"fortran", "critical.f90"},   {"fortran", "stepped_beam.f90"},
+    static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "margins.c"},          {"c", "curve.c"},
+                                          {"make", "Makefile"},      {"fortran", "critical.f90"}, {"fortran", "stepped_beam.f90"},
                                           {"python", "run_deck.py"}, {"cmake", "CMakeLists.txt"}};
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
     int blocks = 0;

@@ -91,8 +91,9 @@ static void the_margin_of_api_617_goes_by_the_amplification(void **state)
     assert_close(speeds_required(&machine, 1e3, 210), 0.26, 1e-12, 0);
     assert_close(speeds_required(&machine, 10, 150), 0, 0, 0); /* the margin itself is below 0 there */
     struct running_case c;
-    assert_int_equal(running_case_open(RIGID "*BEARING, NAME=p, STD=0.1\nstart, 1e6, 800\n*BEARING, LIKE=p\nend, 1e6, 800\n"
-                                             "*UNBALANCE\n0.5, 1e-3\n*PROBE, NAME=x\n0.5\n*OPERATION, MARGIN=API617\n2500, 4000\n",
+    assert_int_equal(running_case_open(RIGID
+                                       "*BEARING, NAME=p, STD=0.1\nstart, 1e6, 800\n*BEARING, LIKE=p\nend, 1e6, 800\n"
+                                       "*UNBALANCE\n0.5, 1e-3\n*PROBE, NAME=x\n0.5\n*OPERATION, MARGIN=API617\n2500, 4000\n",
                                        5000, 9, 400, &c),
                      ROTID_OK);
     const rotid_critical_speed *w = forward(&c); /* zeta = 1600/(2 sqrt(2e6 50)) = 0.08: by half power 6.09 */

@@ -148,6 +148,7 @@ static void bearings_and_core_are_identified_together(void **state)
         assert_close(found->runup[i].predicted_rpm, found->runup[i].measured_rpm, 1e-4, 0);
         assert_close(found->runup[i].measured_std, 10, 1e-12, 0);
         assert_true(!found->runup[i].holdout && fabs(found->runup[i].z) < 0.2);
+        assert_true(found->runup[i].predicted_std < 11); /* of the fit: STD of the bearing is replaced by it */
     }
     rotid_identification_free(found);
 }
@@ -188,6 +189,46 @@ static void a_run_up_that_is_held_out_shows_a_wrong_bearing(void **state)
     }
 }
 
+/* The unknowns of the machine stand behind those of all states, and the fit of all has their covariance. */
+static void states_share_the_machine(void **state)
+{
+    (void)state;
+    struct shaft free = truth;
+    const rotid_speeds_options options = {.size = sizeof options, .draws = 30, .count = 9};
+    rotid_speeds *speeds;
+    rotid_deck *deck;
+    free.stiffness[0] = free.stiffness[1] = 0;
+    char *text = pool_format(
+        &test_pool, "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.25e11, 2.5e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, "
+                    "MATERIAL=l\n2, 0.2, 0, 200\n*NOISE, FREQUENCY=1e-4\n*IDENTIFY\ncore.E, 5e10, 3e11, 1.25e11\ncore.G, "
+                    "5e9, 1e11, 2.5e10\n");
+    for (int s = 0; s < 2; s++) {
+        text = pool_format(&test_pool, "%s*STATE, NAME=s%d\n*MODES\n", text, s);
+        for (int k = 1 + s; k <= 3 + s; k++)
+            text = pool_format(&test_pool, "%s%d, %.12g\n", text, k, frequency(&free, 50, AT_REST, k) / (2 * pi));
+    }
+    text = pool_format(&test_pool,
+                       "%s*RUNNING\n*BEARING, NAME=a\n0.3, 2e8, 0\n*BEARING, NAME=b, LIKE=a\n1.7, 2e8, 0\n%s*IDENTIFY\n"
+                       "a.k, 0.2, 5, 1\n",
+                       text, readings(10));
+    rotid_identification *found = identify(text, ROTID_OK);
+    assert_int_equal(found->nstates, 2);
+    assert_int_equal(found->dof, 3 + 3 + 2 - 3);
+    assert_string_equal(found->parameters[2].name, "a.k");
+    assert_close(found->parameters[2].value, 1.2, 1e-3, 0);
+    assert_close(found->parameters[0].value, truth.e, 2e-4, 0);
+    assert_int_equal(found->nrunup, 2);
+    assert_close(found->runup[1].predicted_rpm, found->runup[1].measured_rpm, 1e-4, 0);
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_speeds_compute(deck, &options, NULL, NULL, &speeds), ROTID_OK);
+    const rotid_critical_speed *c = &speeds->critical_speeds[0];
+    assert_string_equal(c->variance_shares[0].source, "identified");
+    assert_true(isfinite(c->std) && c->std > 0 && c->ci95[0] < c->speed_rpm && c->speed_rpm < c->ci95[1]);
+    rotid_speeds_free(speeds);
+    rotid_deck_free(deck);
+    rotid_identification_free(found);
+}
+
 static void a_number_that_the_model_does_not_have_is_refused(void **state)
 {
     (void)state;
@@ -211,7 +252,8 @@ static void derivatives_are_those_of_differences(void **state)
         "0.28\n*DENSITY\n7600\n*SHAFT, NAME=left, MATERIAL=s\n0.3, 0.10, 0, 12\n0.2, 0.16, 0.02, 8\n*SHAFT, NAME=core, "
         "MATERIAL=l\n0.7, 0.30, 0, 20\n*SHAFT, NAME=right, MATERIAL=s\n0.4, 0.11, 0, 14\n*NOISE, FREQUENCY=1e-3\n*MODES\n1, "
         "200\n*IDENTIFY\ncore.E, 1e10, 1e12, 1.1e11\ncore.G, 1e9, 1e12, 3e10\nleft.E, 1e10, 1e12, 2.1e11\n*RUNNING\n*DISK\nend, "
-        "12, 0.1, 0.18\n*BEARING, NAME=a\n0.15, 8e7, 2e7, -1e7, 6e7, 3e4, -2e3, 1e3, 2.5e4\n*BEARING, NAME=b\n1.5, 9e7, 7e7, 2e4, "
+        "12, 0.1, 0.18\n*BEARING, NAME=a\n0.15, 8e7, 2e7, -1e7, 6e7, 3e4, -2e3, 1e3, 2.5e4\n*BEARING, NAME=b\n1.5, 9e7, 7e7, "
+        "2e4, "
         "3e4\n*PEDESTAL, BEARING=b\n150, 200, 6e8, 4e8, 1e4, 2e4\n*PULL, GROUP=core\n1e7\n*LOSS\ncore, 0.02\n*RUNUP\n1, 4000, "
         "10\n2, 9000, 20\n1, 3500, 10, BACKWARD\n*IDENTIFY\na.k, 0.1, 10, 1.1\na.c, 0.1, 10, 0.9\nb.k, 0.1, 10, 1\n";
     enum { N = 6, ROWS = 3 };
@@ -238,7 +280,8 @@ static void derivatives_are_those_of_differences(void **state)
         }
         x[p] = joined.bounds[p].start;
         for (int i = 0; i < ROWS; i++) {
-            double by_difference = (r[1][i] - r[0][i]) / (2 * step), scale = fabs(jacobian[2 + i]) * joined.bounds[0].start / x[p];
+            double by_difference = (r[1][i] - r[0][i]) / (2 * step),
+                   scale = fabs(jacobian[2 + i]) * joined.bounds[0].start / x[p];
             assert_close(jacobian[2 + i + (ROWS + 2) * p], by_difference, 1e-6, 1e-5 * scale);
         }
     }
@@ -249,10 +292,12 @@ static void derivatives_are_those_of_differences(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_critical_speeds_are_those_of_the_differential_equation, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_critical_speeds_are_those_of_the_differential_equation, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(bearings_and_core_are_identified_together, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_reading_weighs_by_its_standard_deviation, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_run_up_that_is_held_out_shows_a_wrong_bearing, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(states_share_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_number_that_the_model_does_not_have_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(derivatives_are_those_of_differences, open_test_pool, close_test_pool),
     };

@@ -202,8 +202,8 @@ static void critical_speeds_are_those_of_the_machine_and_of_its_truth(void **sta
         cJSON *result = bench_result(&study, run), *first = NULL, *one;
         assert_string_equal(word(result, "status"), "converged");
         cJSON_ArrayForEach(one, get(result, "critical_speeds")) if (!first && !strcmp(word(one, "whirl"), "forward")) first = one;
-        double w = number_of(first, "speed_rpm"), std = number_of(first, "std"), e = bench_number(result, "parameters", 0, "value"),
-               std_e = bench_number(result, "parameters", 0, "std");
+        double w = number_of(first, "speed_rpm"), std = number_of(first, "std"),
+               e = bench_number(result, "parameters", 0, "value"), std_e = bench_number(result, "parameters", 0, "std");
         const cJSON *truth = get(result, "truth");
         modulus[run] = number_of(truth, "a.E");
         speed[run] = number_of(truth, "forward:1");
@@ -283,7 +283,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(every_start_of_the_paper_reaches_the_minimum, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(variants_and_modes_are_those_of_the_deck, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_hidden_mass_is_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(critical_speeds_are_those_of_the_machine_and_of_its_truth, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(critical_speeds_are_those_of_the_machine_and_of_its_truth, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(what_cannot_be_computed_says_why, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_cancelled_run_leaves_no_line, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(seeds_change_the_noise_alone, open_test_pool, close_test_pool),

@@ -90,8 +90,8 @@ rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
  * as it stands, without nodes, where beam is NULL. It leans on both. NULL where memory is out. */
 rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model);
 
-/* An identification as hosts and files have it; bounds: of the unknowns of its fit. Leans on these and on what was found. Without noise, geometry and messages.
- * NULL where there is no fit, or memory is out. */
+/* An identification as hosts and files have it; bounds: of the unknowns of its fit. Leans on these and on what was found. Without
+ * noise, geometry and messages. NULL where there is no fit, or memory is out. */
 rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
                                             const struct identification *found);
 

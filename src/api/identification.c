@@ -67,14 +67,13 @@ static int identify(struct call *call, const struct states *given, const struct 
     struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
     rotid_fit_result *fit = NULL;
     int one = states->nstate == 1,
-        status = found ? identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit)
-                       : ROTID_ERROR_MEMORY;
+        status =
+            found ? identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
-    rotid_identification *made =
-        one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);
+    rotid_identification *made = one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);
     status = compare_runup(call, given, fit, made);
     if (!status && baseline && !states->more) /* the scan behind it knows modes alone */
         status = find_hidden(call, states, found, fit, made);

@@ -13,8 +13,8 @@ static int take_options(const rotid_speeds_options *given, char *failure, struct
     const struct {
         const char *name;
         double value, least, most; /* as of the options of the program */
-    } number[] = {{"from_rpm", o.from_rpm, 0, 1e7},  {"to_rpm", o.to_rpm, 0, 1e7},     {"harmonic", o.harmonic, 0, 100},
-                  {"count", o.count, 0, 10000},      {"draws", o.draws, -1e6, 1e6},    {"threads", o.threads, 0, 2147483647.0},
+    } number[] = {{"from_rpm", o.from_rpm, 0, 1e7}, {"to_rpm", o.to_rpm, 0, 1e7},  {"harmonic", o.harmonic, 0, 100},
+                  {"count", o.count, 0, 10000},     {"draws", o.draws, -1e6, 1e6}, {"threads", o.threads, 0, 2147483647.0},
                   {"seed", (double)o.seed, 0, 1e12}};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         if (!(number[i].value >= number[i].least && number[i].value <= number[i].most))
@@ -31,7 +31,9 @@ static int take_options(const rotid_speeds_options *given, char *failure, struct
                                   .to = o.to_rpm * RPM,
                                   .count = o.count ? o.count : SPEEDS_COUNT,
                                   .harmonic = o.harmonic > 0 ? o.harmonic : 1,
-                                  .draws = o.draws > 0 ? o.draws : o.draws < 0 ? 0 : SPEEDS_DRAWS,
+                                  .draws = o.draws > 0   ? o.draws
+                                           : o.draws < 0 ? 0
+                                                         : SPEEDS_DRAWS,
                                   .seed = (unsigned long)(o.seed ? o.seed : 1),
                                   .threads = o.threads < 1               ? 1
                                              : o.threads > PARALLEL_MOST ? PARALLEL_MOST

@@ -91,8 +91,8 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
         status = machine_fit(pool, states, *fit, &own);
     int failed;
     if (!status)
-        status = x && model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, model,
-                                         &failed)
+        status = x && model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
+                                         model, &failed)
                             : ROTID_ERROR_MEMORY;
     if (status)
         return status;

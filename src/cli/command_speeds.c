@@ -79,8 +79,8 @@ static int run(struct command *command, const struct states *states, const rotid
     for (int p = 0; p < n && !status; p++)
         x[p] = fit ? own.x[p] : machine_bounds(machine, job, p)->start;
     if (!status)
-        status = speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, &options, &environment, &command->messages,
-                            speeds);
+        status =
+            speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, &options, &environment, &command->messages, speeds);
     if (environment.progress)
         terminal_progress_end();
     if (status < 0)

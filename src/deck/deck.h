@@ -205,8 +205,8 @@ struct deck_reader {
     struct card *running;
     size_t running_room[9];
     struct place margin_place; /* of *OPERATION */
-    struct machine *machine; /* that they make */
-    unsigned doubted;        /* kinds of numbers that a warning was given for */
+    struct machine *machine;   /* that they make */
+    unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -291,8 +291,7 @@ typedef void deck_card_reader(struct deck_reader *reader, const struct card *car
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
     deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
     deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set, deck_running, deck_bearing,
-    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation,
-    deck_runup;
+    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation, deck_runup;
 /* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
 

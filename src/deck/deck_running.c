@@ -556,7 +556,8 @@ void deck_runup(struct deck_reader *reader, const struct card *card)
 static int unknown_bearing(struct deck_reader *reader, const struct field *field, int *damping)
 {
     const struct machine *machine = reader->machine;
-    const char *dot = strrchr(field->text, '.'), *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - field->text), field->text) : NULL;
+    const char *dot = strrchr(field->text, '.'),
+               *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - field->text), field->text) : NULL;
     *damping = dot && same_text(dot + 1, "c");
     for (int i = 0; i < machine->nbearing && name && (*damping || same_text(dot + 1, "k")); i++) {
         const struct bearing *b = &machine->bearing[i];
@@ -661,9 +662,10 @@ static void check_runup(struct deck_reader *reader, const struct place running)
         deck_error(reader, running, "%s is to be identified%s, expected *RUNUP with measured critical speeds that are fitted",
                    machine->unknown[0].bounds.name, held ? " and the run-up is held out" : "");
     if (machine->nrunup && !held && job->measurement.nmode && job->options.fit.functional != ROTID_LIKELIHOOD)
-        deck_error(reader, running,
-                   "*RUNUP is weighed by its standard deviation, expected *FIT, FUNCTIONAL=LIKELIHOOD with the noise of the modes, "
-                   "or HOLDOUT=RUNUP");
+        deck_error(
+            reader, running,
+            "*RUNUP is weighed by its standard deviation, expected *FIT, FUNCTIONAL=LIKELIHOOD with the noise of the modes, "
+            "or HOLDOUT=RUNUP");
 }
 
 static void add_disk(struct deck_reader *reader, const struct card *card)

@@ -66,6 +66,5 @@ int joint_jacobian(struct joint *joint, const double *x, double *jacobian)
         }
         row += m;
     }
-    return status || !joint->more ? status
-                                  : joint->more->jacobian(joint->more->user, x, joint->nresidual, jacobian + row);
+    return status || !joint->more ? status : joint->more->jacobian(joint->more->user, x, joint->nresidual, jacobian + row);
 }

@@ -262,8 +262,8 @@ int joint_unknown(const int *parameter, int q);
 int joint_new(struct pool *pool, int kind, int reduction, int derivative, int nparam, int nstate, const struct joint_state *state,
               const struct joint_more *more, struct joint *joint);
 
-/* r [nresidual] at x [nparam]: state by state, as functional_residual has them, then those of `more`. Allocates nothing. Statuses of that, of the first
- * state without a residual. */
+/* r [nresidual] at x [nparam]: state by state, as functional_residual has them, then those of `more`. Allocates nothing. Statuses
+ * of that, of the first state without a residual. */
 int joint_residual(struct joint *joint, const double *x, double *r);
 
 /* dr/dx [nresidual * nparam] at the x of the last joint_residual. Parameters of a model that are one unknown add up. */

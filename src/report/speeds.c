@@ -29,7 +29,7 @@ struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
 struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list)
 {
     struct table *t = table_open(pool, count && list[0].holdout ? "RUN-UP, held out: measured critical speeds beside the model's"
-                                                                 : "RUN-UP: measured critical speeds beside the model's");
+                                                                : "RUN-UP: measured critical speeds beside the model's");
     for (int i = 0; i < count; i++) {
         table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, list[i].number);

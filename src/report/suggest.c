@@ -160,7 +160,8 @@ static void print_wanted(const struct screen *to, const rotid_suggestion *s)
 
 struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
 {
-    struct table *table = table_open(pool, "Tests at rest: standard deviation of the critical speed that is expected behind each");
+    struct table *table =
+        table_open(pool, "Tests at rest: standard deviation of the critical speed that is expected behind each");
     if (table)
         table->note = pool_format(pool, "As measured %s rpm, %.0f %% of that variance by the unknowns. In linear prediction.",
                                   isfinite(s->speed_std) ? pool_format(pool, "%.3g", s->speed_std) : "not known,",

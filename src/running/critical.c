@@ -4,9 +4,9 @@
 
 #include "running/running.h"
 
-#define HALVINGS   60
-#define SLOW       1e-3 /* of the highest speed */
-#define SAME       0.3  /* |u'v|^2 of a critical speed's mode in another machine */
+#define HALVINGS 60
+#define SLOW     1e-3 /* of the highest speed */
+#define SAME     0.3  /* |u'v|^2 of a critical speed's mode in another machine */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {

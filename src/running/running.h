@@ -49,7 +49,7 @@ struct bearing {
     int count;                 /* speeds of the table; 1: constants */
     double *speed;             /* [count] rad/s, increasing */
     double *k, *c;             /* [4 * count] N/m, N.s/m */
-    int unknown[2]; /* which unknown of the machine is a factor on k, on c; -1: none */
+    int unknown[2];            /* which unknown of the machine is a factor on k, on c; -1: none */
     int has_pedestal;          /* what carries it moves: */
     double m[2], kp[2], cp[2]; /* kg, N/m, N.s/m of the pedestal in x and y */
 };
@@ -80,7 +80,7 @@ struct probe {
     double z, angle; /* m, rad from x to y */
 };
 
-struct runup_reading { /* a measured critical speed */
+struct runup_reading {    /* a measured critical speed */
     int number, backward; /* from 1, of those with backward whirl, or with any other */
     double speed, std;    /* rad/s */
     struct job_place place;
@@ -238,8 +238,8 @@ double complex pair_rate(const struct system *system, const struct pair *pair);
 /* l* A u/(l* dD/dlambda u) for the product A u [size] */
 double complex pair_share(const struct system *system, const struct pair *pair, const double complex *product);
 
-/* d lambda/dp of a pair that has its left vector, dD/dp from the matrices of two machines on the basis of the nominal one, `apart`
- * in p: -l* dD u/(l* dD/dlambda u). turn: side of the loss factors. work [2 size^2 + size] */
+/* d lambda/dp of a pair that has its left vector, dD/dp from the matrices of two machines on the basis of the nominal one,
+ * `apart` in p: -l* dD u/(l* dD/dlambda u). turn: side of the loss factors. work [2 size^2 + size] */
 double complex pair_difference(struct system *nominal, struct system side[2], double apart, double speed, int turn,
                                const struct pair *pair, double complex *work);
 
@@ -261,9 +261,9 @@ struct speeds_options {
     int threads; /* of the draws; the result does not depend on it */
 };
 
-/* x [machine_unknowns]; fit: of these (machine_fit), or NULL: they are taken as known. Reasons and notes go to the list. ROTID_OK;
- * ROTID_ERROR_STIFFNESS where bearings do not hold the rotor or the pull is stronger; ROTID_STOP_CANCELLED: all but the bands is
- * there; statuses of system_build, pairs_all. */
+/* x [machine_unknowns]; fit: of these (machine_fit), or NULL: they are taken as known. Reasons and notes go to the list.
+ * ROTID_OK; ROTID_ERROR_STIFFNESS where bearings do not hold the rotor or the pull is stronger; ROTID_STOP_CANCELLED: all but the
+ * bands is there; statuses of system_build, pairs_all. */
 int speeds_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
                struct message_list *notes, rotid_speeds *out);
@@ -297,8 +297,8 @@ int criticals_find(struct pool *pool, struct system *system, const struct tracks
 double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *critical,
                      double complex *work);
 
-/* The critical speed of another system of the same mesh that has the mode of `near`, by Newton from to->speed. Returns 0, or 1 and
- * a speed of NaN where it is lost. */
+/* The critical speed of another system of the same mesh that has the mode of `near`, by Newton from to->speed. Returns 0, or 1
+ * and a speed of NaN where it is lost. */
 int critical_carry(const struct system *from, const struct critical *near, double h, struct system *system, struct critical *to);
 
 /* A machine over a range of speeds: its system, its modes and its critical speeds. */
@@ -350,8 +350,8 @@ int response_peak(struct system *system, int probe, double from, double near, do
 /* Weight, sag and loads at a speed into *out. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_STIFFNESS. */
 int static_loads(struct pool *pool, struct system *system, double speed, rotid_speeds *out);
 
-/* The margin that is required of a critical speed with that amplification factor, NaN: none. API Std 617, 8th edition, 6.8.2.5, as
- * two programs quote it: none for a factor below 2.5; min(16, 17 (1 - 1/(AF - 1.5))) % of the lowest running speed below it,
+/* The margin that is required of a critical speed with that amplification factor, NaN: none. API Std 617, 8th edition, 6.8.2.5,
+ * as two programs quote it: none for a factor below 2.5; min(16, 17 (1 - 1/(AF - 1.5))) % of the lowest running speed below it,
  * min(26, 10 + 17 (1 - 1/(AF - 1.5))) % of the highest one above it; inside the range 0, which is not kept. */
 double speeds_required(const struct machine *machine, double amplification, double speed);
 
@@ -370,8 +370,8 @@ int bands_linear(struct pool *pool, struct search *search, int ncritical, const 
                  const rotid_fit_result *fit, double *std);
 
 /* gradient [machine_unknowns] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0 of those
- * that do not act in the machine. *rest: variance of ln W by bearings, losses, pull and changes, in linear prediction. Statuses of
- * bands_make. */
+ * that do not act in the machine. *rest: variance of ln W by bearings, losses, pull and changes, in linear prediction. Statuses
+ * of bands_make. */
 int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest);
 
 /* ------------------------------------------------------------------------------------------------ worth of a test at rest */
@@ -381,18 +381,19 @@ struct worth_options {
     double noise;         /* of the frequencies of a test, relative */
 };
 
-/* Tests at rest by how much they narrow a critical speed: fills speed_tests, speed_rpm, speed_std, speed_identified and sentence of
- * *out. x, fit as for speeds_run. Statuses of search_until, bands_gradient, model_open and the prediction; ROTID_ERROR_ARGUMENT
- * where there is no such critical speed, or nothing to be identified. */
+/* Tests at rest by how much they narrow a critical speed: fills speed_tests, speed_rpm, speed_std, speed_identified and sentence
+ * of *out. x, fit as for speeds_run. Statuses of search_until, bands_gradient, model_open and the prediction;
+ * ROTID_ERROR_ARGUMENT where there is no such critical speed, or nothing to be identified. */
 int worth_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
-              const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes, rotid_suggestion *out);
+              const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes,
+              rotid_suggestion *out);
 
 /* ---------------------------------------------------------------------------------------------------------------- run-up */
 
-/* Measured critical speeds W^ as residuals (W - W^)/std of a fit of all states, over their unknowns and behind these the machine's
- * own: dW/dp by critical_rate. *joined: the states with both, which lean on *runup; as they are, and *runup NULL, where nothing
- * was measured or it is held out. Statuses of search_until, ROTID_ERROR_ARGUMENT where the model at its start has no such critical
- * speed; the list says why. runup_close in any case: it says whether an evaluation ran out of memory. */
+/* Measured critical speeds W^ as residuals (W - W^)/std of a fit of all states, over their unknowns and behind these the
+ * machine's own: dW/dp by critical_rate. *joined: the states with both, which lean on *runup; as they are, and *runup NULL, where
+ * nothing was measured or it is held out. Statuses of search_until, ROTID_ERROR_ARGUMENT where the model at its start has no such
+ * critical speed; the list says why. runup_close in any case: it says whether an evaluation ran out of memory. */
 struct runup;
 int runup_join(struct pool *pool, const struct states *states, struct message_list *notes, struct states *joined,
                struct runup **runup);

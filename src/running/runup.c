@@ -90,9 +90,8 @@ static int carry(struct runup *r, const struct point *from, struct point *to)
         to->critical[i].speed = from->critical[i].speed;
         if (pair_new(&to->pool, to->search.system.size, &to->critical[i].pair))
             return ROTID_ERROR_MEMORY;
-        lost +=
-            critical_carry(&from->search.system, &from->critical[i], 1, &to->search.system, &to->critical[i]) ||
-            (system_at(&to->search.system, to->critical[i].speed), pair_left(&to->search.system, 0, &to->critical[i].pair));
+        lost += critical_carry(&from->search.system, &from->critical[i], 1, &to->search.system, &to->critical[i]) ||
+                (system_at(&to->search.system, to->critical[i].speed), pair_left(&to->search.system, 0, &to->critical[i].pair));
     }
     return status ? status : lost;
 }
@@ -193,10 +192,11 @@ static void refuse_reading(const struct runup *r, struct message_list *notes)
         const struct runup_reading *reading = &r->machine->runup[i];
         if (isfinite(p->critical[i].speed))
             continue;
-        message_add(notes, SEVERITY_ERROR, reading->place.file, reading->place.line, reading->place.column,
-                    "the model has %d critical speeds with %s whirl up to %.0f rpm, expected number %d of *RUNUP to be one of them",
-                    search_count(s, reading->backward), reading->backward ? "backward" : "forward", s->speed[s->count - 1] / RPM,
-                    reading->number);
+        message_add(
+            notes, SEVERITY_ERROR, reading->place.file, reading->place.line, reading->place.column,
+            "the model has %d critical speeds with %s whirl up to %.0f rpm, expected number %d of *RUNUP to be one of them",
+            search_count(s, reading->backward), reading->backward ? "backward" : "forward", s->speed[s->count - 1] / RPM,
+            reading->number);
     }
 }
 

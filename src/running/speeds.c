@@ -4,10 +4,10 @@
 
 #include "running/running.h"
 
-#define BEYOND     1.3 /* times the running range */
-#define NO_DAMPING  1e-12 /* of |lambda| */
-#define CURVE       241 /* speeds of a response */
-#define pi          3.14159265358979323846
+#define BEYOND     1.3   /* times the running range */
+#define NO_DAMPING 1e-12 /* of |lambda| */
+#define CURVE      241   /* speeds of a response */
+#define pi         3.14159265358979323846
 
 struct run {
     struct pool *pool;
@@ -42,18 +42,19 @@ static int fill_campbell(struct run *r)
     out->campbell = POOL_ARRAY(r->pool, rotid_campbell_speed, out->ncampbell);
     for (int i = 0; i < out->ncampbell && out->campbell; i++) {
         rotid_campbell_speed *to = &out->campbell[i];
-        to->speed_rpm =
-            r->search.tracks.speed[i] <= 2 * STANDSTILL * r->search.tracks.speed[r->search.tracks.nspeed - 1] ? 0 : r->search.tracks.speed[i] / RPM;
+        to->speed_rpm = r->search.tracks.speed[i] <= 2 * STANDSTILL * r->search.tracks.speed[r->search.tracks.nspeed - 1]
+                            ? 0
+                            : r->search.tracks.speed[i] / RPM;
         to->modes = POOL_ARRAY(r->pool, rotid_campbell_mode, r->search.tracks.nmode);
         for (int m = 0; m < r->search.tracks.nmode && to->modes; m++) {
             const struct pair *pair = track_at(&r->search.tracks, m, i);
             if (isfinite(creal(pair->lambda)))
                 to->modes[to->nmodes++] = (rotid_campbell_mode){m + 1,
-                                                                 cimag(pair->lambda) / (2 * pi),
-                                                                 {NAN, NAN},
-                                                                 ratio(pair->lambda),
-                                                                 decrement(pair->lambda),
-                                                                 whirl_words[pair_whirl(&r->search.system, pair->u)]};
+                                                                cimag(pair->lambda) / (2 * pi),
+                                                                {NAN, NAN},
+                                                                ratio(pair->lambda),
+                                                                decrement(pair->lambda),
+                                                                whirl_words[pair_whirl(&r->search.system, pair->u)]};
         }
         if (!to->modes)
             return ROTID_ERROR_MEMORY;
@@ -121,7 +122,8 @@ static int fill_peaks(struct run *r, int i, rotid_critical_speed *to)
 {
     const struct machine *machine = r->search.machine;
     struct system *s = &r->search.system;
-    double here = r->search.critical[i].speed, from = here / 2, end = fmin(here * 2, fmax(here * 1.02, r->search.speed[r->options->count - 1]));
+    double here = r->search.critical[i].speed, from = here / 2,
+           end = fmin(here * 2, fmax(here * 1.02, r->search.speed[r->options->count - 1]));
     to->peaks = POOL_ARRAY(r->pool, rotid_response_peak, machine->nprobe);
     if (!to->peaks)
         return ROTID_ERROR_MEMORY;
@@ -154,15 +156,15 @@ static int fill_criticals(struct run *r)
         const struct pair *pair = &r->search.critical[i].pair;
         enum whirl whirl = pair_whirl(&r->search.system, pair->u);
         *to = (rotid_critical_speed){.number = i + 1,
-                                      .speed_rpm = r->search.critical[i].speed / RPM,
-                                      .std = NAN,
-                                      .ci95 = {NAN, NAN},
-                                      .whirl = whirl_words[whirl],
-                                      .log_decrement = decrement(pair->lambda),
-                                      .damping_ratio = ratio(pair->lambda),
-                                      .amplification = NAN,
-                                      .margin = {NAN, {NAN, NAN}, NAN, NAN},
-                                      .mode = r->search.critical[i].mode + 1};
+                                     .speed_rpm = r->search.critical[i].speed / RPM,
+                                     .std = NAN,
+                                     .ci95 = {NAN, NAN},
+                                     .whirl = whirl_words[whirl],
+                                     .log_decrement = decrement(pair->lambda),
+                                     .damping_ratio = ratio(pair->lambda),
+                                     .amplification = NAN,
+                                     .margin = {NAN, {NAN, NAN}, NAN, NAN},
+                                     .mode = r->search.critical[i].mode + 1};
         status = fill_shape(r, pair->u, to);
         if (!status && whirl != WHIRL_BACKWARD)
             status = fill_peaks(r, i, to);
@@ -205,7 +207,7 @@ static int fill_response(struct run *r)
     for (int p = 0; p < machine->nprobe && r->out->unbalance; p++) {
         rotid_probe_response *own = &r->out->unbalance[p];
         *own = (rotid_probe_response){machine->probe[p].name, count, speed, POOL_ARRAY(r->pool, double, count),
-                                       POOL_ARRAY(r->pool, double, count)};
+                                      POOL_ARRAY(r->pool, double, count)};
         if (!own->amplitude_m || !own->phase_deg)
             return ROTID_ERROR_MEMORY;
     }
@@ -231,8 +233,10 @@ static int check_basis(struct run *r)
     int failed, count = 0, status;
     pool_open(&scratch, r->pool->allocator);
     more.pool = &scratch;
-    more.search.basis = (struct basis_size){r->search.basis.modes + r->search.basis.modes / 2, r->search.basis.coupled + r->search.basis.coupled / 2, 1};
-    status = system_build(&scratch, r->search.machine, r->search.job, &r->search.values, &r->search.system, &more.search.basis, &more.search.system, &failed);
+    more.search.basis = (struct basis_size){r->search.basis.modes + r->search.basis.modes / 2,
+                                            r->search.basis.coupled + r->search.basis.coupled / 2, 1};
+    status = system_build(&scratch, r->search.machine, r->search.job, &r->search.values, &r->search.system, &more.search.basis,
+                          &more.search.system, &failed);
     for (int i = 0; i < r->search.ncritical && !status; i++) {
         struct critical again = {.speed = r->search.critical[i].speed};
         if (pair_new(&scratch, more.search.system.size, &again.pair))

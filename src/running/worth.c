@@ -8,12 +8,12 @@
 #include "modal/modal.h"
 #include "running/running.h"
 
-#define MORE_MODES   3    /* beyond the highest measured one */
-#define FIRST_MODES  8    /* where nothing is measured: tests of 2 to so many */
-#define MASS_SHARE   0.05 /* of the rotor: an added mass that its supports and its frequencies hardly notice */
-#define PLACES       5
-#define FINER        2 /* times: a measurement that is repeated four times */
-#define HARDLY       0.1
+#define MORE_MODES  3    /* beyond the highest measured one */
+#define FIRST_MODES 8    /* where nothing is measured: tests of 2 to so many */
+#define MASS_SHARE  0.05 /* of the rotor: an added mass that its supports and its frequencies hardly notice */
+#define PLACES      5
+#define FINER       2 /* times: a measurement that is repeated four times */
+#define HARDLY      0.1
 
 struct worth {
     struct pool *pool;
@@ -94,8 +94,8 @@ static int differentiate(struct pool *pool, const struct worth *w, const struct 
 {
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
-    int failed,
-        status = model ? model_open(pool, NULL, rotor, w->at_rest, w->job->unknowns.parameter, 1, model, &failed) : ROTID_ERROR_MEMORY;
+    int failed, status = model ? model_open(pool, NULL, rotor, w->at_rest, w->job->unknowns.parameter, 1, model, &failed)
+                               : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     int nrigid = model->equations.nrigid, *wanted = POOL_ARRAY(pool, int, nrigid + highest);
@@ -110,14 +110,15 @@ static int differentiate(struct pool *pool, const struct worth *w, const struct 
     for (int q = 0; q < w->at_rest && !status; q++)
         for (int k = 0; k < highest; k++) {
             int pair = nrigid + k;
-            rows[k + (ptrdiff_t)highest * q] = p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / (2 * p.lambda[pair]) *
-                                               (is_logarithm(w, q) ? w->x[q] : 1);
+            rows[k + (ptrdiff_t)highest * q] =
+                p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / (2 * p.lambda[pair]) * (is_logarithm(w, q) ? w->x[q] : 1);
         }
     return status;
 }
 
 /* A test of the modes number [count] of which the rows [highest * at_rest] are there, `finer` times as exact. */
-static void add_test(struct worth *w, const char *text, int count, const int *number, int highest, const double *rows, double finer)
+static void add_test(struct worth *w, const char *text, int count, const int *number, int highest, const double *rows,
+                     double finer)
 {
     rotid_suggestion *out = w->out;
     rotid_speed_test *grown = pool_grow(w->pool, out->speed_tests, (size_t)out->nspeed_tests, &w->room, sizeof *grown);
@@ -129,11 +130,11 @@ static void add_test(struct worth *w, const char *text, int count, const int *nu
         for (int q = 0; q < w->at_rest; q++)
             for (int p = 0; p < w->at_rest; p++)
                 w->information[p + (ptrdiff_t)w->n * q] += rows[number[i] - 1 + (ptrdiff_t)highest * p] *
-                                                           rows[number[i] - 1 + (ptrdiff_t)highest * q] * finer * finer / w->noise /
-                                                           w->noise;
+                                                           rows[number[i] - 1 + (ptrdiff_t)highest * q] * finer * finer /
+                                                           w->noise / w->noise;
     double std = deviation(w, w->information) * w->speed / RPM;
-    grown[out->nspeed_tests++] = (rotid_speed_test){
-        .test = text, .modes = count, .std_rpm = std, .narrowed_percent = 100 * (1 - std / out->speed_std)};
+    grown[out->nspeed_tests++] =
+        (rotid_speed_test){.test = text, .modes = count, .std_rpm = std, .narrowed_percent = 100 * (1 - std / out->speed_std)};
 }
 
 static int add_masses(struct worth *w, int count, const int *number, int highest)
@@ -219,8 +220,13 @@ static const char *conclude(struct pool *pool, const rotid_suggestion *s, const 
 int worth_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
               const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes, rotid_suggestion *out)
 {
-    struct worth w = {.pool = pool, .job = job, .n = machine_unknowns(machine, job), .at_rest = job->unknowns.nparameter,
-                      .x = x,       .noise = options->noise, .out = out};
+    struct worth w = {.pool = pool,
+                      .job = job,
+                      .n = machine_unknowns(machine, job),
+                      .at_rest = job->unknowns.nparameter,
+                      .x = x,
+                      .noise = options->noise,
+                      .out = out};
     struct search search = {.machine = machine, .job = job, .harmonic = 1, .count = SPEEDS_COUNT};
     size_t square = (size_t)w.n * (size_t)w.n;
     const char *whirl = options->backward ? "backward" : "forward",
@@ -236,12 +242,14 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
         status = ROTID_ERROR_ARGUMENT;
     }
     if (!status)
-        status = search_until(pool, 0, options->backward ? 0 : options->number, options->backward ? options->number : 0, notes, &search);
+        status = search_until(pool, 0, options->backward ? 0 : options->number, options->backward ? options->number : 0, notes,
+                              &search);
     const struct critical *critical = status ? NULL : search_find(&search, options->number, options->backward);
     if (!status && !critical) {
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the machine has %d critical speeds with %s whirl up to %.0f rpm, expected "
-                    "one of them and not number %d", search_count(&search, options->backward), whirl,
-                    search.speed[search.count - 1] / RPM, options->number);
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
+                    "the machine has %d critical speeds with %s whirl up to %.0f rpm, expected "
+                    "one of them and not number %d",
+                    search_count(&search, options->backward), whirl, search.speed[search.count - 1] / RPM, options->number);
         status = ROTID_ERROR_ARGUMENT;
     }
     if (!status)

@@ -306,7 +306,7 @@ struct line {
 
 /* What was fitted and, of *RUNNING, computed from it. */
 struct fitted {
-    const struct states *states; /* with the unknowns of the machine where its run-up was fitted */
+    const struct states *states;  /* with the unknowns of the machine where its run-up was fitted */
     struct identification *found; /* [states] */
     rotid_fit_result *fit;        /* of all */
     rotid_speeds *speeds, *truth; /* NULL without; truth: of the model that made the data */
