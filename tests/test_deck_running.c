@@ -153,6 +153,33 @@ static void a_grade_is_an_unbalance_of_the_whole_machine(void **state)
     says(SHAFT TWO "*UNBALANCE, G=-1\n1, 1\n", ROTID_ERROR, 15, "G");
 }
 
+/* All of the energy of a free shaft is its own: eta = 2 zeta, s = 2 zeta/w; the mean of two modes, and their scatter. */
+static void a_loss_comes_from_the_damping_of_the_test(void **state)
+{
+    (void)state;
+    static const char *const begin =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n2, 0.1, 0, 40\n*MODES\n1, "
+        "111%s\n2, 301%s\n*RUNNING\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n*LOSS, TEST%s\na\n";
+    struct running_case c;
+    rotid_spectrum *s;
+    rotid_deck *deck;
+    assert_int_equal(running_case_open(pool_format(&test_pool, begin, ", 0.004", ", 0.006", ""), 3000, 3, 0, &c), ROTID_OK);
+    assert_close(c.machine->loss[0].value, 0.010, 1e-9, 0);
+    assert_close(c.machine->loss[0].std, 0.002 * sqrt(2), 1e-9, 0);
+    assert_int_equal(c.machine->loss[0].viscous, 0);
+    running_case_close(&c);
+    char *text = pool_format(&test_pool, begin, ", 0.004", "", ", TYPE=VISCOUS");
+    assert_int_equal(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_int_equal(rotid_spectrum_compute(deck, NULL, 2, NULL, NULL, &s), ROTID_OK);
+    assert_close(deck_states_of(deck)->machine->loss[0].value, 0.008 / (2 * 3.14159265358979323846 * s->modes[0].full_hz), 1e-6,
+                 0);
+    rotid_spectrum_free(s);
+    rotid_deck_free(deck);
+    says(pool_format(&test_pool, begin, "", "", ""), ROTID_ERROR, 17, "expected damping ratios in *MODES");
+    says(SHAFT TWO "*LOSS, TEST\na\n", ROTID_ERROR, 16, "expected damping ratios");
+    says(SHAFT TWO "*LOSS, TEST\na, 0.01\n", ROTID_ERROR, 16, "group alone with TEST");
+}
+
 /* A soft zone in the shaft makes the machine softer unless it was left at the test. */
 static void a_cause_is_left_at_the_test(void **state)
 {
@@ -265,6 +292,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_is_turned_from_the_axes_of_its_load, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_grade_is_an_unbalance_of_the_whole_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_loss_comes_from_the_damping_of_the_test, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_cause_is_left_at_the_test, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),

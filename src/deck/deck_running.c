@@ -374,17 +374,45 @@ void deck_pedestal(struct deck_reader *reader, const struct card *card)
 
 /* ---- losses, pull, change */
 
+/* What the damping ratios of the test say, in the kind of the card; both kinds are told. */
+static void settle_loss(struct deck_reader *reader, struct place place, struct loss *loss)
+{
+    struct loss_of_test found;
+    const char *name = reader->job->rotor.group[loss->group].name;
+    int status = reader->job->measurement.nmode ? loss_of_test(reader->pool, reader->job, loss->group, &found) : ROTID_OK;
+    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    if (status || !reader->job->measurement.nmode || !found.count) {
+        deck_error(
+            reader, place,
+            "no measured mode says what %s loses, expected damping ratios in *MODES, of modes that bend it, or a loss factor "
+            "without TEST",
+            name);
+        return;
+    }
+    loss->value = found.value[loss->viscous];
+    loss->std = found.std[loss->viscous];
+    deck_note(reader, place,
+              "%s has a loss factor of %.3g (standard deviation %.2g) or a viscous loss of %.3g s (%.2g s) by the damping of %d "
+              "mode%s, of which the %s is taken: losses of supports and air at the test are in it",
+              name, found.value[0], found.std[0], found.value[1], found.std[1], found.count, found.count > 1 ? "s" : "",
+              loss->viscous ? "second" : "first");
+}
+
 void deck_loss(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
     const struct card_option *type = card_option(card, "TYPE");
     static const char *const types[] = {"HYSTERETIC", "VISCOUS", NULL};
-    int viscous = type ? deck_option_word(reader, type, types) : 0;
+    int viscous = type ? deck_option_word(reader, type, types) : 0, test = card_option(card, "TEST") != NULL;
     for (int i = 0; i < card->nline && viscous >= 0; i++) {
         const struct data_line *line = &card->line[i];
-        struct loss loss = {.group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous};
-        int bad = loss.group < 0 || deck_count(reader, line, 3, reader->layout);
-        bad = bad || deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
+        struct loss loss = {
+            .group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous, .from_test = test};
+        int bad = loss.group < 0 || deck_count(reader, line, test ? 1 : 3, test ? "group alone with TEST" : reader->layout);
+        if (test && !bad)
+            settle_loss(reader, line->place, &loss);
+        bad = bad || test ? bad
+                          : deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
         if (!bad && deck_has(line, 2))
             bad = deck_number(reader, line, 2, "standard deviation of the loss", NOT_NEGATIVE, &loss.std);
         struct loss *added = bad ? NULL : DECK_APPEND(reader, machine->loss, machine->nloss, reader->running_room[1]);

@@ -7,6 +7,7 @@
  * In the fixed frame, q = (x, y), W the speed from x to y:
  *   M q'' + (C_b + C_i + W [0 P; -P 0]) q' + (K + K_b + W [0 C_i; -C_i 0]) q = f
  *
+ *   loss           loss.c (loss_of_test): losses from the damping ratios of the test
  *   machine        machine.c (machine_rotor): the rotor of the test with what the machine has; bearing_at: tables over speed
  *   matrices       system.c (system_build): K, M, P, losses and pull by src/model, on a basis of modes at rest with the static
  *                  motions by forces at the bearings and by gyroscopic moments; system_at: C(W), K(W)
@@ -57,6 +58,7 @@ struct bearing {
 struct loss {           /* in the rotating part */
     int group, viscous; /* viscous: C = value [s] K; else loss factor [1] */
     double value, std;
+    int from_test; /* until both are settled by loss_of_test */
 };
 
 struct pull { /* unbalanced magnetic pull: a negative stiffness over a group */
@@ -141,6 +143,15 @@ int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_
 
 /* Whether unknown p acts in the machine: what it is of may have been left at the test. */
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p);
+
+/* Of a group from the damping ratios that were measured at rest, at the values of the job's rotor: loss factor [1] and viscous
+ * loss [s], each the mean over `count` modes and the standard deviation of one of them; count 0: no mode says anything. Statuses
+ * of model_open and the prediction. */
+struct loss_of_test {
+    int count;
+    double value[2], std[2];
+};
+int loss_of_test(struct pool *pool, const struct job *job, int group, struct loss_of_test *out);
 
 /* k, c [4] of a bearing at a speed [rad/s] >= 0, linear between those of its table, constant outside; their rates by speed, or
  * NULL. */
