@@ -92,9 +92,9 @@ LAPACKE_ARCHIVE := $(if $(findstring openblas,$(BLAS)),$(filter /%,$(shell $(CC)
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(if $(LAPACKE_ARCHIVE),$(patsubst -llapacke,$(LAPACKE_ARCHIVE),$(LIBRARY_LIBS)),$(LIBRARY_LIBS))
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose suggest file uff deck api
+LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run running diagnose/causes diagnose suggest file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-PROGRAM_SOURCES := $(foreach room,running signal ema import result report export study page,$(wildcard src/$(room)/*.c))
+PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))

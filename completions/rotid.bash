@@ -36,6 +36,7 @@ _rotid_options=(
     '--extended:diagnose:files:inp'
     '--changed:diagnose:value:'
     '--extended:suggest:files:inp'
+    '--for:suggest:value:'
     '--interval:suggest:value:'
     '--sensors:suggest:value:'
     '--modes:suggest:value:'

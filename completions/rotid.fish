@@ -49,6 +49,7 @@ complete -c rotid -n '__fish_seen_subcommand_from identify' -l no-baseline -d 'w
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l extended -r -F -d 'a deck with what was found, as cards, and with the fitted values as starts'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l changed -x -d 'what changed between two states of the deck, whatever the model lacks in both'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l extended -r -F -d 'the deck with the first of the tests as a *STATE more, ready for its measurements'
+complete -c rotid -n '__fish_seen_subcommand_from suggest' -l for -x -d 'which tests at rest narrow critical speed N of the machine most'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l interval -x -d 'wanted of every parameter: half of its 95 % interval over its value'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l sensors -x -d 'of a plan (default: those of the deck, else 8)'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l modes -x -d 'of a plan (default: those measured, else 5)'

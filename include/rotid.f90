@@ -410,6 +410,17 @@ module rotid
     integer(c_int) :: beyond = 0
   end type rotid_hidden
 
+  type, bind(C) :: rotid_runup_speed
+    integer(c_int) :: number = 0
+    type(c_ptr) :: whirl = c_null_ptr ! text
+    real(c_double) :: measured_rpm = 0
+    real(c_double) :: measured_std = 0
+    real(c_double) :: predicted_rpm = 0
+    real(c_double) :: predicted_std = 0
+    real(c_double) :: z = 0
+    integer(c_int) :: holdout = 0
+  end type rotid_runup_speed
+
   type, bind(C) :: rotid_identification
     type(c_ptr) :: status = c_null_ptr ! text
     type(c_ptr) :: functional = c_null_ptr ! text
@@ -462,6 +473,8 @@ module rotid
     type(c_ptr) :: states = c_null_ptr ! rotid_identified_state
     integer(c_int) :: nhidden = 0
     type(c_ptr) :: hidden = c_null_ptr ! rotid_hidden
+    integer(c_int) :: nrunup = 0
+    type(c_ptr) :: runup = c_null_ptr ! rotid_runup_speed
   end type rotid_identification
 
   type, bind(C) :: rotid_meridian_mode
@@ -875,6 +888,13 @@ module rotid
     type(c_ptr) :: cards = c_null_ptr ! text
   end type rotid_suggested_test
 
+  type, bind(C) :: rotid_speed_test
+    type(c_ptr) :: test = c_null_ptr ! text
+    integer(c_int) :: modes = 0
+    real(c_double) :: std_rpm = 0
+    real(c_double) :: narrowed_percent = 0
+  end type rotid_speed_test
+
   type, bind(C) :: rotid_suggestion
     integer(c_int) :: nparameters = 0
     type(c_ptr) :: parameters = c_null_ptr ! rotid_fitted_parameter
@@ -907,12 +927,127 @@ module rotid
     integer(c_int) :: nmessage = 0
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: memory = c_null_ptr
+    real(c_double) :: speed_rpm = 0
+    real(c_double) :: speed_std = 0
+    real(c_double) :: speed_identified = 0
+    integer(c_int) :: nspeed_tests = 0
+    type(c_ptr) :: speed_tests = c_null_ptr ! rotid_speed_test
   end type rotid_suggestion
+
+  type, bind(C) :: rotid_speed_margin
+    real(c_double) :: value = 0
+    real(c_double) :: ci95(2) = 0
+    real(c_double) :: required = 0
+    real(c_double) :: probability = 0
+  end type rotid_speed_margin
+
+  type, bind(C) :: rotid_response_peak
+    type(c_ptr) :: probe = c_null_ptr ! text
+    real(c_double) :: speed_rpm = 0
+    real(c_double) :: amplitude_m = 0
+    real(c_double) :: amplification = 0
+  end type rotid_response_peak
+
+  type, bind(C) :: rotid_variance_share
+    type(c_ptr) :: source = c_null_ptr ! text
+    real(c_double) :: share = 0
+  end type rotid_variance_share
+
+  type, bind(C) :: rotid_critical_speed
+    integer(c_int) :: number = 0
+    integer(c_int) :: mode = 0
+    real(c_double) :: speed_rpm = 0
+    real(c_double) :: std = 0
+    real(c_double) :: ci95(2) = 0
+    type(c_ptr) :: whirl = c_null_ptr ! text
+    real(c_double) :: log_decrement = 0
+    real(c_double) :: damping_ratio = 0
+    real(c_double) :: amplification = 0
+    type(rotid_speed_margin) :: margin = rotid_speed_margin()
+    integer(c_int) :: npeaks = 0
+    type(c_ptr) :: peaks = c_null_ptr ! rotid_response_peak
+    integer(c_int) :: nvariance_shares = 0
+    type(c_ptr) :: variance_shares = c_null_ptr ! rotid_variance_share
+    integer(c_int) :: nz = 0
+    type(c_ptr) :: z = c_null_ptr ! real
+    type(c_ptr) :: x_re = c_null_ptr ! real
+    type(c_ptr) :: x_im = c_null_ptr ! real
+    type(c_ptr) :: y_re = c_null_ptr ! real
+    type(c_ptr) :: y_im = c_null_ptr ! real
+  end type rotid_critical_speed
+
+  type, bind(C) :: rotid_campbell_mode
+    integer(c_int) :: mode = 0
+    real(c_double) :: frequency_hz = 0
+    real(c_double) :: ci95(2) = 0
+    real(c_double) :: damping_ratio = 0
+    real(c_double) :: log_decrement = 0
+    type(c_ptr) :: whirl = c_null_ptr ! text
+  end type rotid_campbell_mode
+
+  type, bind(C) :: rotid_campbell_speed
+    real(c_double) :: speed_rpm = 0
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_campbell_mode
+  end type rotid_campbell_speed
+
+  type, bind(C) :: rotid_stability
+    real(c_double) :: onset_rpm = 0
+    integer(c_int) :: mode = 0
+    real(c_double) :: probability_stable = 0
+  end type rotid_stability
+
+  type, bind(C) :: rotid_probe_response
+    type(c_ptr) :: probe = c_null_ptr ! text
+    integer(c_int) :: nspeed_rpm = 0
+    type(c_ptr) :: speed_rpm = c_null_ptr ! real
+    type(c_ptr) :: amplitude_m = c_null_ptr ! real
+    type(c_ptr) :: phase_deg = c_null_ptr ! real
+  end type rotid_probe_response
+
+  type, bind(C) :: rotid_bearing_load
+    type(c_ptr) :: bearing = c_null_ptr ! text
+    real(c_double) :: position_m = 0
+    real(c_double) :: load_x_n = 0
+    real(c_double) :: load_y_n = 0
+  end type rotid_bearing_load
+
+  type, bind(C) :: rotid_map_row
+    real(c_double) :: stiffness_factor = 0
+    integer(c_int) :: nspeed_rpm = 0
+    type(c_ptr) :: speed_rpm = c_null_ptr ! real
+  end type rotid_map_row
+
+  type, bind(C) :: rotid_speeds
+    real(c_double) :: low_rpm = 0
+    real(c_double) :: high_rpm = 0
+    real(c_double) :: harmonic = 0
+    integer(c_int) :: draws = 0
+    real(c_double) :: basis_error = 0
+    integer(c_int) :: ncritical_speeds = 0
+    type(c_ptr) :: critical_speeds = c_null_ptr ! rotid_critical_speed
+    type(rotid_stability) :: stability = rotid_stability()
+    integer(c_int) :: ncampbell = 0
+    type(c_ptr) :: campbell = c_null_ptr ! rotid_campbell_speed
+    integer(c_int) :: nunbalance = 0
+    type(c_ptr) :: unbalance = c_null_ptr ! rotid_probe_response
+    real(c_double) :: weight_n = 0
+    real(c_double) :: sag_m = 0
+    integer(c_int) :: nbearing_loads = 0
+    type(c_ptr) :: bearing_loads = c_null_ptr ! rotid_bearing_load
+    integer(c_int) :: nmap = 0
+    type(c_ptr) :: map = c_null_ptr ! rotid_map_row
+    integer(c_int) :: nrunup = 0
+    type(c_ptr) :: runup = c_null_ptr ! rotid_runup_speed
+    integer(c_int) :: nmessage = 0
+    type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_speeds
 
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 48
+    integer(c_size_t) :: size = 40
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
@@ -921,11 +1056,19 @@ module rotid
   end type rotid_diagnose_options
 
   type, bind(C) :: rotid_suggest_options
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 72
     real(c_double) :: wanted_percent = 0, frequency_noise = 0, shape_noise = 0, set_up_cost = 0
     integer(c_int) :: sensors = 0, modes = 0, threads = 0, replicates = 0
     integer(c_long) :: seed = 0
+    integer(c_int) :: speed = 0, speed_backward = 0
   end type rotid_suggest_options
+
+  type, bind(C) :: rotid_speeds_options
+    integer(c_size_t) :: size = 56
+    real(c_double) :: from_rpm = 0, to_rpm = 0, harmonic = 0
+    integer(c_int) :: count = 0, draws = 0, threads = 0, no_fit = 0
+    integer(c_long) :: seed = 0
+  end type rotid_speeds_options
 
   ! ------------------------------------------------------------------------------------------------ types: your own model
 
@@ -1150,7 +1293,7 @@ module rotid
     end function rotid_status_converged
 
     ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_check_deck,
-    ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_suggest_deck, rotid_free
+    ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_suggest_deck, rotid_speeds_deck, rotid_free
 
     function rotid_deck_read(path, noverride, override, environment, failure, deck) result(status) bind(C, name="rotid_deck_read")
       import :: c_char, c_ptr, c_int
@@ -1259,6 +1402,20 @@ module rotid
       import :: c_ptr
       type(c_ptr), value :: result
     end subroutine rotid_suggestion_free
+
+    function rotid_speeds_compute(deck, options, environment, failure, result) result(status) &
+        bind(C, name="rotid_speeds_compute")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: options, environment, failure
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_speeds_compute
+
+    subroutine rotid_speeds_free(result) bind(C, name="rotid_speeds_free")
+      import :: c_ptr
+      type(c_ptr), value :: result
+    end subroutine rotid_speeds_free
 
     function rotid_verdict_name(kind) result(text) bind(C, name="rotid_verdict_name")
       import :: c_ptr, c_int
@@ -1514,7 +1671,8 @@ module rotid
 
   ! Frees a deck or a result and nullifies its pointer; a null pointer is allowed.
   interface rotid_free
-    module procedure free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_fit
+    module procedure free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_speeds, &
+      free_fit
   end interface rotid_free
 
   ! rotid_reals(member, n), rotid_reals(member, m, n): the array behind a member; null where the member is.
@@ -1530,7 +1688,8 @@ module rotid
     end function c_length
   end interface
 
-  private :: free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_fit, &
+  private :: free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_speeds, &
+    free_fit, &
              real_vector, real_matrix, &
              c_length, &
              c_string, c_strings, ones_to_zeros
@@ -1846,6 +2005,28 @@ contains
     if (c_associated(c_found)) call c_f_pointer(c_found, found)
   end function rotid_suggest_deck
 
+  ! rotid_speeds_compute; environment as above.
+  function rotid_speeds_deck(deck, found, options, environment, failure) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    type(rotid_speeds), pointer, intent(out) :: found
+    type(rotid_speeds_options), intent(in), optional :: options
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    character(len=:), allocatable, intent(out), optional :: failure
+    integer(c_int) :: status
+    type(rotid_speeds_options), target :: how
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
+    type(c_ptr) :: c_found
+    if (present(environment)) given = environment
+    given%size = c_sizeof(given)
+    nullify (found)
+    if (present(options)) how = options
+    how%size = c_sizeof(how)
+    status = rotid_speeds_compute(c_loc(deck), c_loc(how), c_loc(given), c_loc(why), c_found)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_found)) call c_f_pointer(c_found, found)
+  end function rotid_speeds_deck
+
   ! ---- your own model
 
   ! rotid_fit with arrays. Of `model` n, kd, nrigid, matrices, derivatives and user are used; the number of parameters is the size
@@ -1978,6 +2159,12 @@ contains
     if (associated(found)) call rotid_suggestion_free(c_loc(found))
     nullify (found)
   end subroutine free_suggestion
+
+  subroutine free_speeds(found)
+    type(rotid_speeds), pointer, intent(inout) :: found
+    if (associated(found)) call rotid_speeds_free(c_loc(found))
+    nullify (found)
+  end subroutine free_speeds
 
   subroutine free_fit(fit)
     type(rotid_fit_result), pointer, intent(inout) :: fit

@@ -473,6 +473,19 @@ typedef struct rotid_hidden {
     int beyond;            /* no size within physical bounds shows there */
 } rotid_hidden;
 
+/* A measured critical speed of the running machine beside the model's. */
+typedef struct rotid_runup_speed {
+    int number;           /* of the critical speeds with this whirl, from 1, by rising speed */
+    const char *whirl;    /* forward, mixed ones among them, or backward */
+    double measured_rpm;  /* [rpm] */
+    double measured_std;  /* its standard deviation [rpm] */
+    double predicted_rpm; /* of the model [rpm]; NaN where it has no such critical speed */
+    double predicted_std; /* standard deviation of predicted_rpm by unknowns, bearings and what else the deck calls uncertain, in
+                             linear prediction; of what was fitted, without the reading itself [rpm]; NaN with predicted_rpm */
+    double z; /* measured less predicted over the standard deviation: of both where held out, of the reading where fitted [1] */
+    int holdout; /* it took no part in the fit */
+} rotid_runup_speed;
+
 /* A model fitted to measured modes. Of several states modes and what goes with them run over all, mass, noise and geometry are
  * those of the first, and shapes and matrices stand in states alone. */
 typedef struct rotid_identification {
@@ -535,6 +548,8 @@ typedef struct rotid_identification {
     int nhidden;
     rotid_hidden *hidden; /* as that of a diagnosis, which looks for these causes; empty without stated noise, but with LIKELIHOOD
                              and the full model, and where no baseline was asked for */
+    int nrunup;
+    rotid_runup_speed *runup; /* measured critical speeds of the machine in operation, in the order of *RUNUP */
 } rotid_identification;
 
 /* A mode of a solid of revolution in the plane of bending. Four significant digits. */
@@ -996,6 +1011,14 @@ typedef struct rotid_suggested_test {
     const char *cards; /* of the deck: the *STATE of this test, with comments where its measurements go */
 } rotid_suggested_test;
 
+/* A test at rest, for a critical speed. */
+typedef struct rotid_speed_test {
+    const char *test; /* in words: "the 6 modes again" */
+    int modes;        /* measured in it */
+    double std_rpm;   /* of the critical speed, expected behind it, in linear prediction [rpm]; NaN where it leaves that open */
+    double narrowed_percent; /* by how much that is below the present one [%]; NaN where one of them is not known */
+} rotid_speed_test;
+
 /* What to measure, before a test and after an ambiguous diagnosis. */
 typedef struct rotid_suggestion {
     int nparameters;
@@ -1029,8 +1052,129 @@ typedef struct rotid_suggestion {
     rotid_geometry *geometry;    /* the model that all of this holds for */
     int nmessage;
     const rotid_message *message;
-    void *memory; /* internal */
+    void *memory;            /* internal */
+    double speed_rpm;        /* critical speed that was asked for, of which the tests are speed_tests [rpm]; NaN where none was */
+    double speed_std;        /* its standard deviation as measured, in linear prediction [rpm]; NaN where nothing is measured */
+    double speed_identified; /* share of the unknowns in its variance, of which tests at rest take away [1]; NaN as speed_rpm */
+    int nspeed_tests;
+    rotid_speed_test *speed_tests; /* by std_rpm */
 } rotid_suggestion;
+
+/* Of a critical speed to the running range. */
+typedef struct rotid_speed_margin {
+    double value;   /* (low - W)/low below the range, (W - high)/high above it, below 0 inside [1]; by the speed of the peak where
+                       there is one; NaN of backward whirl, without a peak beside others and without a range */
+    double ci95[2]; /* 95 % interval of value [1] */
+    double required;    /* what the deck requires of value [1]; NaN where it states nothing */
+    double probability; /* that value is at least what is required [1]; NaN without bands */
+} rotid_speed_margin;
+
+/* Of the unbalance response at a probe, nearest to a critical speed. */
+typedef struct rotid_response_peak {
+    const char *probe;    /* its name */
+    double speed_rpm;     /* of the peak [rpm] */
+    double amplitude_m;   /* zero to peak [m] */
+    double amplification; /* speed over the width at 0.707 of the peak [1]; NaN where another peak is nearer than that */
+} rotid_response_peak;
+
+/* Of one source of doubt. */
+typedef struct rotid_variance_share {
+    const char
+        *source;  /* identified (all unknowns of the fit together), bearing NAME, loss GROUP, pull GROUP, change PARAMETER */
+    double share; /* in the variance of the linear prediction [1] */
+} rotid_variance_share;
+
+typedef struct rotid_critical_speed {
+    int number;                /* from 1, by rising speed */
+    int mode;                  /* of the Campbell diagram, from 1 */
+    double speed_rpm;          /* where Im lambda is harmonic times the speed [rpm] */
+    double std;                /* standard deviation of speed_rpm by draws [rpm]; NaN without uncertain numbers */
+    double ci95[2];            /* 95 % interval of speed_rpm by draws [rpm] */
+    const char *whirl;         /* backward, mixed (the orbits along the rotor differ) or forward */
+    double log_decrement;      /* there, without the jump of loss factors [1] */
+    double damping_ratio;      /* there, the same of critical damping [1] */
+    double amplification;      /* largest of the peaks [1]; NaN where none is known */
+    rotid_speed_margin margin; /* to the running range */
+    int npeaks;
+    rotid_response_peak *peaks; /* of the unbalance response, by probe */
+    int nvariance_shares;
+    rotid_variance_share *variance_shares; /* where the doubt of speed_rpm comes from */
+    int nz;
+    double *z;    /* places along the axis [m] */
+    double *x_re; /* shape at each z: real part of the motion in x, largest component 1 [1] */
+    double *x_im; /* imaginary part of it [1]; the motion is Re (x e^iwt) */
+    double *y_re; /* real part of the motion in y, upwards [1] */
+    double *y_im; /* imaginary part of it [1] */
+} rotid_critical_speed;
+
+typedef struct rotid_campbell_mode {
+    int mode;             /* from 1, of one mode over all speeds */
+    double frequency_hz;  /* |Im lambda|/2 pi in the fixed frame [Hz] */
+    double ci95[2];       /* 95 % interval of frequency_hz by the linear prediction [Hz]; NaN without uncertain numbers */
+    double damping_ratio; /* -Re lambda/|lambda| [1]; below 0 the mode grows */
+    double log_decrement; /* [1] */
+    const char *whirl;    /* backward, mixed or forward */
+} rotid_campbell_mode;
+
+typedef struct rotid_campbell_speed {
+    double speed_rpm; /* [rpm] */
+    int nmodes;
+    rotid_campbell_mode *modes; /* by rising frequency; overdamped ones are left out */
+} rotid_campbell_speed;
+
+typedef struct rotid_stability {
+    double onset_rpm;          /* lowest speed from which a mode grows [rpm]; NaN: none up to the highest one computed */
+    int mode;                  /* which, of the Campbell diagram */
+    double probability_stable; /* that no mode grows at the highest running speed [1]; NaN without bands or range */
+} rotid_stability;
+
+typedef struct rotid_probe_response {
+    const char *probe; /* its name */
+    int nspeed_rpm;
+    double *speed_rpm;   /* [rpm] */
+    double *amplitude_m; /* at each speed, zero to peak [m] */
+    double *phase_deg;   /* at each speed: lag behind the mark at angle 0, 0 to 360 [deg] */
+} rotid_probe_response;
+
+typedef struct rotid_bearing_load {
+    const char *bearing; /* its name, NULL where it has none */
+    double position_m;   /* from the left end [m] */
+    double load_x_n; /* force of the weight on the bearing in x, at the lowest running speed or the highest one computed [N] */
+    double load_y_n; /* the same in y, upwards [N] */
+} rotid_bearing_load;
+
+typedef struct rotid_map_row {
+    double stiffness_factor; /* on the stiffness of all bearings [1] */
+    int nspeed_rpm;
+    double *speed_rpm; /* undamped forward critical speeds with the mean of both direct stiffnesses [rpm] */
+} rotid_map_row;
+
+/* The machine in operation. */
+typedef struct rotid_speeds {
+    double low_rpm;     /* lowest running speed [rpm]; NaN where no range is stated */
+    double high_rpm;    /* highest running speed [rpm] */
+    double harmonic;    /* excitation per revolution that the critical speeds are of [1] */
+    int draws;          /* of the bands; 0: nothing is uncertain */
+    double basis_error; /* largest relative change of a critical speed by half as large a basis again [1] */
+    int ncritical_speeds;
+    rotid_critical_speed *critical_speeds; /* by rising speed */
+    rotid_stability stability;             /* whether a mode grows */
+    int ncampbell;
+    rotid_campbell_speed *campbell; /* modes over the speed */
+    int nunbalance;
+    rotid_probe_response *unbalance; /* response at each probe */
+    double weight_n;                 /* of the rotor [N] */
+    double sag_m;                    /* largest deflection by it, with that of the bearings [m] */
+    int nbearing_loads;
+    rotid_bearing_load *bearing_loads; /* by weight */
+    int nmap;
+    rotid_map_row *map; /* critical speed map: over the stiffness of the bearings */
+    int nrunup;
+    rotid_runup_speed *runup; /* measured critical speeds beside these, in the order of *RUNUP */
+    int nmessage;
+    const rotid_message *message;
+    void *memory; /* internal */
+} rotid_speeds;
 
 /* ---- the runs */
 
@@ -1095,6 +1239,9 @@ typedef struct rotid_suggest_options {
     int threads;            /* [1] of the diagnosis */
     int replicates;         /* [1000] of bootstrap and draws, at most 1e6 */
     long seed;              /* [1] >= 0 */
+    int speed;              /* [none] number of the critical speed, from 1, that tests at rest are to narrow, in place of the
+                               rest: of those with forward or mixed whirl, */
+    int speed_backward;     /* [0] nonzero: with backward whirl */
 } rotid_suggest_options;
 
 /* What `rotid suggest` does: without measured modes what sensors and modes would tell of the parameters of *IDENTIFY, at their
@@ -1103,6 +1250,26 @@ typedef struct rotid_suggest_options {
 ROTID_API int rotid_suggest(const rotid_deck *deck, const rotid_suggest_options *options, const rotid_environment *environment,
                             char *failure, rotid_suggestion **result);
 ROTID_API void rotid_suggestion_free(rotid_suggestion *result);
+
+/* Zero takes the default in brackets. */
+typedef struct rotid_speeds_options {
+    size_t size;
+    double from_rpm; /* [0] lowest speed of the Campbell diagram */
+    double to_rpm;   /* [1.3 times the running range; without one, beyond the third forward critical speed] above from_rpm */
+    double harmonic; /* [1] excitation per revolution, above 0 and at most 100 */
+    int count;       /* [41] speeds of the Campbell diagram, 2 ... 10000 */
+    int draws;       /* [2000] of the bands, at most 1e6; negative: no bands */
+    int threads;     /* [1] of the draws */
+    int no_fit;      /* nonzero: the unknowns are taken at their starts, and as known */
+    long seed;       /* [1] >= 0 */
+} rotid_speeds_options;
+
+/* What `rotid speeds` does: the machine behind *RUNNING at the unknowns that rotid_identify gives, with bands. options may be
+ * NULL. Allocator, statuses, failure and *result as for rotid_identify; ROTID_ERROR_ARGUMENT where the deck has no *RUNNING;
+ * cancelled before the bands are there: ROTID_STOP_CANCELLED, and *result without them, or NULL where it is of the fit. */
+ROTID_API int rotid_speeds_compute(const rotid_deck *deck, const rotid_speeds_options *options,
+                                   const rotid_environment *environment, char *failure, rotid_speeds **result);
+ROTID_API void rotid_speeds_free(rotid_speeds *result);
 
 /* ------------------------------------------------------------------------------------------------ bring your own model */
 

@@ -3,8 +3,9 @@
 #include <string.h>
 
 /* Those that a routine makes and hands out by its address, and what a trace is told. */
-static const char *const growing[] = {"rotid_deck",      "rotid_check",      "rotid_spectrum",     "rotid_identification",
-                                      "rotid_diagnosis", "rotid_suggestion", "rotid_fit_result", "rotid_lm_iteration", NULL};
+static const char *const growing[] = {
+    "rotid_deck",       "rotid_check",  "rotid_spectrum",   "rotid_identification", "rotid_diagnosis",
+    "rotid_suggestion", "rotid_speeds", "rotid_fit_result", "rotid_lm_iteration",   NULL};
 
 int abi_may_grow(const char *name)
 {

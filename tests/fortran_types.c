@@ -3,7 +3,7 @@
 #include <string.h>
 
 #define FIRST "rotid_material"
-#define LAST  "rotid_suggestion"
+#define LAST  "rotid_speeds"
 #define BEGIN                                                                                                                    \
     "  ! ------------------------------------------------------------------------------------------------ types: results\n"
 #define END "  ! ---- types: end of results\n"

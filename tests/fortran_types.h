@@ -4,7 +4,7 @@
 
 #include "header.h"
 
-/* The structs from rotid_material to rotid_suggestion, which the header keeps together; NULL where a member has no Fortran. */
+/* The structs from rotid_material to rotid_speeds, which the header keeps together; NULL where a member has no Fortran. */
 const char *fortran_types(struct pool *pool, const struct header *header);
 
 /* The module with these types between its lines "types: results" and "types: end of results"; NULL where it has no such lines. */

@@ -119,10 +119,10 @@ char *running_case_deck(const char *name, int elements, const char *more)
     return text;
 }
 
-const struct campbell_mode *running_case_mode(const struct running_case *c, double rpm, int index)
+const rotid_campbell_mode *running_case_mode(const struct running_case *c, double rpm, int index)
 {
     for (int i = 0; i < c->speeds.ncampbell; i++) {
-        const struct campbell_speed *at = &c->speeds.campbell[i];
+        const rotid_campbell_speed *at = &c->speeds.campbell[i];
         if (fabs(at->speed_rpm - rpm) <= 1e-9 * rpm && index <= at->nmodes)
             return &at->modes[index - 1];
     }

@@ -9,7 +9,7 @@ struct running_case {
     const struct machine *machine;
     const struct job *job;
     double *x;
-    struct speeds speeds;
+    rotid_speeds speeds;
 };
 
 /* Reads the text and computes its speeds from 0 to `to` rpm in `count` of them; draws of bands. The status; the deck stays until
@@ -24,6 +24,6 @@ void running_case_close(struct running_case *c);
 char *running_case_deck(const char *name, int elements, const char *more);
 
 /* Frequency [Hz] and damping ratio of the index-th mode, from 1, at a speed of the Campbell diagram; NULL where there is none. */
-const struct campbell_mode *running_case_mode(const struct running_case *c, double rpm, int index);
+const rotid_campbell_mode *running_case_mode(const struct running_case *c, double rpm, int index);
 
 #endif

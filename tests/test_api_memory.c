@@ -100,6 +100,22 @@ static void free_suggestion(void *result)
     rotid_suggestion_free(result);
 }
 
+static int try_speeds(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    const rotid_speeds_options options = {.size = sizeof options, .draws = 20, .count = 5};
+    char failure[512];
+    rotid_speeds *made = (void *)1;
+    int status = rotid_speeds_compute(deck, &options, environment, failure, &made);
+    assert_string_equal(failure, status ? rotid_status_text(status) : "");
+    *result = made;
+    return status;
+}
+
+static void free_speeds(void *result)
+{
+    rotid_speeds_free(result);
+}
+
 /* One run whose n-th allocation fails, 0: none. Returns how many it was served. */
 static long run_once(const rotid_deck *deck, attempt try_it, void (*release)(void *result), long n)
 {
@@ -132,6 +148,12 @@ static void sweep(const char *name, const rotid_deck *deck, attempt try_it, void
     print_message("%s: %ld allocations, %ld of them made to fail\n", name, all, tried);
 }
 
+static const char machine[] =
+    "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, 12\n*NOISE, "
+    "FREQUENCY=1e-3\n*MODES\n1, 222\n2, 605\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n*RUNNING\n*BEARING, NAME=p\nstart, 5e6, "
+    "100\n*BEARING, NAME=q, STD=0.1\nend, 5e6, 100\n*UNBALANCE\n0.5, 0.001\n*PROBE, NAME=x\n0.4\n*OPERATION, "
+    "MARGIN=0.1\n1000, 3000\n*RUNUP\n1, 4200, 50\n*IDENTIFY\np.k, 0.1, 10, 1\n";
+
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
@@ -144,6 +166,10 @@ static void every_allocation_may_fail(void **state)
     sweep("rotid_suggest", bar, try_suggest, free_suggestion, 60, 1.2);
     rotid_deck_free(deck);
     rotid_deck_free(bar);
+    assert_int_equal(rotid_deck_read_text(strlen(machine), machine, NULL, NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    sweep("rotid_identify with a run-up", deck, try_identify, free_identification, 60, 1.1);
+    sweep("rotid_speeds_compute", deck, try_speeds, free_speeds, 60, 1.1);
+    rotid_deck_free(deck);
 }
 
 /* ------------------------------------------------------------------------------------------------ whose memory */

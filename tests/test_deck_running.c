@@ -114,8 +114,119 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
     says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");
     says(SHAFT TWO "*OPERATION\n5000, 4000\n", ROTID_ERROR, 16, "expected the lowest speed first");
     says(SHAFT TWO "*OPERATION, MARGIN=15\n4000, 5000\n", ROTID_ERROR, 15, "expected a share below 1");
+    says(SHAFT TWO "*OPERATION, MARGIN=API617\n4000, 5000\n", ROTID_ERROR, 15, "expected *UNBALANCE and *PROBE");
+    says(SHAFT TWO "*OPERATION, MARGIN=API541\n4000, 5000\n", ROTID_ERROR, 15, "MARGIN");
+    says(SHAFT TWO "*OPERATION\n4000, 5000\n*OPERATION\n4000, 5000\n", ROTID_ERROR, 17, "given twice");
     says("*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*BEAM, NAME=a, MATERIAL=s\n2, 0.1, 0.1\n" TWO, ROTID_ERROR, 8,
          "is a *BEAM");
+}
+
+/* With x along the load: what holds the journal against its weight is kyy here. Signs as of a journal that drives forward whirl.
+ */
+static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double k[4] = {4, -3, 2, 1}, d[4] = {8, -7, 6, 5};
+    assert_int_equal(running_case_open(SHAFT TWO "*BEARING, AXES=LOAD\n1, 1, -2, 3, 4, 5, -6, 7, 8\n", 100, 2, 0, &c), ROTID_OK);
+    assert_memory_equal(c.machine->bearing[2].k, k, sizeof k);
+    assert_memory_equal(c.machine->bearing[2].c, d, sizeof d);
+    running_case_close(&c);
+    says(SHAFT TWO "*BEARING, AXES=UP\n1, 1, 1\n", ROTID_ERROR, 15, "AXES");
+}
+
+/* G 2.5 of ISO 21940-11 at 3000 rpm: e = 7.96 um. */
+static void a_grade_is_an_unbalance_of_the_whole_machine(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double mass = 7800 * 3.14159265358979 / 4 * 0.01 * 2 + 30;
+    assert_int_equal(running_case_open(SHAFT TWO "*DISK\n1, 30\n*UNBALANCE, G=2.5\n0.5, 0.25\n1.5, 0.75, 180\n*UNBALANCE\n1, "
+                                                 "1e-3\n*OPERATION\n1000, 3000\n",
+                                       3000, 3, 0, &c),
+                     ROTID_OK);
+    assert_close(c.machine->unbalance[0].value, 0.25 * 7.9577e-6 * mass, 1e-4, 0);
+    assert_close(c.machine->unbalance[1].value, 0.75 * 7.9577e-6 * mass, 1e-4, 0);
+    assert_close(c.machine->unbalance[2].value, 1e-3, 0, 0);
+    running_case_close(&c);
+    says(SHAFT TWO "*UNBALANCE, G=2.5\n1, 1\n", ROTID_ERROR, 10, "expected *OPERATION");
+    says(SHAFT TWO "*UNBALANCE, G=-1\n1, 1\n", ROTID_ERROR, 15, "G");
+}
+
+/* All of the energy of a free shaft is its own: eta = 2 zeta, s = 2 zeta/w; the mean of two modes, and their scatter. */
+static void a_loss_comes_from_the_damping_of_the_test(void **state)
+{
+    (void)state;
+    static const char *const begin =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n2, 0.1, 0, 40\n*MODES\n1, "
+        "111%s\n2, 301%s\n*RUNNING\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n*LOSS, TEST%s\na\n";
+    struct running_case c;
+    rotid_spectrum *s;
+    rotid_deck *deck;
+    assert_int_equal(running_case_open(pool_format(&test_pool, begin, ", 0.004", ", 0.006", ""), 3000, 3, 0, &c), ROTID_OK);
+    assert_close(c.machine->loss[0].value, 0.010, 1e-9, 0);
+    assert_close(c.machine->loss[0].std, 0.002 * sqrt(2), 1e-9, 0);
+    assert_int_equal(c.machine->loss[0].viscous, 0);
+    running_case_close(&c);
+    char *text = pool_format(&test_pool, begin, ", 0.004", "", ", TYPE=VISCOUS");
+    assert_int_equal(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_int_equal(rotid_spectrum_compute(deck, NULL, 2, NULL, NULL, &s), ROTID_OK);
+    assert_close(deck_states_of(deck)->machine->loss[0].value, 0.008 / (2 * 3.14159265358979323846 * s->modes[0].full_hz), 1e-6,
+                 0);
+    rotid_spectrum_free(s);
+    rotid_deck_free(deck);
+    says(pool_format(&test_pool, begin, "", "", ""), ROTID_ERROR, 17, "expected damping ratios in *MODES");
+    says(SHAFT TWO "*LOSS, TEST\na\n", ROTID_ERROR, 16, "expected damping ratios");
+    says(SHAFT TWO "*LOSS, TEST\na, 0.01\n", ROTID_ERROR, 16, "group alone with TEST");
+}
+
+/* A soft zone in the shaft makes the machine softer unless it was left at the test. */
+static void a_cause_is_left_at_the_test(void **state)
+{
+    (void)state;
+    struct running_case c;
+    double speed[3];
+    static const char *const cause = "*CAUSE, NAME=soft, TYPE=stiffness_local\ndepth, 0.5\nz, 1\nwidth, 0.14\n",
+                             *const with[3] = {"*RUNNING", "*RUNNING, WITHOUT=soft", "*RUNNING"};
+    for (int i = 0; i < 3; i++) {
+        char *text =
+            pool_format(&test_pool, SHAFT "%s%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", i < 2 ? cause : "", with[i]);
+        assert_int_equal(running_case_open(text, 6000, 9, 0, &c), ROTID_OK);
+        assert_true(c.speeds.ncritical_speeds > 0);
+        speed[i] = c.speeds.critical_speeds[0].speed_rpm;
+        running_case_close(&c);
+    }
+    assert_true(speed[0] < 0.99 * speed[2]);
+    assert_close(speed[1], speed[2], 1e-9, 0);
+}
+
+#define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */
+
+static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
+{
+    (void)state;
+    says(SHAFT TWO "*RUNUP\n1, 4000\n", ROTID_ERROR, 16, "standard deviation of it [rpm]");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 0\n", ROTID_ERROR, 16, "standard deviation of it [rpm] is 0");
+    says(SHAFT TWO "*RUNUP\n0, 4000, 1\n", ROTID_ERROR, 16, "number of the critical speed");
+    says(SHAFT TWO "*RUNUP\n1, -4000, 1\n", ROTID_ERROR, 16, "critical speed [rpm] is -4000");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1, UPWARD\n", ROTID_ERROR, 16, "expected FORWARD or BACKWARD");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n1, 4100, 1, FORWARD\n", ROTID_ERROR, 17, "critical speed 1 is given twice");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*RUNUP\n2, 4100, 1\n", ROTID_ERROR, 17, "given twice");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\nr.k, 0.1, 2, 1\n", ROTID_ERROR, 18, "no unknown of the machine");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.m, 0.1, 2, 1\n", ROTID_ERROR, 18, "no unknown of the machine");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 3\n", ROTID_ERROR, 18, "expected a value between its bounds");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, -1, 2, 1\n", ROTID_ERROR, 18, "lower bound");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 1\np.k, 0.1, 2, 1\n", ROTID_ERROR, 19, "given twice");
+    says(SHAFT TWO "*BEARING, NAME=r, LIKE=p\n1, 1, 1\n*RUNUP\n1, 4000, 1\n*IDENTIFY\nr.k, 0.1, 2, 1\n", ROTID_ERROR, 20,
+         "r is like p, expected p.k");
+    says(SHAFT TWO "*IDENTIFY\np.k, 0.1, 2, 1\n", ROTID_ERROR, 10, "expected *RUNUP");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n" TWO, ROTID_ERROR, 15, "the machine has no *RUNUP");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n", ROTID_ERROR, 15, "the deck has no machine");
+    says(SHAFT MODES "*FIT, HOLDOUT=RUNUP\n" TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\np.k, 0.1, 2, 1\n", ROTID_ERROR, 16,
+         "the run-up is held out");
+    says(SHAFT MODES "*FIT, FUNCTIONAL=HYBRID\n" TWO "*RUNUP\n1, 4000, 1\n", ROTID_ERROR, 16,
+         "expected *FIT, FUNCTIONAL=LIKELIHOOD");
+    says(SHAFT MODES "p.k, 0.1, 2, 1\n" TWO, ROTID_ERROR, 15, "p is a *BEARING, expected its unknowns in an *IDENTIFY behind");
 }
 
 static void tables_of_bearings_are_refused_by_their_cells(void **state)
@@ -179,6 +290,11 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_cards_of_a_machine_are_read, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(units_of_the_deck_hold_for_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_bearing_is_turned_from_the_axes_of_its_load, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_grade_is_an_unbalance_of_the_whole_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_loss_comes_from_the_damping_of_the_test, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_cause_is_left_at_the_test, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),

@@ -293,6 +293,30 @@ static void what_rotid_f90_has_for_fortran_does_what_it_says(void **state)
     for_each("fortran_host", in_fortran, fortran_checks_hold);
 }
 
+/* The numbers of another host of the same deck: both print rounded speeds of all critical speeds. */
+static void critical_speeds_are_those_of_the_other_language(const char *host)
+{
+    const char *mine = ran(host, "0", ""), *other = left("margins-c-shared", "out");
+    int count = 0, number, rpm, deviation;
+    for (const char *line = mine; line && *line; line = strchr(line, '\n'), line += line != NULL) {
+        char whirl[16], of_other[64];
+        if (sscanf(line, "%d %15s %d rpm, standard deviation %d rpm", &number, whirl, &rpm, &deviation) != 4)
+            continue;
+        assert_int_equal(number, ++count);
+        (void)snprintf(of_other, sizeof of_other, "%d %-8s %5d rpm (", number, whirl, rpm);
+        assert_non_null(strstr(other, of_other));
+        assert_true(deviation > 0);
+    }
+    assert_true(count >= 4);
+    assert_non_null(strstr(mine, "% by bearing de"));
+}
+
+static void a_machine_is_computed_from_c_and_fortran(void **state)
+{
+    (void)state;
+    for_each("critical", in_fortran, critical_speeds_are_those_of_the_other_language);
+}
+
 static void every_routine_is_there(const char *host)
 {
     struct header header;
@@ -312,8 +336,9 @@ static void every_routine_of_the_header_links_from_fortran(void **state)
 static void the_document_shows_the_programs_that_were_built(void **state)
 {
     (void)state;
-    static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "curve.c"},     {"fortran", "stepped_beam.f90"},
-                                          {"python", "run_deck.py"}, {"make", "Makefile"}, {"cmake", "CMakeLists.txt"}};
+    static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "margins.c"},          {"c", "curve.c"},
+                                          {"make", "Makefile"},      {"fortran", "critical.f90"}, {"fortran", "stepped_beam.f90"},
+                                          {"python", "run_deck.py"}, {"cmake", "CMakeLists.txt"}};
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
     int blocks = 0;
     for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
@@ -338,9 +363,9 @@ static void the_document_has_the_statuses_and_the_output_of_now(void **state)
     if (!strstr(document, "\n| `" #name "` " #value " | " text " |\n"))                                                          \
         fail_msg("docs/embedding.md has another %s", #name);
     ROTID_STATUS_LIST(ROW)
-    const char *built[] = {"paper-c-shared", "curve-c-shared", "stepped_beam-fortran-shared"};
-    for (int i = 0; i < 3; i++) {
-        if (i == 2 && !has_compiler(&test_pool, "FC"))
+    const char *built[] = {"paper-c-shared", "curve-c-shared", "margins-c-shared", "stepped_beam-fortran-shared"};
+    for (int i = 0; i < 4; i++) {
+        if (i == 3 && !has_compiler(&test_pool, "FC"))
             continue;
         if (!strstr(document, pool_format(&test_pool, "\n```\n%s```\n", left(built[i], "out"))))
             fail_msg("%s prints something else than docs/embedding.md says:\n%s", built[i], left(built[i], "out"));
@@ -361,6 +386,7 @@ int main(void)
         TEST(the_fortran_solver_finds_modulus_and_bearing),
         TEST(a_solver_that_traps_floating_point_errors_is_not_trapped_by_the_library),
         TEST(what_rotid_f90_has_for_fortran_does_what_it_says),
+        TEST(a_machine_is_computed_from_c_and_fortran),
         TEST(every_routine_of_the_header_links_from_fortran),
         TEST(the_document_shows_the_programs_that_were_built),
         TEST(the_document_has_the_statuses_and_the_output_of_now),

@@ -209,7 +209,8 @@ static void the_jacobian_is_that_of_the_residual(void **state)
         pair.holdout[0][1] = 1;
         const struct joint_state states[] = {{&pair.host[0].model, &pair.data[0].measured, halves},
                                              {&pair.host[1].model, &pair.data[1].measured, both_halves}};
-        assert_status(joint_new(*state, ways[w].functional, ways[w].reduction, ROTID_NELSON, 3, 2, states, &joint), ROTID_OK);
+        assert_status(joint_new(*state, ways[w].functional, ways[w].reduction, ROTID_NELSON, 3, 2, states, NULL, &joint),
+                      ROTID_OK);
         double x[] = {1.1, 0.75, 0.5}, error[3], doubt[3],
                *work = numbers(*state, (ptrdiff_t)rotid_check_jacobian_workspace(joint.nresidual, 3));
         assert_status(rotid_check_jacobian(joint.nresidual, 3, stacked, &joint, x, NULL, NULL, error, doubt, work), ROTID_OK);

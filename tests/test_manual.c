@@ -185,6 +185,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--state", "a"},
                                             {"--timeout", "1"},
                                             {"--speeds", "0:100"},
+                                            {"--for", "speed:1"},
                                             {"--harmonic", "2"},
                                             {"--draws", "10"},
                                             {"--campbell", "/x/y"},

@@ -362,6 +362,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     rotid_identification *identification = (void *)&c;
     rotid_diagnosis *diagnosis = (void *)&c;
     rotid_suggestion *suggestion = (void *)&c;
+    rotid_speeds *speeds = (void *)&c;
     chain_open(&c);
     fit_open(&f);
     assert_refused(rotid_deck_read(PAPER, 0, NULL, environment, failure, &deck), text);
@@ -374,7 +375,8 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_identify(good, 0, environment, failure, &identification), text);
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
     assert_refused(rotid_suggest(good, NULL, environment, failure, &suggestion), text);
-    assert_true(!deck && !spectrum && !identification && !diagnosis && !suggestion);
+    assert_refused(rotid_speeds_compute(good, NULL, environment, failure, &speeds), text);
+    assert_true(!deck && !spectrum && !identification && !diagnosis && !suggestion && !speeds);
     assert_refused(fit(&f, environment), text);
     const rotid_state state = {sizeof state, &f.model, &f.measured, NULL};
     rotid_fit_result *result = (void *)&c;
@@ -386,7 +388,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 15;
+    return 16;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)

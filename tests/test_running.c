@@ -15,7 +15,7 @@
 
 static double natural(const struct running_case *c)
 {
-    const struct campbell_mode *m = running_case_mode(c, 0, 1);
+    const rotid_campbell_mode *m = running_case_mode(c, 0, 1);
     assert_non_null(m);
     return 2 * 3.14159265358979323846 * m->frequency_hz / sqrt(1 - m->damping_ratio * m->damping_ratio);
 }
@@ -30,7 +30,7 @@ static void a_viscous_loss_drives_forward_whirl_from_w0_and_more(void **state)
     double w0 = natural(&c), internal = loss * MASS * w0 * w0;
     assert_true(internal > 20 && w0 * (1 + external / internal) < 6000 * RPM);
     assert_close(c.speeds.stability.onset_rpm * RPM, w0 * (1 + external / internal), 2e-4, 0);
-    const struct campbell_speed *last = &c.speeds.campbell[c.speeds.ncampbell - 1];
+    const rotid_campbell_speed *last = &c.speeds.campbell[c.speeds.ncampbell - 1];
     for (int i = 0; i < last->nmodes; i++)
         if (last->modes[i].mode == c.speeds.stability.mode)
             assert_string_equal(last->modes[i].whirl, "forward");
@@ -70,7 +70,7 @@ static void peak_and_critical_speed_of_a_damped_rotor_lie_apart(void **state)
     char *deck = pool_format(&test_pool, LIGHT "*BEARING\n0.5, 0, %.17g\n*UNBALANCE\n0.5, 0.001, 30\n*PROBE, NAME=p\n0.5, 20\n",
                              2 * zeta * MASS * w0);
     assert_int_equal(running_case_open(deck, 4000, 9, 0, &c), ROTID_OK);
-    const struct critical_speed *first = NULL;
+    const rotid_critical_speed *first = NULL;
     for (int i = 0; i < c.speeds.ncritical_speeds && !first; i++)
         if (c.speeds.critical_speeds[i].npeaks)
             first = &c.speeds.critical_speeds[i];
@@ -84,7 +84,7 @@ static void peak_and_critical_speed_of_a_damped_rotor_lie_apart(void **state)
            high = 1 / sqrt(half - root);
     assert_close(first->amplification, 1 / sqrt(half) / (high - low), 1e-3, 0);
     /* at any speed lag = atan2(2 zeta r, 1 - r^2) less the phase of the unbalance and more the angle of the probe */
-    const struct probe_response *p = &c.speeds.unbalance[0];
+    const rotid_probe_response *p = &c.speeds.unbalance[0];
     for (int i = 0; i < p->nspeed_rpm; i += 17) {
         double r = p->speed_rpm[i] * RPM / w0, lag = atan2(2 * zeta * r, 1 - r * r) * 180 / 3.14159265358979323846 - 30 + 20;
         assert_close(fmod(p->phase_deg[i] - lag + 720 + 180, 360), 180, 0, 0.2);
@@ -106,7 +106,7 @@ static void a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia(void **state)
                           6000, 7, 0, &c),
         ROTID_OK);
     for (int i = 0; i < 7; i++) {
-        const struct campbell_speed *at = &c.speeds.campbell[i];
+        const rotid_campbell_speed *at = &c.speeds.campbell[i];
         double w = at->speed_rpm * RPM, stiff = k * length * length / 2,
                own = sqrt(w * w * polar * polar + 4 * diametral * stiff);
         const double bounce = sqrt(2 * k / mass),
@@ -136,7 +136,7 @@ static void kxy_above_kyx_drives_forward_whirl(void **state)
     for (int sign = -1; sign <= 1; sign += 2) {
         char *deck = pool_format(&test_pool, LIGHT "*BEARING\n0.5, 0, %g, %g, 0, 0, 0, 0, 0\n", sign * 1e4, -sign * 1e4);
         assert_int_equal(running_case_open(deck, 4000, 5, 0, &c), ROTID_OK);
-        const struct campbell_speed *at = &c.speeds.campbell[2];
+        const rotid_campbell_speed *at = &c.speeds.campbell[2];
         int growing = 0;
         for (int i = 0; i < 2; i++)
             if (at->modes[i].damping_ratio < -1e-6) {
@@ -250,7 +250,7 @@ static void all_pairs_are_those_of_the_full_model(void **state)
     assert_true(c.speeds.basis_error < 1e-8);
     double complex *lambda = POOL_ARRAY(&test_pool, double complex, 2000);
     for (int i = 0; i < 31; i += 15) {
-        const struct campbell_speed *at = &c.speeds.campbell[i];
+        const rotid_campbell_speed *at = &c.speeds.campbell[i];
         double w = at->speed_rpm * RPM;
         int count, compared = 0;
         full_pairs(&c, w, lambda, &count);
@@ -312,7 +312,7 @@ static void undamped_isotropic_critical_speeds_are_those_of_the_map(void **state
     struct running_case c;
     int compared = 0;
     assert_int_equal(running_case_open(running_case_deck("B1_friswell_5_9_1", 2, ""), 12000, 13, 0, &c), ROTID_OK);
-    const struct map_row *row = &c.speeds.map[c.speeds.nmap / 2];
+    const rotid_map_row *row = &c.speeds.map[c.speeds.nmap / 2];
     assert_close(row->stiffness_factor, 1, 1e-12, 0);
     for (int i = 0; i < c.speeds.ncritical_speeds; i++)
         if (!strcmp(c.speeds.critical_speeds[i].whirl, "forward"))
@@ -372,7 +372,7 @@ static void a_solid_has_the_gyroscopic_split_of_other_elements(void **state)
         assert_int_equal(running_case_open(deck, 1000 / RPM, 2, 0, &c), ROTID_OK);
         assert_close(running_case_mode(&c, 0, 5)->frequency_hz, hz[solid][0], 2e-5, 0);
         for (int i = 0; i < 2; i++) {
-            const struct campbell_mode *m = &c.speeds.campbell[1].modes[4 + i];
+            const rotid_campbell_mode *m = &c.speeds.campbell[1].modes[4 + i];
             assert_close(m->frequency_hz, hz[solid][1 + i], 2e-5, 0);
             assert_string_equal(m->whirl, i ? "forward" : "backward");
         }

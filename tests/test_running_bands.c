@@ -19,7 +19,7 @@ static double tail(double z) /* of the normal distribution above z */
     return erfc(z / sqrt(2)) / 2;
 }
 
-static const struct critical_speed *forward(const struct running_case *c)
+static const rotid_critical_speed *forward(const struct running_case *c)
 {
     for (int i = 0; i < c->speeds.ncritical_speeds; i++)
         if (!strcmp(c->speeds.critical_speeds[i].whirl, "forward"))
@@ -38,7 +38,7 @@ static void one_draw_for_both_bearings_is_log_normal(void **state)
         RIGID "*BEARING, NAME=p, STD=%g, 0\nstart, 1e6, 10\n*BEARING, LIKE=p\nend, 1e6, 10\n*OPERATION, MARGIN=0.4\n1000, %g\n",
         std, high);
     assert_int_equal(running_case_open(deck, 4000, 9, DRAWS, &c), ROTID_OK);
-    const struct critical_speed *w = forward(&c);
+    const rotid_critical_speed *w = forward(&c);
     assert_close(w->speed_rpm, w0, 1e-3, 0);
     /* a quantile of n draws has the deviation sqrt(p (1 - p)/n)/density: 2.5 % at 1.96 gives 0.06 sigma, taken thrice */
     assert_close(log(w->ci95[0] / w->speed_rpm), -1.96 * sigma, 0, 0.18 * sigma);
@@ -53,7 +53,7 @@ static void one_draw_for_both_bearings_is_log_normal(void **state)
     assert_close(c.speeds.stability.probability_stable, 1, 0, 0);
     int seen = 0;
     for (int i = 0; i < c.speeds.campbell[4].nmodes; i++) { /* of the Campbell diagram exactly log-normal */
-        const struct campbell_mode *m = &c.speeds.campbell[4].modes[i];
+        const rotid_campbell_mode *m = &c.speeds.campbell[4].modes[i];
         seen += fabs(m->frequency_hz / (w0 / 60) - 1) < 1e-3 &&
                 fabs(log(m->ci95[1] / m->frequency_hz) / (1.96 * sigma) - 1) < 1e-3 &&
                 fabs(log(m->ci95[0] / m->frequency_hz) / (1.96 * sigma) + 1) < 1e-3;
@@ -70,11 +70,36 @@ static void draws_of_their_own_share_the_variance(void **state)
         running_case_open(RIGID "*BEARING, NAME=p, STD=0.1, 0.5\nstart, 1e6, 10\n*BEARING, NAME=q, STD=0.2\nend, 1e6, 10\n", 4000,
                           9, DRAWS, &c),
         ROTID_OK);
-    const struct critical_speed *w = forward(&c);
+    const rotid_critical_speed *w = forward(&c);
     assert_int_equal(w->nvariance_shares, 2);
     assert_close(w->variance_shares[0].share, 0.2, 1e-3, 0); /* d ln W = 1/4 of each */
     assert_close(w->variance_shares[1].share, 0.8, 1e-3, 0);
     assert_close(w->std / w->speed_rpm, sqrt(0.05) / 4, 0.08, 0);
+    running_case_close(&c);
+}
+
+/* The formula at factors of which the values are known by hand: 17 (1 - 1/1) = 0, 17 (1 - 1/8.5) = 15, and the caps. */
+static void the_margin_of_api_617_goes_by_the_amplification(void **state)
+{
+    (void)state;
+    const struct machine machine = {.api617 = 1, .low = 100, .high = 200};
+    assert_true(isnan(speeds_required(&machine, 2.49, 90)) && isnan(speeds_required(&machine, NAN, 90)));
+    assert_close(speeds_required(&machine, 2.5, 90), 0, 0, 1e-15);
+    assert_close(speeds_required(&machine, 10, 90), 0.15, 1e-12, 0);
+    assert_close(speeds_required(&machine, 10, 210), 0.25, 1e-12, 0);
+    assert_close(speeds_required(&machine, 1e3, 90), 0.16, 1e-12, 0);
+    assert_close(speeds_required(&machine, 1e3, 210), 0.26, 1e-12, 0);
+    assert_close(speeds_required(&machine, 10, 150), 0, 0, 0); /* the margin itself is below 0 there */
+    struct running_case c;
+    assert_int_equal(running_case_open(RIGID
+                                       "*BEARING, NAME=p, STD=0.1\nstart, 1e6, 800\n*BEARING, LIKE=p\nend, 1e6, 800\n"
+                                       "*UNBALANCE\n0.5, 1e-3\n*PROBE, NAME=x\n0.5\n*OPERATION, MARGIN=API617\n2500, 4000\n",
+                                       5000, 9, 400, &c),
+                     ROTID_OK);
+    const rotid_critical_speed *w = forward(&c); /* zeta = 1600/(2 sqrt(2e6 50)) = 0.08: by half power 6.09 */
+    assert_close(w->amplification, 6.09, 5e-3, 0);
+    assert_close(w->margin.required, 0.17 * (1 - 1 / (w->amplification - 1.5)), 1e-12, 0);
+    assert_true(w->margin.value > 0.2 && w->margin.probability > 0.9);
     running_case_close(&c);
 }
 
@@ -99,7 +124,7 @@ static void the_modulus_has_the_distribution_of_its_fit(void **state)
         rotid_fit_result fit = fit_of(&x, &std, &covariance, dof);
         assert_int_equal(running_case_open(pool_format(&test_pool, PINNED, 1e9, 1e13), 15000, 9, 0, &c), ROTID_OK);
         assert_int_equal(running_case_run(&c, &fit, 15000, 9, DRAWS), ROTID_OK);
-        const struct critical_speed *w = forward(&c);
+        const rotid_critical_speed *w = forward(&c);
         double t = dof ? 3.182 : 1.960; /* 97.5 % of Student's t with 3 degrees of freedom, of the normal distribution */
         assert_close(log(w->ci95[1] / w->ci95[0]), 2 * t * 0.02, dof ? 0.2 : 0.1, 0);
         assert_string_equal(w->variance_shares[0].source, "identified");
@@ -115,7 +140,7 @@ static void draws_end_at_the_bounds_of_the_unknown(void **state)
     rotid_fit_result fit = fit_of(&x, &std, &covariance, 0);
     assert_int_equal(running_case_open(pool_format(&test_pool, PINNED, 1.9e11, 2.2e11), 15000, 9, 0, &c), ROTID_OK);
     assert_int_equal(running_case_run(&c, &fit, 15000, 9, 400), ROTID_OK);
-    const struct critical_speed *w = forward(&c);
+    const rotid_critical_speed *w = forward(&c);
     assert_true(w->ci95[0] > w->speed_rpm * sqrt(0.95) && w->ci95[1] < w->speed_rpm * sqrt(1.1));
     assert_true(w->ci95[1] > w->speed_rpm * sqrt(1.08)); /* nearly even between them */
     running_case_close(&c);
@@ -126,7 +151,7 @@ static void threads_do_not_change_the_draws(void **state)
     (void)state;
     struct running_case c;
     struct message_list notes;
-    struct speeds speeds;
+    rotid_speeds speeds;
     struct speeds_options options = {.to = 4000 * RPM, .count = 9, .harmonic = 1, .draws = 100, .seed = 7, .threads = 3};
     assert_int_equal(
         running_case_open(RIGID "*BEARING, STD=0.1\nstart, 1e6, 10\n*BEARING, STD=0.2\nend, 1e6, 10\n", 4000, 9, 0, &c),
@@ -148,6 +173,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(one_draw_for_both_bearings_is_log_normal, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(draws_of_their_own_share_the_variance, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_margin_of_api_617_goes_by_the_amplification, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_modulus_has_the_distribution_of_its_fit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(draws_end_at_the_bounds_of_the_unknown, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(threads_do_not_change_the_draws, open_test_pool, close_test_pool),

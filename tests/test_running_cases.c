@@ -58,7 +58,7 @@ static double undamped(const struct running_case *c, double rpm, int index)
 {
     double w[64];
     int count = 0;
-    for (const struct campbell_mode *m; count < 64 && (m = running_case_mode(c, rpm, count + 1));)
+    for (const rotid_campbell_mode *m; count < 64 && (m = running_case_mode(c, rpm, count + 1));)
         w[count++] = m->frequency_hz / sqrt(1 - m->damping_ratio * m->damping_ratio);
     assert_true(index <= count);
     sort_doubles((size_t)count, w);
@@ -84,7 +84,7 @@ static int compare(const char *name, double to, int count, const char *skip, con
                 continue;
             value = c.speeds.critical_speeds[row.index - 1].speed_rpm;
         } else {
-            const struct campbell_mode *mode = running_case_mode(&c, row.speed, row.index);
+            const rotid_campbell_mode *mode = running_case_mode(&c, row.speed, row.index);
             assert_non_null(mode);
             value = strstr(row.quantity, "natural") ? undamped(&c, row.speed, row.index) : mode->frequency_hz;
             int radians = row.value > 1.5 * value;
@@ -151,7 +151,7 @@ static void gyroscopic_split_of_a_uniform_shaft(void **state)
     assert_non_null(in);
     while (next_row(in, &row)) {
         int forward = strstr(row.quantity, "forward") != NULL, seen = 0;
-        const struct campbell_speed *at = &c.speeds.campbell[row.speed > 0 ? 2 : 0];
+        const rotid_campbell_speed *at = &c.speeds.campbell[row.speed > 0 ? 2 : 0];
         for (int i = 0; i < at->nmodes; i++) {
             if (row.speed > 0 && strcmp(at->modes[i].whirl, forward ? "forward" : "backward") != 0)
                 continue;

@@ -187,6 +187,39 @@ static void a_hidden_mass_is_named(void **state)
     }
 }
 
+/* A shaft on stiff pins: every critical speed goes with the root of E, whose truth makes that of the speeds; exact data. */
+static void critical_speeds_are_those_of_the_machine_and_of_its_truth(void **state)
+{
+    (void)state;
+    static const char deck[] = "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, "
+                               "20\n*MODES\n1, 200\n2, 600\n*IDENTIFY\na.E, 1e9, 1e13, 2e11\n*RUNNING\n*BEARING\nstart, 1e13, "
+                               "0\n*BEARING\nend, 1e13, 0\n*OPERATION, MARGIN=0.1\n2000, 12000\n";
+    double speed[2] = {0, 0}, modulus[2] = {0, 0};
+    (void)bench_write("machine.inp", deck);
+    open_study("*STUDY, COMMAND=SPEEDS, REPLICATES=2, DRAWS=30\n*DECKS\nmachine.inp\n*DATA, SOURCE=MODEL\n*TRUTH\na.E, 1.6e11, "
+               "2.4e11\n*NOISE\n0.001\n");
+    for (long run = 0; run < study.runs; run++) {
+        cJSON *result = bench_result(&study, run), *first = NULL, *one;
+        assert_string_equal(word(result, "status"), "converged");
+        cJSON_ArrayForEach(one, get(result, "critical_speeds")) if (!first && !strcmp(word(one, "whirl"), "forward")) first = one;
+        double w = number_of(first, "speed_rpm"), std = number_of(first, "std"),
+               e = bench_number(result, "parameters", 0, "value"), std_e = bench_number(result, "parameters", 0, "std");
+        const cJSON *truth = get(result, "truth");
+        modulus[run] = number_of(truth, "a.E");
+        speed[run] = number_of(truth, "forward:1");
+        assert_close(w / speed[run], sqrt(e / modulus[run]), 1e-5, 0);
+        assert_close(std / w, std_e / e / 2, 0.5, 0); /* of 30 draws */
+        assert_true(cJSON_GetArraySize(get(first, "ci95")) == 2 && cJSON_IsNumber(get(get(first, "margin"), "probability")));
+        cJSON_Delete(result);
+    }
+    assert_close(speed[0] / speed[1], sqrt(modulus[0] / modulus[1]), 1e-5, 0);
+    open_study("*STUDY, COMMAND=SPEEDS\n*DECKS\ndeck.inp\n");
+    cJSON *result = bench_result(&study, 0);
+    assert_string_equal(word(result, "status"), "failed");
+    assert_non_null(strstr(word(result, "error"), "no *RUNNING"));
+    cJSON_Delete(result);
+}
+
 /* A mode that has the shape of another one which has none, a model that cannot be: a result that says why. */
 static void what_cannot_be_computed_says_why(void **state)
 {
@@ -250,6 +283,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(every_start_of_the_paper_reaches_the_minimum, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(variants_and_modes_are_those_of_the_deck, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_hidden_mass_is_named, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(critical_speeds_are_those_of_the_machine_and_of_its_truth, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(what_cannot_be_computed_says_why, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_cancelled_run_leaves_no_line, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(seeds_change_the_noise_alone, open_test_pool, close_test_pool),

@@ -22,7 +22,9 @@ static const char rotor_text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n
                                  "*SHAFT, NAME=end, MATERIAL=steel\n0.25, 0.10, 0, 10\n"
                                  "*SHAFT, NAME=core, MATERIAL=steel\n0.35, 0.20, 0, 10\n"
                                  "*NOISE, FREQUENCY=0.001\n*MODES\n1, 1253\n2, 4009\n3, 5618\n"
-                                 "*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\n";
+                                 "*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\n"
+                                 "*RUNNING\n*BEARING, NAME=a, STD=0.1\nstart, 1e8, 1e4\n*BEARING, NAME=b\nend, 1e8, 1e4\n"
+                                 "*UNBALANCE\n0.4, 0.001\n*PROBE, NAME=p\n0.4\n*OPERATION\n1000, 20000\n";
 
 /* A chain of three masses with a far block, and room for what comes of it. Made before the traps are on. */
 static struct {
@@ -231,9 +233,11 @@ static void decks(void)
     rotid_identification *found;
     rotid_diagnosis *diagnosis;
     rotid_suggestion *suggestion;
+    rotid_speeds *speeds;
     char failure[ROTID_FAILURE_LENGTH];
     static const rotid_diagnose_options quick = {.size = sizeof quick, .replicates = 20};
     static const rotid_suggest_options brief = {.size = sizeof brief, .replicates = 20};
+    static const rotid_speeds_options few = {.size = sizeof few, .draws = 25};
     failed |= rotid_deck_read(SOLID, 0, NULL, NULL, failure, &deck);
     rotid_deck_free(deck);
     failed |= rotid_deck_read_text(strlen(rotor_text), rotor_text, NULL, NULL, 0, NULL, NULL, failure, &deck);
@@ -249,6 +253,8 @@ static void decks(void)
     rotid_diagnosis_free(diagnosis);
     failed |= rotid_suggest(deck, &brief, NULL, failure, &suggestion);
     rotid_suggestion_free(suggestion);
+    failed |= rotid_speeds_compute(deck, &few, NULL, failure, &speeds);
+    rotid_speeds_free(speeds);
     rotid_deck_free(deck);
     failed |= rotid_deck_read("/nowhere", 0, NULL, NULL, failure, &deck) != ROTID_ERROR_IO;
     rotid_deck_free(deck);
@@ -269,7 +275,8 @@ static const struct {
     {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
             "rotid_spectrum_beside rotid_spectrum_free rotid_identify "
-            "rotid_identification_free rotid_diagnose rotid_diagnosis_free rotid_suggest rotid_suggestion_free "},
+            "rotid_identification_free rotid_diagnose rotid_diagnosis_free rotid_suggest rotid_suggestion_free "
+            "rotid_speeds_compute rotid_speeds_free "},
 };
 enum { CALLS = sizeof table / sizeof *table };
 

@@ -68,6 +68,15 @@ const struct job *deck_job_of(const rotid_deck *deck);
  * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
 void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
 
+/* --------------------------------------------------------------------------------------------------------------- machine */
+
+/* The fit of all states, with the run-up of the machine where it has one; *fit stays NULL where nothing is to be identified or
+ * measured. Statuses of runup_join and identify_states. */
+int machine_fit_all(struct call *call, const struct states *states, rotid_fit_result **fit);
+
+/* ROTID_ERROR_ARGUMENT, with the reason among the notes, where there is no machine. */
+int machine_refuse(struct call *call, const struct states *states);
+
 /* --------------------------------------------------------------------------------------------------------------- results */
 
 /* A diagnosis as hosts and files have it. deck: the states as the user states them, whose FIT `today` was fitted with. It leans
@@ -81,9 +90,10 @@ rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
  * as it stands, without nodes, where beam is NULL. It leans on both. NULL where memory is out. */
 rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model);
 
-/* An identification as hosts and files have it. Leans on the job and on what was found. Without noise, geometry and messages.
- * NULL where there is no fit, or memory is out. */
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found);
+/* An identification as hosts and files have it; bounds: of the unknowns of its fit. Leans on these and on what was found. Without
+ * noise, geometry and messages. NULL where there is no fit, or memory is out. */
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
+                                            const struct identification *found);
 
 /* The same of all states together, with noise and geometry and those of each in `states`; found [nstate], fit: of all. */
 rotid_identification *result_identification_states(struct pool *pool, const struct states *states,

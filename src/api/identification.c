@@ -1,6 +1,7 @@
 /* The identification of a deck, for hosts. */
 #include "api/api.h"
 #include "diagnose/diagnose.h"
+#include "running/running.h"
 
 static rotid_identification *keep(struct call *call, rotid_identification *made)
 {
@@ -33,10 +34,11 @@ static int find_hidden(struct call *call, const struct states *states, const str
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
-static rotid_identification *make_result(struct call *call, const struct job *job, const struct identification *found)
+static rotid_identification *make_result(struct call *call, const struct states *states, const struct identification *found)
 {
     struct pool *pool = &call->entry.scratch;
-    rotid_identification *made = result_identification(pool, job, found);
+    const struct job *job = &states->state[0].job;
+    rotid_identification *made = result_identification(pool, job, states->bounds, found);
     if (!made)
         return NULL;
     made->noise = result_noise(pool, job, found->fit);
@@ -44,31 +46,59 @@ static rotid_identification *make_result(struct call *call, const struct job *jo
     return made;
 }
 
-static int identify(struct call *call, const rotid_deck *deck, int baseline, rotid_identification **result)
+/* The measured critical speeds of the machine beside those at the fitted values. */
+static int compare_runup(struct call *call, const struct states *states, const rotid_fit_result *fit, rotid_identification *made)
 {
     struct pool *pool = &call->entry.scratch;
-    const struct states *states = deck_states(deck, call);
-    if (!states)
-        return ROTID_ERROR_ARGUMENT;
+    rotid_fit_result own;
+    if (!states->machine || !states->machine->nrunup || !made)
+        return ROTID_OK;
+    int status = machine_fit(pool, states, fit, &own);
+    return status ? status
+                  : runup_compare(pool, states->machine, &states->state[0].job, own.x, &own, &call->notes, &made->nrunup,
+                                  &made->runup);
+}
+
+/* given: as the deck has them; states: with the run-up of the machine where it is fitted */
+static int identify(struct call *call, const struct states *given, const struct states *states, int baseline,
+                    rotid_identification **result)
+{
+    struct pool *pool = &call->entry.scratch;
     struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
     rotid_fit_result *fit = NULL;
-    int one = states->nstate == 1, status = ROTID_ERROR_MEMORY;
-    if (found && one)
-        status = identify_run(pool, &states->state[0].job, baseline, &call->environment, &call->notes, found);
-    else if (found)
-        status = identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit);
+    int one = states->nstate == 1,
+        status =
+            found ? identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
-    rotid_identification *made =
-        one ? make_result(call, &states->state[0].job, found) : result_identification_states(pool, states, found, fit);
-    if (!baseline || !find_hidden(call, states, found, one ? found->fit : fit, made))
+    rotid_identification *made = one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);
+    status = compare_runup(call, given, fit, made);
+    if (!status && baseline && !states->more) /* the scan behind it knows modes alone */
+        status = find_hidden(call, states, found, fit, made);
+    if (!status)
         *result = keep(call, made);
     if (*result)
         return ROTID_OK;
-    rotid_fit_free(one ? found->fit : fit);
-    return ROTID_ERROR_MEMORY;
+    rotid_fit_free(fit);
+    return status ? status : ROTID_ERROR_MEMORY;
+}
+
+static int identify_deck(struct call *call, const rotid_deck *deck, int baseline, rotid_identification **result)
+{
+    const struct states *states = deck_states(deck, call);
+    struct states joined;
+    struct runup *runup = NULL;
+    int status = states ? runup_join(&call->entry.scratch, states, &call->notes, &joined, &runup) : ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = identify(call, states, &joined, baseline, result);
+    int lost = runup_close(runup);
+    if (lost) {
+        rotid_identification_free(*result);
+        *result = NULL;
+    }
+    return lost ? lost : status;
 }
 
 int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
@@ -80,7 +110,7 @@ int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment
         return call_close(&call, status);
     *result = NULL;
     if (!status)
-        status = identify(&call, deck, baseline, result);
+        status = identify_deck(&call, deck, baseline, result);
     return call_close(&call, status);
 }
 

@@ -131,7 +131,7 @@ static rotid_identification *identification(struct pool *pool, const struct stat
 {
     if (states->nstate > 1)
         return first->fit ? result_identification_states(pool, states, each, first->fit) : NULL;
-    return states->nstate ? result_identification(pool, &states->state->job, first) : NULL;
+    return states->nstate ? result_identification(pool, &states->state->job, states->bounds, first) : NULL;
 }
 
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d)

@@ -147,9 +147,10 @@ static rotid_identification *make(struct pool *pool, const struct job *job, cons
     return out;
 }
 
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found)
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
+                                            const struct identification *found)
 {
-    return make(pool, job, job->unknowns.bounds, found);
+    return make(pool, job, bounds, found);
 }
 
 static int fill_state(struct pool *pool, const struct state *state, const rotid_parameter *bounds,

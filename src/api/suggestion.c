@@ -1,9 +1,13 @@
 /* What to measure next, for hosts. */
 #include <limits.h>
+#include <math.h>
 
 #include "api/api.h"
 #include "base/base.h"
 #include "deck/deck.h"
+#include "running/running.h"
+
+#define USUAL_NOISE 0.003 /* of a frequency of a hammer test */
 
 static int take_options(const rotid_suggest_options *given, char *failure, rotid_suggest_options *o)
 {
@@ -22,7 +26,8 @@ static int take_options(const rotid_suggest_options *given, char *failure, rotid
                   {"modes", o->modes, 100},
                   {"threads", o->threads, INT_MAX},
                   {"replicates", o->replicates, 1e6},
-                  {"seed", (double)o->seed, 1e12}};
+                  {"seed", (double)o->seed, 1e12},
+                  {"speed", o->speed, 100}};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         if (!(number[i].value >= 0 && number[i].value <= number[i].most))
             return refuse(failure, "options->%s is %.15g, expected 0 ... %g", number[i].name, number[i].value, number[i].most);
@@ -37,6 +42,7 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
 {
     struct pool *pool = &call->entry.scratch;
     rotid_suggestion *made = &s->result;
+    made->speed_rpm = made->speed_std = made->speed_identified = NAN;
     made->geometry = result_geometry(pool, &s->job.rotor, s->spectrum.model);
     for (int i = 0; i < made->nrivals; i++) {
         const struct rival *rival = &s->rivals.rival[i];
@@ -54,6 +60,68 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
     return call_keep(call, &suggestion_whole_record, made, &made->memory);
 }
 
+/* Noise of the frequencies of a test: as stated, else that of the deck, else what its residuals show, else a usual one. */
+static double noise_of(const struct job *job, const rotid_noise *noise, const rotid_fit_result *fit, double given, int *assumed)
+{
+    *assumed = 0;
+    if (given > 0)
+        return given;
+    if (isfinite(noise->frequency))
+        return noise->frequency * (fit ? fit->widened_by : 1);
+    double square = 0;
+    for (int k = 0; fit && k < fit->m; k++)
+        square += pow(fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1, 2);
+    *assumed = !(square > 0) || fit->dof < 1;
+    return *assumed ? USUAL_NOISE : sqrt(square / fit->dof);
+}
+
+/* Which tests at rest narrow a critical speed: in place of sensors and rivals. */
+static int suggest_for_speed(struct call *call, const struct states *states, const rotid_suggest_options *o,
+                             rotid_fit_result **fit, rotid_suggestion **result)
+{
+    struct pool *pool = &call->entry.scratch;
+    const struct job *job = &states->state[0].job;
+    rotid_fit_result own;
+    int status = machine_refuse(call, states), n = status ? 0 : machine_unknowns(states->machine, job), assumed;
+    double *x = POOL_ARRAY(pool, double, n);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
+    if (!status)
+        status = machine_fit_all(call, states, fit);
+    if (!status && *fit)
+        status = machine_fit(pool, states, *fit, &own);
+    int failed;
+    if (!status)
+        status = x && model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
+                                         model, &failed)
+                            : ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
+    for (int p = 0; p < n; p++)
+        x[p] = *fit ? own.x[p] : machine_bounds(states->machine, job, p)->start;
+    model_set(model, x);
+    const rotid_fit_result none = {.variance_from_residuals = 1};
+    rotid_noise *noise = result_noise(pool, job, *fit ? *fit : &none);
+    rotid_suggestion made = {.wanted_percent = o->wanted_percent > 0 ? o->wanted_percent : 2,
+                             .modes_needed = ROTID_NONE,
+                             .sensors_needed = ROTID_NONE,
+                             .plan_modes = job->measurement.nmode ? job->measurement.nmode : 1,
+                             .among = NAN,
+                             .geometry = result_geometry(pool, &job->rotor, model)};
+    if (!noise || !made.geometry)
+        return ROTID_ERROR_MEMORY;
+    made.noise = *noise;
+    made.noise.frequency = noise_of(job, noise, *fit, o->frequency_noise, &assumed);
+    made.noise.frequency_assumed = assumed;
+    const struct worth_options options = {o->speed, o->speed_backward != 0, made.noise.frequency};
+    status = worth_run(pool, states->machine, job, x, *fit ? &own : NULL, &options, &call->notes, &made);
+    if (status)
+        return status;
+    made.nmessage = (int)call->notes.count;
+    made.message = call->notes.item;
+    *result = call_keep(call, &suggestion_whole_record, &made, &made.memory);
+    return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
 static int suggest(struct call *call, const rotid_deck *deck, const rotid_suggest_options *given, rotid_suggestion **result)
 {
     rotid_suggest_options options;
@@ -62,6 +130,12 @@ static int suggest(struct call *call, const rotid_deck *deck, const rotid_sugges
     int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
     if (status || !s)
         return status ? status : ROTID_ERROR_MEMORY;
+    if (options.speed) {
+        rotid_fit_result *fit = NULL;
+        status = suggest_for_speed(call, states, &options, &fit, result);
+        rotid_fit_free(fit);
+        return status;
+    }
     status = suggest_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, s);
     if (!status)
         *result = make_result(call, s);

@@ -18,6 +18,7 @@ static const struct sized_struct table[] = {
     [SIZED_ENVIRONMENT] = STRUCT(rotid_environment, "environment", context),
     [SIZED_DIAGNOSE_OPTIONS] = STRUCT(rotid_diagnose_options, "options", seed),
     [SIZED_SUGGEST_OPTIONS] = STRUCT(rotid_suggest_options, "options", seed),
+    [SIZED_SPEEDS_OPTIONS] = STRUCT(rotid_speeds_options, "options", seed),
     [SIZED_MODEL] = STRUCT(rotid_model, "model", user),
     [SIZED_MEASURED] = STRUCT(rotid_measured, "measured", holdout),
     [SIZED_STATE] = STRUCT(rotid_state, "state", parameter),
@@ -27,7 +28,8 @@ static const struct sized_struct table[] = {
 
 ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, after);
-ENDS_WITH(rotid_suggest_options, seed);
+ENDS_WITH(rotid_suggest_options, speed_backward);
+ENDS_WITH(rotid_speeds_options, seed);
 ENDS_WITH(rotid_model, modes);
 ENDS_WITH(rotid_measured, holdout);
 ENDS_WITH(rotid_state, parameter);

@@ -54,6 +54,7 @@ struct study_arguments {
 
 /* Of `suggest`: what is wanted of a test, and what it costs; 0: the default of the library. */
 struct suggest_arguments {
+    const char *aim;                               /* speed:N, or NULL */
     double interval, frequency_noise, shape_noise; /* percent */
     double set_up_cost;
     int sensors, modes;

@@ -3,6 +3,7 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
+#include "running/running.h"
 
 /* The place of a message as the user knows it: the library calls an override by its text alone. */
 static const char *place_of(const struct command *command, const char *file)
@@ -98,7 +99,12 @@ static int fit_all(struct command *command, const struct states *states, struct 
 {
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
-    int status = identify_states(&command->pool, states, 0, &environment, &command->messages, found, &fit->fit);
+    struct states joined;
+    struct runup *runup;
+    int status = runup_join(&command->pool, states, &command->messages, &joined, &runup);
+    if (!status)
+        status = identify_states(&command->pool, &joined, 0, &environment, &command->messages, found, &fit->fit);
+    status = runup_close(runup) ? ROTID_ERROR_MEMORY : status;
     for (int s = 0; s < states->nstate && !status && states->nstate > 1; s++)
         status = identify_own_unknowns(&command->pool, &states->state[s], &found[s]);
     if (environment.progress)

@@ -7,8 +7,6 @@
 #include "report/report.h"
 #include "running/running.h"
 
-#define SPEEDS 41
-
 static int refuse_deck(struct command *command, const char *why)
 {
     message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", why);
@@ -18,7 +16,7 @@ static int refuse_deck(struct command *command, const char *why)
 /* FROM:TO[:N] in rpm */
 static int parse_speeds(struct command *command, struct speeds_options *options)
 {
-    double value[3] = {0, 0, SPEEDS};
+    double value[3] = {0, 0, SPEEDS_COUNT};
     const char *at = command->speeds.range;
     char *end;
     int count = 0, good = 1;
@@ -58,26 +56,31 @@ static int write_csv(struct command *command, const char *path, const struct tab
     return status ? command_fail(command, status) : code;
 }
 
-static int run(struct command *command, const struct machine *machine, const struct fitted_state *state, int code)
+static int run(struct command *command, const struct states *states, const rotid_fit_result *fit, int code)
 {
-    struct speeds *speeds = POOL_NEW(&command->pool, struct speeds);
-    struct speeds_options options = {.count = SPEEDS,
+    const struct machine *machine = states->machine;
+    const struct job *job = &states->state[0].job;
+    rotid_speeds *speeds = POOL_NEW(&command->pool, rotid_speeds);
+    struct speeds_options options = {.count = SPEEDS_COUNT,
                                      .harmonic = command->speeds.harmonic,
                                      .draws = command->speeds.draws,
                                      .seed = command->seed,
                                      .threads = command->threads};
-    const struct job *job = state->job;
-    const rotid_fit_result *fit = state->identified.fit;
-    double last = 0, *x = POOL_ARRAY(&command->pool, double, job->unknowns.nparameter + 1);
+    int n = machine_unknowns(machine, job);
+    double last = 0, *x = POOL_ARRAY(&command->pool, double, n);
+    rotid_fit_result own;
     const rotid_environment environment = command_environment(command, &last);
     int wrong = parse_speeds(command, &options);
     if (wrong)
         return wrong;
     if (!speeds || !x)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        x[p] = fit ? fit->x[p] : job->unknowns.bounds[p].start;
-    int status = speeds_run(&command->pool, machine, job, x, fit, &options, &environment, &command->messages, speeds);
+    int status = fit ? machine_fit(&command->pool, states, fit, &own) : ROTID_OK;
+    for (int p = 0; p < n && !status; p++)
+        x[p] = fit ? own.x[p] : machine_bounds(machine, job, p)->start;
+    if (!status)
+        status =
+            speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, &options, &environment, &command->messages, speeds);
     if (environment.progress)
         terminal_progress_end();
     if (status < 0)
@@ -106,12 +109,12 @@ int command_speeds(struct command *command)
     if (!machine)
         return refuse_deck(command,
                            "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
-    int code = command_fit_deck(command, command->read->nparameter != 0, &fit);
+    int code = command_fit_deck(command, command->read->nparameter || machine->nunknown, &fit);
     if (!code && command_cancelled(NULL)) {
         terminal_say("rotid: interrupted, nothing was computed\n");
         code = EXIT_DOUBTFUL;
     } else if (!code) {
-        code = run(command, machine, fit.state, command_judge_fit(command, &fit, "used"));
+        code = run(command, deck_states_of(command->read), fit.fit, command_judge_fit(command, &fit, "used"));
     }
     rotid_fit_free(fit.fit);
     return code;

@@ -1,3 +1,4 @@
+#include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
@@ -27,6 +28,25 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
     return command_write_deck(command, text, code);
 }
 
+/* --for speed:N or backward:N */
+static int parse_aim(const char *text, int *speed, int *backward)
+{
+    static const char *const words[] = {"speed:", "backward:"};
+    *speed = *backward = 0;
+    for (int i = 0; i < 2 && text; i++) {
+        char *end;
+        if (strncmp(text, words[i], strlen(words[i])) != 0)
+            continue;
+        long number = strtol(text + strlen(words[i]), &end, 10);
+        if (*end || number < 1 || number > 100)
+            break;
+        *speed = (int)number;
+        *backward = i;
+        return EXIT_DONE;
+    }
+    return text ? arguments_wrong("--for=%s is no aim, expected speed:N or backward:N with N from 1 to 100", text) : EXIT_DONE;
+}
+
 int command_suggest(struct command *command)
 {
     const struct suggest_arguments *given = &command->suggest;
@@ -34,6 +54,9 @@ int command_suggest(struct command *command)
     double last = 0;
     if (!command->seed)
         command->head.seed = (double)(command->seed = 1);
+    int speed, backward, wrong = parse_aim(given->aim, &speed, &backward);
+    if (wrong)
+        return wrong;
     const rotid_suggest_options options = {.size = sizeof options,
                                            .wanted_percent = given->interval,
                                            .frequency_noise = given->frequency_noise / 100,
@@ -43,7 +66,9 @@ int command_suggest(struct command *command)
                                            .modes = given->modes,
                                            .threads = command->threads,
                                            .replicates = command->replicates,
-                                           .seed = (long)command->seed};
+                                           .seed = (long)command->seed,
+                                           .speed = speed,
+                                           .speed_backward = backward};
     const rotid_environment environment = command_environment(command, &last);
     rotid_suggestion *suggestion;
     int status = rotid_suggest(command->read, &options, &environment, failure, &suggestion);

@@ -161,11 +161,12 @@ static const struct deck_row cause[] = {
     LAST};
 
 static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL};
+const char *const deck_axes[] = {"XY", "LOAD", NULL};
 static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
-    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), LAST},
-    pedestal[] = {OTHER("BEARING", .what = ""), LAST}, loss[] = {OTHER("TYPE", .words = losses), LAST},
+    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), OTHER("AXES", .words = deck_axes), LAST},
+    pedestal[] = {OTHER("BEARING", .what = ""), LAST}, loss[] = {OTHER("TYPE", .words = losses), OTHER("TEST", .what = ""), LAST},
     pull[] = {OTHER("GROUP", .what = ""), OTHER("STD", .what = "(0)"), LAST}, probe[] = {OTHER("NAME", .what = ""), LAST},
-    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST};
+    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST}, unbalance[] = {OTHER("G", .what = ""), LAST};
 
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
@@ -212,12 +213,13 @@ const struct deck_card deck_card_table[] = {
     {"RUNNING", CARD_RUNNING, 9, deck_running, "names of supports and masses that were left at the test", running, OF_MACHINE},
     {"BEARING", CARD_RUNNING, 9, deck_bearing, "position, k [N/m], c [N.s/m]; or kxx, kyy, cxx, cyy; or kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy; with FILE: position", bearing, OF_MACHINE},
     {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]", pedestal, OF_MACHINE},
-    {"LOSS", CARD_RUNNING, 10, deck_loss, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]", loss, OF_MACHINE},
+    {"LOSS", CARD_RUNNING, 10, deck_loss, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, OF_MACHINE},
     {"PULL", CARD_RUNNING, 10, deck_pull, "stiffness of the magnetic pull, without its sign [N/m]", pull, OF_MACHINE},
     {"CHANGE", CARD_RUNNING, 10, deck_change, "parameter, factor [, standard deviation of its logarithm]", nothing, OF_MACHINE},
-    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]", nothing, OF_MACHINE},
+    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]; with G: position, share of what the grade permits [, phase [deg]]", unbalance, OF_MACHINE},
     {"PROBE", CARD_RUNNING, 10, deck_probe, "position [, angle from x [deg]]", probe, OF_MACHINE},
     {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
+    {"RUNUP", CARD_RUNNING, 10, deck_runup, "number, critical speed, standard deviation [rpm] [, BACKWARD]", nothing, OF_MACHINE, .once = 1},
     {.name = NULL}};
 /* clang-format on */
 

@@ -203,9 +203,10 @@ struct deck_reader {
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
     int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
     struct card *running;
-    size_t running_room[8];
-    struct machine *machine; /* that they make */
-    unsigned doubted;        /* kinds of numbers that a warning was given for */
+    size_t running_room[9];
+    struct place margin_place; /* of *OPERATION */
+    struct machine *machine;   /* that they make */
+    unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -290,7 +291,7 @@ typedef void deck_card_reader(struct deck_reader *reader, const struct card *car
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
     deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
     deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set, deck_running, deck_bearing,
-    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation;
+    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation, deck_runup;
 /* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
 int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
 
@@ -307,6 +308,8 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
 void deck_drop_unknown(struct deck_reader *reader, int p);
 /* MODES and HOLDOUT of a card. */
 void deck_choose_modes(struct deck_reader *reader, const struct card *card);
+/* Whether HOLDOUT=RUNUP, ... holds out the measured critical speeds; *rest goes on behind that. */
+int deck_whole_runup(const char **rest);
 /* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
  * where the value is a list of modes. */
 const char *deck_whole_state(struct deck_reader *reader, const char **rest);
@@ -433,6 +436,9 @@ struct deck_origin {
     int noverride;
     const struct override *override;
 };
+
+/* Whether "NAME.x" names a *BEARING of the machine. */
+int deck_is_of_bearing(const struct deck_reader *reader, const char *name);
 
 /* Of *RUNNING and what stands behind it: the machine in operation ends a deck. */
 #define DECK_BEHIND_STATES DECK_MOST_CARDS

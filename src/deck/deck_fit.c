@@ -89,7 +89,13 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
         const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
         reader->out_of_memory |= !known;
-        if (found == 1 && !deck_cause_explains(reader, bounds.name, line->field[0].place))
+        int bearing = found == 1 && deck_is_of_bearing(reader, bounds.name);
+        if (bearing)
+            deck_error(reader, line->field[0].place,
+                       "%.*s is a *BEARING, expected its unknowns in an *IDENTIFY behind *RUNNING, where NAME.k and NAME.c are "
+                       "factors",
+                       (int)strcspn(bounds.name, "."), bounds.name);
+        if (found == 1 && !bearing && !deck_cause_explains(reader, bounds.name, line->field[0].place))
             deck_error(reader, line->field[0].place, "%s is no parameter, expected one of %s", bounds.name, known ? known : "");
         if (found == 2)
             deck_error(reader, line->field[0].place,
@@ -181,6 +187,19 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
     return missing;
 }
 
+int deck_whole_runup(const char **rest)
+{
+    static const char word[] = "RUNUP";
+    const char *begin = *rest + strspn(*rest, " "), *end = begin + strlen(word);
+    if (strncasecmp(begin, word, strlen(word)) != 0)
+        return 0;
+    end += strspn(end, " ");
+    if (*end && *end != ',')
+        return 0;
+    *rest = end + (*end == ',');
+    return 1;
+}
+
 const char *deck_whole_state(struct deck_reader *reader, const char **rest)
 {
     static const char head[] = "STATE:";
@@ -209,6 +228,7 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
     }
     const char *rest = holdout ? holdout->value : "", *state;
     int bad = modes && mark_modes(reader, modes, fitted);
+    (void)deck_whole_runup(&rest);
     while ((state = deck_whole_state(reader, &rest)))
         reader->held_out |= reader->state && !reader->alone && same_text(state, reader->state);
     if (holdout && (*rest || rest == holdout->value)) /* not of states, or not to its end */

@@ -95,6 +95,9 @@ extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_lamina
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
     deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[];
 
+/* x along the horizontal; x along the load of the bearing, which the weight makes. */
+extern const char *const deck_axes[];
+
 /* The cards there are, ended by one without a name; that of a name, NULL where there is none. */
 extern const struct deck_card deck_card_table[];
 const struct deck_card *deck_card_find(const char *name);

@@ -2,9 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "deck/card_table.h"
 #include "deck/deck.h"
+#include "deck/deck_row.h"
 #include "running/running.h"
 
 #define DEGREE       0.017453292519943295
@@ -37,9 +39,9 @@ void deck_split_running(struct deck_reader *reader, int *nread)
         else if (is_of_machine(card) && begin < 0)
             deck_error(reader, card->place, "*%s stands before *RUNNING, expected *RUNNING in front of what the machine has",
                        card->name);
-        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK"))
+        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK") && !is(card, "IDENTIFY"))
             deck_error(reader, card->place,
-                       "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, "
+                       "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, *IDENTIFY, "
                        "*BEARING and what docs/deck.md lists with them",
                        card->name);
     }
@@ -60,6 +62,17 @@ void deck_split_running(struct deck_reader *reader, int *nread)
 }
 
 /* ---- names */
+
+int deck_is_of_bearing(const struct deck_reader *reader, const char *name)
+{
+    size_t length = strcspn(name, ".");
+    for (int c = 0; c < reader->nrunning; c++) {
+        const struct card_option *own = is(&reader->running[c], "BEARING") ? card_option(&reader->running[c], "NAME") : NULL;
+        if (own && strlen(own->value) == length && !strncasecmp(own->value, name, length))
+            return 1;
+    }
+    return 0;
+}
 
 static int named_group(struct deck_reader *reader, const struct place place, const char *name)
 {
@@ -99,10 +112,13 @@ static void leave_at_test(struct deck_reader *reader, struct place place, const 
     for (int i = 0; i < rotor->ndisk && !all; i++)
         if (rotor->disk[i].name && same_text(rotor->disk[i].name, name))
             found = machine->without_disk[i] = 1;
+    for (int i = 0; i < rotor->neffect && !all; i++)
+        if (rotor->effect[i].name && same_text(rotor->effect[i].name, name))
+            found = machine->without_effect[i] = 1;
     if (!found)
         deck_error(reader, place,
-                   "%s is no support or mass of the test, expected sling, all (the supports) or the name of a *SPRING or *DISK "
-                   "before *RUNNING",
+                   "%s is no support or mass of the test, expected sling, all (the supports) or the name of a *SPRING, *DISK or "
+                   "*CAUSE before *RUNNING",
                    name);
 }
 
@@ -113,7 +129,8 @@ void deck_running(struct deck_reader *reader, const struct card *card)
     const struct card_option *without = card_option(card, "WITHOUT");
     machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
     machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
-    if (!machine->without_spring || !machine->without_disk) {
+    machine->without_effect = POOL_ARRAY(reader->pool, int, rotor->neffect);
+    if (!machine->without_spring || !machine->without_disk || !machine->without_effect) {
         reader->out_of_memory = 1;
         return;
     }
@@ -270,12 +287,23 @@ static int bearing_std(struct deck_reader *reader, const struct card *card, stru
     return 0;
 }
 
+/* From axes with x along the load, which points down, and y a quarter of a turn further with the spin: (x, y) of there is
+ * (-y, x) of here, K = T' K T. */
+static void turn_to_load(double k[4])
+{
+    double xx = k[XX], xy = k[XY], yx = k[YX], yy = k[YY];
+    k[XX] = yy;
+    k[XY] = -yx;
+    k[YX] = -xy;
+    k[YY] = xx;
+}
+
 void deck_bearing(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
     const struct card_option *name = card_option(card, "NAME"), *file = card_option(card, "FILE"),
                              *like = card_option(card, "LIKE");
-    struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing};
+    struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing, .unknown = {-1, -1}};
     if (deck_lines(reader, card, 1, 1, reader->layout) != 1)
         return;
     const struct data_line *line = &card->line[0];
@@ -300,6 +328,13 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         bad |= deck_count(reader, line, 1, "position alone beside FILE") || bearing_table(reader, card, file, &b);
     } else {
         bad |= room_of_table(reader, &b, 1) || bearing_values(reader, line, 1, &b, 0);
+    }
+    const struct card_option *axes = card_option(card, "AXES");
+    int along = axes ? deck_option_word(reader, axes, deck_axes) : 0;
+    bad |= along < 0;
+    for (int i = 0; i < b.count && along > 0 && !bad; i++) {
+        turn_to_load(b.k + 4 * (ptrdiff_t)i);
+        turn_to_load(b.c + 4 * (ptrdiff_t)i);
     }
     struct bearing *added = bad ? NULL : DECK_APPEND(reader, machine->bearing, machine->nbearing, reader->running_room[0]);
     if (!added)
@@ -339,17 +374,45 @@ void deck_pedestal(struct deck_reader *reader, const struct card *card)
 
 /* ---- losses, pull, change */
 
+/* What the damping ratios of the test say, in the kind of the card; both kinds are told. */
+static void settle_loss(struct deck_reader *reader, struct place place, struct loss *loss)
+{
+    struct loss_of_test found;
+    const char *name = reader->job->rotor.group[loss->group].name;
+    int status = reader->job->measurement.nmode ? loss_of_test(reader->pool, reader->job, loss->group, &found) : ROTID_OK;
+    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    if (status || !reader->job->measurement.nmode || !found.count) {
+        deck_error(
+            reader, place,
+            "no measured mode says what %s loses, expected damping ratios in *MODES, of modes that bend it, or a loss factor "
+            "without TEST",
+            name);
+        return;
+    }
+    loss->value = found.value[loss->viscous];
+    loss->std = found.std[loss->viscous];
+    deck_note(reader, place,
+              "%s has a loss factor of %.3g (standard deviation %.2g) or a viscous loss of %.3g s (%.2g s) by the damping of %d "
+              "mode%s, of which the %s is taken: losses of supports and air at the test are in it",
+              name, found.value[0], found.std[0], found.value[1], found.std[1], found.count, found.count > 1 ? "s" : "",
+              loss->viscous ? "second" : "first");
+}
+
 void deck_loss(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
     const struct card_option *type = card_option(card, "TYPE");
     static const char *const types[] = {"HYSTERETIC", "VISCOUS", NULL};
-    int viscous = type ? deck_option_word(reader, type, types) : 0;
+    int viscous = type ? deck_option_word(reader, type, types) : 0, test = card_option(card, "TEST") != NULL;
     for (int i = 0; i < card->nline && viscous >= 0; i++) {
         const struct data_line *line = &card->line[i];
-        struct loss loss = {.group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous};
-        int bad = loss.group < 0 || deck_count(reader, line, 3, reader->layout);
-        bad = bad || deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
+        struct loss loss = {
+            .group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous, .from_test = test};
+        int bad = loss.group < 0 || deck_count(reader, line, test ? 1 : 3, test ? "group alone with TEST" : reader->layout);
+        if (test && !bad)
+            settle_loss(reader, line->place, &loss);
+        bad = bad || test ? bad
+                          : deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
         if (!bad && deck_has(line, 2))
             bad = deck_number(reader, line, 2, "standard deviation of the loss", NOT_NEGATIVE, &loss.std);
         struct loss *added = bad ? NULL : DECK_APPEND(reader, machine->loss, machine->nloss, reader->running_room[1]);
@@ -413,12 +476,17 @@ void deck_change(struct deck_reader *reader, const struct card *card)
 void deck_unbalance(struct deck_reader *reader, const struct card *card)
 {
     struct machine *machine = reader->machine;
-    int lines = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    const struct card_option *grade = card_option(card, "G");
+    double g = 0;
+    int lines = grade && deck_option_number(reader, grade, "mm/s", POSITIVE, &g)
+                    ? 0
+                    : deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
     for (int i = 0; i < lines; i++) {
         const struct data_line *line = &card->line[i];
-        struct unbalance u = {0};
+        struct unbalance u = {.grade = g / 1000};
         int bad = deck_count(reader, line, 3, reader->layout) || deck_position(reader, &line->field[0], "position", &u.z) ||
-                  deck_number(reader, line, 1, "unbalance [kg.m]", NOT_NEGATIVE, &u.value);
+                  deck_number(reader, line, 1, g > 0 ? "share of the permissible unbalance" : "unbalance [kg.m]", NOT_NEGATIVE,
+                              &u.value);
         if (!bad && deck_has(line, 2))
             bad = deck_number(reader, line, 2, "phase [deg]", ANY, &u.phase);
         u.phase *= DEGREE;
@@ -468,12 +536,164 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
                    "the running range goes from %g down to %g rpm, expected the lowest speed "
                    "first",
                    machine->low, machine->high);
-    if (margin && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) && machine->margin >= 1)
+    machine->api617 = margin && same_text(margin->value, "API617");
+    reader->margin_place = margin ? margin->value_place : card->place;
+    if (margin && !machine->api617 && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) &&
+        machine->margin >= 1)
         deck_error(reader, margin->value_place, "MARGIN=%s is %g %% of the speed, expected a share below 1", margin->value,
                    100 * machine->margin);
     machine->low *= RPM;
     machine->high *= RPM;
     machine->has_operation = 1;
+}
+
+void deck_runup(struct deck_reader *reader, const struct card *card)
+{
+    struct machine *machine = reader->machine;
+    int lines = deck_lines(reader, card, 1, DECK_MOST_MODES, reader->layout);
+    for (int i = 0; i < lines; i++) {
+        const struct data_line *line = &card->line[i];
+        struct runup_reading reading = {.place = {line->place.file, line->place.line, line->place.column}};
+        int bad = deck_count(reader, line, 4, reader->layout) |
+                  deck_integer(reader, line, 0, "number of the critical speed", 1, DECK_MOST_MODES, &reading.number) |
+                  deck_number(reader, line, 1, "critical speed [rpm]", POSITIVE, &reading.speed) |
+                  deck_number(reader, line, 2, "standard deviation of it [rpm]", POSITIVE, &reading.std);
+        if (!bad && deck_has(line, 3)) {
+            reading.backward = same_text(line->field[3].text, "BACKWARD");
+            bad = !reading.backward && !same_text(line->field[3].text, "FORWARD");
+            if (bad)
+                deck_error(reader, line->field[3].place, "%s is no whirl, expected FORWARD or BACKWARD", line->field[3].text);
+        }
+        for (int j = 0; j < machine->nrunup && !bad; j++)
+            if (machine->runup[j].number == reading.number && machine->runup[j].backward == reading.backward) {
+                deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
+                           reading.number);
+                bad = 1;
+            }
+        reading.speed *= RPM;
+        reading.std *= RPM;
+        struct runup_reading *added = bad ? NULL : DECK_APPEND(reader, machine->runup, machine->nrunup, reader->running_room[7]);
+        if (added) {
+            *added = reading;
+            machine->nrunup++;
+        }
+    }
+}
+
+/* NAME.k or NAME.c of a *BEARING: -1 after an error. */
+static int unknown_bearing(struct deck_reader *reader, const struct field *field, int *damping)
+{
+    const struct machine *machine = reader->machine;
+    const char *dot = strrchr(field->text, '.'),
+               *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - field->text), field->text) : NULL;
+    *damping = dot && same_text(dot + 1, "c");
+    for (int i = 0; i < machine->nbearing && name && (*damping || same_text(dot + 1, "k")); i++) {
+        const struct bearing *b = &machine->bearing[i];
+        if (!b->name || !same_text(b->name, name))
+            continue;
+        if (b->like == i)
+            return i;
+        deck_error(reader, field->place, "%s is like %s, expected %s.%s", name, machine->bearing[b->like].name,
+                   machine->bearing[b->like].name, dot + 1);
+        return -1;
+    }
+    deck_error(reader, field->place,
+               "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
+               field->text);
+    return -1;
+}
+
+/* *IDENTIFY behind *RUNNING */
+static void add_unknowns(struct deck_reader *reader, const struct card *card)
+{
+    const char *layout = deck_card_find("IDENTIFY")->lines;
+    struct machine *machine = reader->machine;
+    for (int i = 0, count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout); i < count; i++) {
+        const struct data_line *line = &card->line[i];
+        struct machine_unknown u = {.bounds = {.name = line->field[0].text, .unit = "1"}};
+        u.bearing = unknown_bearing(reader, &line->field[0], &u.damping);
+        int bad = u.bearing < 0 || deck_count(reader, line, 4, layout);
+        bad = bad || deck_number(reader, line, 1, "lower bound", POSITIVE, &u.bounds.lower) |
+                         deck_number(reader, line, 2, "upper bound", POSITIVE, &u.bounds.upper) |
+                         deck_number(reader, line, 3, "start", POSITIVE, &u.bounds.start);
+        if (!bad && !(u.bounds.lower < u.bounds.start && u.bounds.start < u.bounds.upper)) {
+            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", u.bounds.name,
+                       line->field[3].text);
+            bad = 1;
+        }
+        for (int j = 0; j < reader->job->unknowns.nparameter && !bad; j++)
+            bad = same_text(reader->job->unknowns.bounds[j].name, u.bounds.name);
+        for (int j = 0; j < machine->nunknown && !bad; j++)
+            bad = machine->unknown[j].bearing == u.bearing && machine->unknown[j].damping == u.damping;
+        if (bad && u.bearing >= 0 && !reader->messages->errors)
+            deck_error(reader, line->field[0].place, "%s is given twice, expected once", u.bounds.name);
+        struct machine_unknown *added =
+            bad ? NULL : DECK_APPEND(reader, machine->unknown, machine->nunknown, reader->running_room[8]);
+        if (!added)
+            continue;
+        *added = u;
+        for (int j = u.bearing; j < machine->nbearing; j++)
+            if (machine->bearing[j].like == u.bearing)
+                machine->bearing[j].unknown[u.damping] = reader->job->unknowns.nparameter + machine->nunknown;
+        machine->nunknown++;
+    }
+}
+
+/* U = G m/W of ISO 21940-11: m of the machine, W its highest running speed. */
+static void settle_unbalances(struct deck_reader *reader, const struct place running)
+{
+    struct machine *machine = reader->machine;
+    const struct rotor *rotor = &reader->job->rotor;
+    struct mass_properties mass = {0};
+    int graded = 0, status;
+    for (int i = 0; i < machine->nunbalance; i++)
+        graded |= machine->unbalance[i].grade > 0;
+    if (!graded)
+        return;
+    if (!machine->has_operation) {
+        deck_error(reader, running, "*UNBALANCE, G= is a grade at the highest running speed, expected *OPERATION with it");
+        return;
+    }
+    status = model_weigh(reader->pool, NULL, rotor, 0, NULL, NULL, &mass);
+    reader->out_of_memory |= status != ROTID_OK;
+    for (int i = 0; i < machine->ndisk; i++)
+        mass.mass += machine->disk[i].mass;
+    for (int i = 0; i < rotor->ndisk; i++)
+        mass.mass -= machine->without_disk[i] ? rotor->disk[i].mass : 0;
+    for (int i = 0; i < machine->nunbalance; i++)
+        if (machine->unbalance[i].grade > 0)
+            machine->unbalance[i].value *= machine->unbalance[i].grade * mass.mass / machine->high;
+}
+
+/* Whether a *FIT holds out the run-up; its place. */
+static const struct card_option *held_runup(const struct deck_text *text)
+{
+    for (int c = 0; c < text->ncard; c++) {
+        const struct card_option *holdout = is(&text->card[c], "FIT") ? card_option(&text->card[c], "HOLDOUT") : NULL;
+        const char *rest = holdout ? holdout->value : NULL;
+        if (rest && deck_whole_runup(&rest))
+            return holdout;
+    }
+    return NULL;
+}
+
+/* What was measured of the machine beside what is to be identified. */
+static void check_runup(struct deck_reader *reader, const struct place running)
+{
+    struct machine *machine = reader->machine;
+    const struct job *job = reader->job;
+    const struct card_option *held = held_runup(&reader->text);
+    machine->runup_held = held != NULL;
+    if (held && !machine->nrunup)
+        deck_error(reader, held->value_place, "HOLDOUT=RUNUP, but the machine has no *RUNUP, expected measured critical speeds");
+    if (machine->nunknown && (!machine->nrunup || held))
+        deck_error(reader, running, "%s is to be identified%s, expected *RUNUP with measured critical speeds that are fitted",
+                   machine->unknown[0].bounds.name, held ? " and the run-up is held out" : "");
+    if (machine->nrunup && !held && job->measurement.nmode && job->options.fit.functional != ROTID_LIKELIHOOD)
+        deck_error(
+            reader, running,
+            "*RUNUP is weighed by its standard deviation, expected *FIT, FUNCTIONAL=LIKELIHOOD with the noise of the modes, "
+            "or HOLDOUT=RUNUP");
 }
 
 static void add_disk(struct deck_reader *reader, const struct card *card)
@@ -519,6 +739,9 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                               .job = job,
                               .length = rotor_length(&job->rotor)};
     const struct card *none = NULL;
+    if (!reader->nrunning && held_runup(&reader->text))
+        deck_error(reader, held_runup(&reader->text)->value_place,
+                   "HOLDOUT=RUNUP, but the deck has no machine, expected *RUNNING with *RUNUP");
     if (!reader->nrunning)
         return;
     for (int c = 0; c < reader->text.ncard; c++)
@@ -533,11 +756,16 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
             const struct card *card = &reader->running[c];
             const struct deck_card *kind = deck_card_find(card->name);
             none = card;
-            if (!kind || (is(card, "DISK") ? 10 : kind->phase) != phase)
+            int borrowed = is(card, "DISK") || is(card, "IDENTIFY"); /* from the cards of the rotor at rest */
+            if (!kind || (borrowed ? 10 : kind->phase) != phase)
                 continue;
             own.layout = kind->lines;
             if (is(card, "DISK"))
                 add_disk(&own, card);
+            else if (is(card, "IDENTIFY"))
+                add_unknowns(&own, card);
+            else if (kind->once && own.seen[kind - deck_card_table]++)
+                deck_error(&own, card->place, "*%s is given twice, expected once", card->name);
             else
                 kind->read(&own, card);
         }
@@ -553,6 +781,13 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         deck_error(reader, reader->running[0].place,
                    "the machine has no *BEARING: a free rotor has no critical speed, expected at "
                    "least one");
+    if (!reader->messages->errors)
+        settle_unbalances(&own, reader->running[0].place);
+    reader->out_of_memory |= own.out_of_memory;
+    if (own.machine->api617 && (!own.machine->nunbalance || !own.machine->nprobe))
+        deck_error(reader, own.margin_place,
+                   "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");
+    check_runup(&own, reader->running[0].place);
     doubt_disks(&own, reader->running[0].place);
     for (int s = 0; s < states->nstate; s++) {
         states->state[s].job.nfile = own.text.nfile;

@@ -77,6 +77,7 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
             continue;
         if (option)
             check_option(reader, d, option, option->value);
+        (void)deck_whole_runup(&rest);
         while ((held = deck_whole_state(reader, &rest)))
             check_option(reader, d, holdout, held);
         d->chosen = option ? option->value : d->chosen;
@@ -128,7 +129,12 @@ static void text_of_state(struct deck_reader *reader, const struct division *d, 
 
 static void read_one(struct deck_reader *reader, const struct division *d, int s, struct message_list *messages, struct state *to)
 {
-    struct deck_reader own = {.pool = reader->pool, .messages = messages, .text = reader->text, .job = &to->job};
+    struct deck_reader own = {.pool = reader->pool,
+                              .messages = messages,
+                              .text = reader->text,
+                              .job = &to->job,
+                              .nrunning = reader->nrunning,
+                              .running = reader->running};
     to->name = d->nstate ? name_of(d->state[s]) : NULL;
     to->job = *reader->job;
     own.state = to->name;

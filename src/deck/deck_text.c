@@ -141,9 +141,10 @@ static struct place at(const struct reader *reader, const char *line_begin, cons
 /* Whether a piece goes on with a list: of numbers, or of states. */
 static int is_next_item(const char *list, const char *begin, const char *end)
 {
-    int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && !strncasecmp(list, "STATE:", 6);
-    return state ||
-           (!memchr(begin, '=', (size_t)(end - begin)) && isdigit((unsigned char)*begin) && isdigit((unsigned char)*list));
+    int runup = !strncasecmp(list, "RUNUP", 5); /* which comes first in a HOLDOUT */
+    int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && (runup || !strncasecmp(list, "STATE:", 6));
+    return state || (!memchr(begin, '=', (size_t)(end - begin)) && isdigit((unsigned char)*begin) &&
+                     (runup || isdigit((unsigned char)*list)));
 }
 
 /* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2 or HOLDOUT=STATE:a, the next item of the

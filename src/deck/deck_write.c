@@ -7,6 +7,7 @@
  *   3 read      the whole text as any deck is read
  *   4 compare   deck_compare.c: nothing differs: done; else step 2 with more, as long as there is more that can be stated */
 #include "deck/deck_row.h"
+#include "running/running.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -351,6 +352,14 @@ static void set_or_drop(struct writing *w, int at, const char *option, const cha
         deck_edit_set(&w->edit, at, option, value && *value ? value : NULL);
 }
 
+/* "RUNUP, 1-3": HOLDOUT with the measured critical speeds, which are not the writer's to take away. */
+static const char *with_runup(const struct writing *w, const char *list)
+{
+    const struct machine *machine = w->meant.machine;
+    return !machine || !machine->runup_held ? list
+                                            : pool_format(w->pool, "RUNUP%s%s", list && *list ? ", " : "", list ? list : "");
+}
+
 static int is_held_out(const struct job *job)
 {
     int fitted = 0;
@@ -373,12 +382,12 @@ static void edit_holdout(struct writing *w)
             deck_put_holdout(&modes);
         int at = w->of[s] < 0 ? fit : find_card(w, "STATE", w->of[s]);
         set_or_drop(w, at, "MODES", NULL);
-        set_or_drop(w, at, "HOLDOUT", modes.text);
+        set_or_drop(w, at, "HOLDOUT", w->of[s] < 0 ? with_runup(w, modes.text) : modes.text);
     }
     if (w->of[0] < 0 || w->edit.status)
         return;
     set_or_drop(w, fit, "MODES", NULL);
-    set_or_drop(w, fit, "HOLDOUT", whole.text);
+    set_or_drop(w, fit, "HOLDOUT", with_runup(w, whole.text));
     w->edit.status = whole.status;
 }
 

@@ -430,7 +430,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
 {
     const rotid_fit_options *options = &fit->options;
     int n = fit->n, status = joint_new(pool, options->functional, options->reduction, options->derivative, n, problem->nstate,
-                                       problem->state, &fit->joint);
+                                       problem->state, problem->more, &fit->joint);
     int m = fit->joint.nresidual;
     for (int s = 0; s < problem->nstate && !status; s++)
         fit->joint.part[s].functional.prediction.failure = fit->failure;
@@ -588,9 +588,9 @@ static int take_states(struct pool *pool, int nstate, const rotid_state *given, 
     return status;
 }
 
-int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
-                     const rotid_fit_options *options, const rotid_environment *environment, char *failure,
-                     rotid_fit_result **result)
+int fit_states_more(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
+                    const struct joint_more *more, const rotid_fit_options *options, const rotid_environment *environment,
+                    char *failure, rotid_fit_result **result)
 {
     struct entry entry;
     struct joint_state *own;
@@ -608,10 +608,18 @@ int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rot
     if (!status)
         status = take_states(&entry.scratch, nstate, state, failure, &own);
     if (!status) {
-        const struct fit_problem problem = {.nstate = nstate, .nparam = nparam, .named = 1, .state = own, .parameter = parameter};
+        const struct fit_problem problem = {
+            .nstate = nstate, .nparam = nparam, .named = 1, .state = own, .parameter = parameter, .more = more};
         status = make_result(&entry, &problem, &own_options, result);
     }
     return entry_close(&entry, status);
+}
+
+int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
+                     const rotid_fit_options *options, const rotid_environment *environment, char *failure,
+                     rotid_fit_result **result)
+{
+    return fit_states_more(nstate, state, nparam, parameter, NULL, options, environment, failure, result);
 }
 
 void rotid_fit_free(rotid_fit_result *result)

@@ -86,7 +86,13 @@ struct fit_problem {
     int named;                        /* the host knows its states: reasons say which */
     const struct joint_state *state;  /* [nstate] */
     const rotid_parameter *parameter; /* [nparam] */
+    const struct joint_more *more;    /* residuals beside those of the modes, or NULL */
 };
+
+/* rotid_fit_states with such residuals, whose unknowns may be others than those of the states. */
+int fit_states_more(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
+                    const struct joint_more *more, const rotid_fit_options *options, const rotid_environment *environment,
+                    char *failure, rotid_fit_result **result);
 
 /* ROTID_OK, or ROTID_ERROR_ARGUMENT or _UNPAIRED with the reason in failure. */
 int fit_check(const struct fit_problem *problem, const rotid_fit_options *options, char *failure);

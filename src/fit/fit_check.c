@@ -102,7 +102,7 @@ static int check_use(const struct fit_problem *problem, char *failure)
                     used |= is_fitted(problem->state[s].measured);
                 }
         const char *name = problem->parameter[p].name;
-        if (!used)
+        if (!used && !(problem->more && !known))
             return refuse(failure, "parameter[%d]%s%.40s is used by no state%s, expected one that is fitted", p, name ? " " : "",
                           name ? name : "", known ? " but such as are held out" : "");
     }

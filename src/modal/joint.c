@@ -8,9 +8,13 @@ int joint_unknown(const int *parameter, int q)
 }
 
 int joint_new(struct pool *pool, int kind, int reduction, int derivative, int nparam, int nstate, const struct joint_state *state,
-              struct joint *joint)
+              const struct joint_more *more, struct joint *joint)
 {
-    *joint = (struct joint){.nstate = nstate, .nparam = nparam, .part = POOL_ARRAY(pool, struct joint_part, nstate)};
+    *joint = (struct joint){.nstate = nstate,
+                            .nparam = nparam,
+                            .nresidual = more ? more->count : 0,
+                            .part = POOL_ARRAY(pool, struct joint_part, nstate),
+                            .more = more};
     int status = joint->part ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int s = 0; s < nstate && !status; s++) {
         struct joint_part *part = &joint->part[s];
@@ -41,7 +45,7 @@ int joint_residual(struct joint *joint, const double *x, double *r)
         status = functional_residual(&part->functional, part->x, r);
         r += part->functional.nresidual;
     }
-    return status;
+    return status || !joint->more ? status : joint->more->residual(joint->more->user, x, r);
 }
 
 int joint_jacobian(struct joint *joint, const double *x, double *jacobian)
@@ -62,5 +66,5 @@ int joint_jacobian(struct joint *joint, const double *x, double *jacobian)
         }
         row += m;
     }
-    return status;
+    return status || !joint->more ? status : joint->more->jacobian(joint->more->user, x, joint->nresidual, jacobian + row);
 }

@@ -238,21 +238,32 @@ struct joint_part {
     double *jacobian; /* [nresidual * nparam] of the functional */
 };
 
+/* Residuals beside those of the modes, over the same unknowns: measured critical speeds of a machine. */
+struct joint_more {
+    int count;
+    void *user;
+    /* r [count] at x [nparam], NaN where there is none at this x; a status */
+    int (*residual)(void *user, const double *x, double *r);
+    /* dr/dx at x, column p from jacobian + p rows on; a status */
+    int (*jacobian)(void *user, const double *x, int rows, double *jacobian);
+};
+
 struct joint {
     int nstate, nparam, nresidual;
     int last;                /* state that was evaluated last: of a failure the one that failed */
     struct joint_part *part; /* [nstate] */
+    const struct joint_more *more;
 };
 
 /* Which of the unknowns parameter q of a model is. */
 int joint_unknown(const int *parameter, int q);
 
-/* The unknowns that the states name are below nparam. Statuses of functional_new. */
+/* The unknowns that the states name are below nparam. more: or NULL. Statuses of functional_new. */
 int joint_new(struct pool *pool, int kind, int reduction, int derivative, int nparam, int nstate, const struct joint_state *state,
-              struct joint *joint);
+              const struct joint_more *more, struct joint *joint);
 
-/* r [nresidual] at x [nparam]: state by state, as functional_residual has them. Allocates nothing. Statuses of that, of the first
- * state without a residual. */
+/* r [nresidual] at x [nparam]: state by state, as functional_residual has them, then those of `more`. Allocates nothing. Statuses
+ * of that, of the first state without a residual. */
 int joint_residual(struct joint *joint, const double *x, double *r);
 
 /* dr/dx [nresidual * nparam] at the x of the last joint_residual. Parameters of a model that are one unknown add up. */

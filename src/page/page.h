@@ -127,7 +127,7 @@ void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);
 void section_transfer(struct document *document, const struct result *result);
 void section_speeds(struct document *document, const struct result *result);
-const char *answer_of_speeds(struct pool *pool, const struct speeds *speeds);
+const char *answer_of_speeds(struct pool *pool, const rotid_speeds *speeds);
 /* of all states */
 void section_identify(struct document *document, const struct result *result);
 void section_trust(struct document *document, const struct result *result);

@@ -6,20 +6,20 @@
 #include "running/running.h"
 
 /* The judged critical speed with the least margin, NULL where none is judged. */
-static const struct critical_speed *nearest(const struct speeds *s)
+static const rotid_critical_speed *nearest(const rotid_speeds *s)
 {
-    const struct critical_speed *least = NULL;
+    const rotid_critical_speed *least = NULL;
     for (int i = 0; i < s->ncritical_speeds; i++) {
-        const struct critical_speed *c = &s->critical_speeds[i];
+        const rotid_critical_speed *c = &s->critical_speeds[i];
         if (isfinite(c->margin.value) && (!least || c->margin.value < least->margin.value))
             least = c;
     }
     return least;
 }
 
-const char *answer_of_speeds(struct pool *pool, const struct speeds *s)
+const char *answer_of_speeds(struct pool *pool, const rotid_speeds *s)
 {
-    const struct critical_speed *c = nearest(s);
+    const rotid_critical_speed *c = nearest(s);
     if (c)
         return speeds_judgement(pool, c, s);
     if (!s->ncritical_speeds)
@@ -32,7 +32,7 @@ const char *answer_of_speeds(struct pool *pool, const struct speeds *s)
 
 void section_speeds(struct document *document, const struct result *result)
 {
-    const struct speeds *s = result->speeds;
+    const rotid_speeds *s = result->speeds;
     struct pool *pool = document->pool;
     document_section(document, "operation", "The machine in operation");
     if (isfinite(s->stability.onset_rpm))
@@ -43,6 +43,8 @@ void section_speeds(struct document *document, const struct result *result)
                            human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
+    if (s->nrunup)
+        document_table(document, table_of_runup(pool, s->nrunup, s->runup));
     if (s->ncritical_speeds && s->critical_speeds[0].nvariance_shares)
         document_table(document, table_of_shares(pool, s));
 }

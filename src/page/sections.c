@@ -13,6 +13,8 @@ void section_agreement(struct document *document, const struct result *result)
     document_figures(document, "agreement");
     document_figures(document, "matrices");
     document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
+    if (result->identify->nrunup)
+        document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
 }
 
 void section_identify(struct document *document, const struct result *result)
@@ -176,6 +178,11 @@ void section_suggest(struct document *document, const struct result *result)
         document_figures(document, "tests");
         document_table(document, table_of_tests(pool, s));
         document_table(document, table_of_rivals(pool, s));
+    }
+    if (isfinite(s->speed_rpm)) {
+        document_section(document, "tests", "Tests at rest for a critical speed");
+        document_table(document, table_of_speed_tests(pool, s));
+        return;
     }
     document_section(document, "sensors", "Sensors and modes");
     document_figures(document, "sensors");

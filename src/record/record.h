@@ -13,6 +13,7 @@
  *   record_identify.c    identification: parameters with intervals, compared modes, shapes, minimisers, noise, hidden causes
  *   record_diagnose.c    diagnosis: verdict, findings, rounds, candidates, gain, detection limits
  *   record_suggest.c     suggestion: plans of sensors, rivals, proposed tests
+ *   record_speeds.c      the machine in operation: critical speeds, Campbell diagram, response, run-up
  *   rows.h               macros that make a row of a member (NUMBER, TEXT, WORD, ...), for these files and for src/result
  * A word of a result (LIKELIHOOD, named, ...) is an index into a list such as functional_words; cards use the same lists.
  *
@@ -26,9 +27,9 @@
 
 /* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
 
-extern const char *const functional_words[], *const reduction_words[], *const derivative_words[], *const pairing_words[],
-                                                                                                      *const fit_status_words[],
-                                                                                                          *const verdict_words[];
+extern const char *const functional_words[],
+    *const reduction_words[], *const derivative_words[], *const pairing_words[], *const fit_status_words[],
+                                                                                     *const verdict_words[], *const whirl_words[];
 
 /* ---------------------------------------------------------------------------------------------------------------- record */
 
@@ -123,9 +124,14 @@ extern const struct record verdict_record;              /* rotid_verdict */
 extern const struct record data_finding_record;         /* rotid_data_finding */
 extern const struct record cause_record;                /* rotid_cause */
 extern const struct record detectable_record;           /* rotid_detectable */
+extern const struct record speed_margin_record;         /* rotid_speed_margin */
+extern const struct record stability_record;            /* rotid_stability */
+extern const struct record runup_record;                /* rotid_runup_speed */
+extern const struct record speeds_record;               /* rotid_speeds */
 
 extern const struct record message_record; /* the texts of a rotid_message, which no file has */
 /* The same with the members that no file has, but for the fits: what a host is given. */
-extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record, suggestion_whole_record;
+extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record, suggestion_whole_record,
+    speeds_whole_record;
 
 #endif

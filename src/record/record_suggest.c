@@ -64,6 +64,15 @@ static const struct record_field test_fields[] = {
 };
 static const struct record test_record = RECORD(rotid_suggested_test, test_fields);
 
+static const struct record_field speed_test_fields[] = {
+    TEXT(rotid_speed_test, test, 0),
+    INTEGER(rotid_speed_test, modes, FROM_1),
+    NUMBER(rotid_speed_test, std_rpm, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_speed_test, narrowed_percent, MAY_BE_NULL),
+    {0},
+};
+static const struct record speed_test_record = RECORD(rotid_speed_test, speed_test_fields);
+
 static const struct record_field suggestion_fields[] = {
     STRUCTS(rotid_suggestion, parameters, 0, fitted_parameter_record),
     STRUCT(rotid_suggestion, noise, 0, noise_record),
@@ -85,6 +94,10 @@ static const struct record_field suggestion_fields[] = {
     TEXT(rotid_suggestion, state, MAY_BE_NULL),
     TEXT(rotid_suggestion, sentence, 0),
     STRUCT(rotid_suggestion, geometry, BEHIND_POINTER, geometry_record),
+    NUMBER(rotid_suggestion, speed_rpm, MAY_BE_NULL | ABOVE_0 | SINCE_LATER),
+    NUMBER(rotid_suggestion, speed_std, MAY_BE_NULL | FROM_0 | SINCE_LATER),
+    NUMBER(rotid_suggestion, speed_identified, MAY_BE_NULL | FROM_0 | SINCE_LATER),
+    STRUCTS(rotid_suggestion, speed_tests, SINCE_LATER, speed_test_record),
     {0},
 };
 const struct record suggestion_record = RECORD(rotid_suggestion, suggestion_fields);

@@ -240,6 +240,7 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     else
         screen_table(to, table_of_compared_modes(to->pool, &result->head, 0, fit, NULL));
     print_rms(out, fit);
+    screen_table(to, table_of_runup(to->pool, fit->nrunup, fit->runup));
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
         screen_say(to,
                    "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies "

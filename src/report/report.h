@@ -373,6 +373,7 @@ struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);
 struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of);
 struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema);
+struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);
@@ -389,14 +390,13 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
-struct speeds;
-struct critical_speed;
-struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_shares(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_campbell(struct pool *pool, const struct speeds *speeds);
-struct table *table_of_response(struct pool *pool, const struct speeds *speeds);
+struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list);
+struct table *table_of_shares(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_campbell(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
 /* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
-const char *speeds_judgement(struct pool *pool, const struct critical_speed *critical, const struct speeds *speeds);
+const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *critical, const rotid_speeds *speeds);
 
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 

@@ -4,13 +4,13 @@
 #include "report/report.h"
 #include "running/running.h"
 
-struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *s)
+struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
         table_open(pool, s->harmonic == 1 ? "CRITICAL SPEEDS: Im lambda = speed"
                                           : pool_format(pool, "CRITICAL SPEEDS: Im lambda = %g times the speed", s->harmonic));
     for (int i = 0; i < s->ncritical_speeds; i++) {
-        const struct critical_speed *c = &s->critical_speeds[i];
+        const rotid_critical_speed *c = &s->critical_speeds[i];
         table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, c->number);
         number_column(t, "critical speed", "rpm", SHOW_FIXED(1), c->speed_rpm);
@@ -26,7 +26,24 @@ struct table *table_of_critical_speeds(struct pool *pool, const struct speeds *s
     return t;
 }
 
-struct table *table_of_shares(struct pool *pool, const struct speeds *s)
+struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list)
+{
+    struct table *t = table_open(pool, count && list[0].holdout ? "RUN-UP, held out: measured critical speeds beside the model's"
+                                                                : "RUN-UP: measured critical speeds beside the model's");
+    for (int i = 0; i < count; i++) {
+        table_row(t);
+        number_column(t, "no.", NULL, SHOW_COUNT, list[i].number);
+        text_column(t, "whirl", SHOW_TEXT, list[i].whirl);
+        number_column(t, "measured", "rpm", SHOW_FIXED(1), list[i].measured_rpm);
+        number_column(t, "std", "rpm", SHOW_DIGITS(3), list[i].measured_std);
+        number_column(t, "predicted", "rpm", SHOW_FIXED(1), list[i].predicted_rpm);
+        number_column(t, "std of it", "rpm", SHOW_DIGITS(3), list[i].predicted_std);
+        number_column(t, "z", NULL, SHOW_SIGNED(1), list[i].z);
+    }
+    return t;
+}
+
+struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
     for (int i = 0; i < s->ncritical_speeds && s->critical_speeds[i].nvariance_shares; i++) {
@@ -39,12 +56,12 @@ struct table *table_of_shares(struct pool *pool, const struct speeds *s)
     return t;
 }
 
-static struct table *table_of_peaks(struct pool *pool, const struct speeds *s)
+static struct table *table_of_peaks(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "UNBALANCE RESPONSE: amplitudes zero to peak, amplification by half power");
     for (int i = 0; i < s->ncritical_speeds; i++)
         for (int p = 0; p < s->critical_speeds[i].npeaks; p++) {
-            const struct peak *peak = &s->critical_speeds[i].peaks[p];
+            const rotid_response_peak *peak = &s->critical_speeds[i].peaks[p];
             table_row(t);
             number_column(t, "critical speed", NULL, SHOW_COUNT, i + 1);
             text_column(t, "probe", SHOW_TEXT, peak->probe);
@@ -55,12 +72,12 @@ static struct table *table_of_peaks(struct pool *pool, const struct speeds *s)
     return t;
 }
 
-static struct table *table_of_loads(struct pool *pool, const struct speeds *s)
+static struct table *table_of_loads(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
         table_open(pool, pool_format(pool, "BEARING LOADS: weight %.5g N, sag %.4g mm", s->weight_n, 1000 * s->sag_m));
     for (int i = 0; i < s->nbearing_loads; i++) {
-        const struct bearing_load *load = &s->bearing_loads[i];
+        const rotid_bearing_load *load = &s->bearing_loads[i];
         table_row(t);
         text_column(t, "bearing", SHOW_TEXT, load->bearing ? load->bearing : pool_format(pool, "%d", i + 1));
         number_column(t, "position", "m", SHOW_FIXED(4), load->position_m);
@@ -70,12 +87,12 @@ static struct table *table_of_loads(struct pool *pool, const struct speeds *s)
     return t;
 }
 
-struct table *table_of_campbell(struct pool *pool, const struct speeds *s)
+struct table *table_of_campbell(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "Campbell diagram");
     for (int i = 0; i < s->ncampbell; i++)
         for (int j = 0; j < s->campbell[i].nmodes; j++) {
-            const struct campbell_mode *m = &s->campbell[i].modes[j];
+            const rotid_campbell_mode *m = &s->campbell[i].modes[j];
             table_row(t);
             number_column(t, "speed", "rpm", SHOW_FIXED(1), s->campbell[i].speed_rpm);
             number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
@@ -89,7 +106,7 @@ struct table *table_of_campbell(struct pool *pool, const struct speeds *s)
     return t;
 }
 
-struct table *table_of_response(struct pool *pool, const struct speeds *s)
+struct table *table_of_response(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "Unbalance response");
     for (int p = 0; p < s->nunbalance; p++)
@@ -103,7 +120,7 @@ struct table *table_of_response(struct pool *pool, const struct speeds *s)
     return t;
 }
 
-const char *speeds_judgement(struct pool *pool, const struct critical_speed *c, const struct speeds *s)
+const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, const rotid_speeds *s)
 {
     double judged = c->npeaks ? c->peaks[0].speed_rpm : c->speed_rpm;
     const char *band = isfinite(c->ci95[0]) ? pool_format(pool, " (%.0f to %.0f)", c->ci95[0], c->ci95[1]) : "",
@@ -125,7 +142,7 @@ const char *speeds_judgement(struct pool *pool, const struct critical_speed *c, 
 
 void screen_speeds(const struct screen *to, const struct result *result)
 {
-    const struct speeds *s = result->speeds;
+    const rotid_speeds *s = result->speeds;
     screen_heading(to, &result->head);
     for (int i = 0; i < s->ncritical_speeds; i++) {
         const char *text =
@@ -140,6 +157,7 @@ void screen_speeds(const struct screen *to, const struct result *result)
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));
+    screen_table(to, table_of_runup(to->pool, s->nrunup, s->runup));
     screen_table(to, table_of_shares(to->pool, s));
     screen_table(to, table_of_peaks(to->pool, s));
     screen_table(to, table_of_loads(to->pool, s));

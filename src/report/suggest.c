@@ -168,12 +168,36 @@ static void print_wanted(const struct screen *to, const rotid_suggestion *s)
                    s->ncounts ? s->counts[s->ncounts - 1].sensors : 0);
 }
 
+struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
+{
+    struct table *table =
+        table_open(pool, "Tests at rest: standard deviation of the critical speed that is expected behind each");
+    if (table)
+        table->note = pool_format(pool, "As measured %s rpm, %.0f %% of that variance by the unknowns. In linear prediction.",
+                                  isfinite(s->speed_std) ? pool_format(pool, "%.3g", s->speed_std) : "not known,",
+                                  100 * s->speed_identified);
+    for (int i = 0; i < s->nspeed_tests; i++) {
+        table_row(table);
+        text_column(table, "test", SHOW_TEXT, s->speed_tests[i].test);
+        number_column(table, "modes", NULL, SHOW_COUNT | DETAIL, s->speed_tests[i].modes);
+        number_column(table, "std", "rpm", SHOW_DIGITS(4), s->speed_tests[i].std_rpm);
+        number_column(table, "narrower by", "%", SHOW_FIXED(1), s->speed_tests[i].narrowed_percent);
+    }
+    return table;
+}
+
 void screen_suggest(const struct screen *to, const struct result *result)
 {
     const rotid_suggestion *s = result->suggest;
     screen_heading(to, &result->head);
     (void)fputs("\nSUGGESTION\n", to->out);
     wrap_text(to->out, 2, to->width, "  ", s->sentence);
+    if (isfinite(s->speed_rpm)) {
+        (void)fprintf(to->out, "  noise of frequencies: %.3g %%%s\n", 100 * s->noise.frequency,
+                      s->noise.frequency_assumed ? " (assumed)" : "");
+        screen_table(to, table_of_speed_tests(to->pool, s));
+        return;
+    }
     if (s->verdict)
         wrap_text(to->out, 2, to->width, "  diagnosis: ", s->verdict);
     if (s->state)

@@ -4,7 +4,7 @@
 
 const char *const score_words[] = {"quiet",  "false_alarm", "right", "in_set", "other_set",
                                    "silent", "unexplained", "wrong", NULL};
-static const char *const studies[] = {"identify", "diagnose", NULL};
+static const char *const studies[] = {"identify", "diagnose", "speeds", NULL};
 
 static const struct record_field digests_fields[] = {
     TEXT(struct study_digests, plan, 0),

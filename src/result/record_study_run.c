@@ -73,6 +73,26 @@ static const struct record_field diagnosis_fields[] = {
 };
 static const struct record diagnosis_record_of_run = RECORD(rotid_diagnosis, diagnosis_fields);
 
+static const struct record_field critical_fields[] = {
+    INTEGER(rotid_critical_speed, number, FROM_1),
+    NUMBER(rotid_critical_speed, speed_rpm, ABOVE_0),
+    NUMBER(rotid_critical_speed, std, MAY_BE_NULL | FROM_0),
+    INTERVAL(rotid_critical_speed, ci95, ELEMENTS_MAY_BE_NULL),
+    TEXT_OF(rotid_critical_speed, whirl, 0, whirl_words),
+    NUMBER(rotid_critical_speed, log_decrement, 0),
+    STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
+    {0},
+};
+static const struct record critical_record = RECORD(rotid_critical_speed, critical_fields);
+
+static const struct record_field speeds_fields[] = {
+    STRUCTS(rotid_speeds, critical_speeds, 0, critical_record),
+    STRUCT(rotid_speeds, stability, 0, stability_record),
+    STRUCTS(rotid_speeds, runup, 0, runup_record),
+    {0},
+};
+static const struct record speeds_record_of_run = RECORD(rotid_speeds, speeds_fields);
+
 static const struct record_field stamp_fields[] = {
     TEXT(struct study_run, study, 0),
     TEXT(struct study_run, digest, 0),
@@ -92,6 +112,7 @@ static const struct record_field run_fields[] = {
     STRUCT(struct study_run, hidden, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, hidden_record),
     INLINE(struct study_run, fit, IF_KNOWN | BEHIND_POINTER, fit_record),
     INLINE(struct study_run, diagnosis, IF_KNOWN | BEHIND_POINTER, diagnosis_record_of_run),
+    INLINE(struct study_run, speeds, IF_KNOWN | BEHIND_POINTER, speeds_record_of_run),
     WORD(struct study_run, score, IF_KNOWN, score_words),
     INTEGER(struct study_run, false_findings, IF_KNOWN | FROM_0),
     TEXTS(struct study_run, warnings, IF_KNOWN),

@@ -370,7 +370,6 @@ extern const struct record provenance_record; /* struct result_head up to comman
 extern const struct record deck_record;       /* the rest, where the command reads a deck */
 
 extern const struct record sensitivity_record;  /* struct sensitivity */
-extern const struct record speeds_record;       /* struct speeds of src/running */
 extern const struct record transfer_record;     /* struct transfer_result */
 extern const struct record ema_record;          /* struct ema_result */
 extern const struct record uff_record;          /* struct uff_result */
@@ -407,8 +406,6 @@ struct result_state {
     const struct transfer_result *frf;
 };
 
-struct speeds; /* of src/running */
-
 struct result {
     struct result_head head;
     /* of the command that head.command names, of several states the first one's; the others are NULL */
@@ -418,7 +415,7 @@ struct result {
     rotid_diagnosis *diagnose;
     rotid_suggestion *suggest;
     const struct sensitivity *sensitivity;
-    const struct speeds *speeds;
+    const rotid_speeds *speeds;
     const struct transfer_result *frf;
     const struct ema_result *ema;
     const struct uff_result *uff;
@@ -528,7 +525,8 @@ struct study_run {
     rotid_component *truth;     /* values of the parameters in the model that made the data, those that are known, by name */
     struct run_hidden *hidden;  /* what acts in the data and not in the fitted model; NULL: nothing */
     rotid_identification *fit;  /* NULL: it failed; history only where the plan has *STARTS, baseline with BASELINE=YES */
-    rotid_diagnosis *diagnosis; /* NULL of an identification */
+    rotid_diagnosis *diagnosis; /* NULL without */
+    rotid_speeds *speeds;       /* of the machine in operation; NULL without */
     int score;                  /* the verdict beside what was hidden, docs/study.md; below 0 where the data are measured */
     int false_findings;         /* faults of the data that were found and not hidden; ROTID_NONE where the data are measured */
     int nwarnings;

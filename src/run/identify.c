@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/fit.h"
 #include "modal/modal.h"
 #include "model/model.h"
 
@@ -62,7 +63,7 @@ static int fit_states(struct pool *pool, const struct states *states, const roti
     for (int s = 0; s < count && !status; s++)
         status = open_state(pool, &states->state[s], &paired[s], &model[s], &measured[s], &state[s]);
     if (!status)
-        status = rotid_fit_states(count, state, states->nparameter, bounds, options, environment, NULL, fit);
+        status = fit_states_more(count, state, states->nparameter, bounds, states->more, options, environment, NULL, fit);
     for (int s = 0, mode = 0; s < count && !status; mode += measured[s].nmode, s++)
         for (int k = 0; k < measured[s].nmode; k++) /* as the mesh that counts has it */
             (*fit)->predicted_hz[mode + k] *= states->state[s].job.measurement.frequency_hz[k] / measured[s].frequency_hz[k];

@@ -310,6 +310,7 @@ struct states {
     int nparameter;
     rotid_parameter *bounds; /* [nparameter] those of the common cards, then those of each state alone, "bearings:front.k" */
     const struct machine *machine; /* the rotor in operation, of src/running, or NULL */
+    const struct joint_more *more; /* residuals of that beside those of the modes (runup_join), or NULL */
 };
 
 /* A job as the only state, at *state, which has no name. Leans on both. */

@@ -7,7 +7,6 @@
 #define STEP        1e-4 /* of a logarithm, on both sides: differences of matrices to 1e-8 */
 #define REDRAWS     1000 /* until a draw lies within the bounds */
 #define FARTHEST    0.5  /* change of a critical speed in one step of a prediction */
-#define SAME        0.3  /* |u'v|^2 of a critical speed's mode at other moduli */
 #define LEAST_DRAWS 20
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
@@ -24,7 +23,7 @@ struct bands {
     struct pool *pool;
     const struct machine *machine;
     const struct job *job;
-    const rotid_fit_result *fit;
+    const rotid_fit_result *fit; /* of the unknowns of the machine */
     const struct speeds_options *options;
     const rotid_environment *environment;
     const struct system *nominal;
@@ -63,22 +62,25 @@ static int find_sources(struct bands *b)
 {
     const struct machine *machine = b->machine;
     const struct job *job = b->job;
-    int n = job->unknowns.nparameter, most = n + 2 * machine->nbearing + machine->nloss + machine->npull + machine->nchange;
+    int n = machine_unknowns(machine, job), most = n + 2 * machine->nbearing + machine->nloss + machine->npull + machine->nchange;
     b->source = POOL_ARRAY(b->pool, struct source, most);
     b->name = POOL_ARRAY(b->pool, const char *, most + 1);
     if (!b->source || !b->name)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n && b->fit; p++)
         if (isfinite(b->fit->std[p]) && machine_has_unknown(machine, job, p))
-            add_source(b, SOURCE_MODULUS, p, job->unknowns.bounds[p].lower > 0, b->fit->std[p], "identified");
+            add_source(b, SOURCE_MODULUS, p, machine_bounds(machine, job, p)->lower > 0, b->fit->std[p], "identified");
     b->nmodulus = b->nsource;
     for (int i = 0; i < machine->nbearing; i++) {
         const struct bearing *own = &machine->bearing[i];
         const char *name = own->name ? pool_format(b->pool, "bearing %s", own->name) : pool_format(b->pool, "bearing %d", i + 1);
         if (own->like != i)
             continue;
-        add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name);
-        add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name);
+        /* what was identified has its deviation from the fit, in place of the one that was stated before it */
+        if (!b->fit || own->unknown[0] < 0)
+            add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name);
+        if (!b->fit || own->unknown[1] < 0)
+            add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name);
     }
     for (int i = 0; i < machine->nloss; i++)
         add_source(b, SOURCE_LOSS, i, 0, machine->loss[i].std,
@@ -116,7 +118,7 @@ static int factor_covariance(struct bands *b)
 
 static int values_new(struct pool *pool, const struct bands *b, struct machine_values *values, double **x)
 {
-    int n = b->job->unknowns.nparameter;
+    int n = machine_unknowns(b->machine, b->job);
     *x = POOL_ARRAY(pool, double, n + 1);
     if (!*x)
         return ROTID_ERROR_MEMORY;
@@ -127,7 +129,7 @@ static int values_new(struct pool *pool, const struct bands *b, struct machine_v
 static void set_values(const struct bands *b, const double *d, double part, double *x, struct machine_values *values)
 {
     const struct machine *machine = b->machine;
-    memcpy(x, b->values->x, (size_t)b->job->unknowns.nparameter * sizeof *x);
+    memcpy(x, b->values->x, (size_t)machine_unknowns(machine, b->job) * sizeof *x);
     for (int j = 0; j < b->nsource; j++) {
         const struct source *source = &b->source[j];
         double by = exp(part * d[j]);
@@ -159,31 +161,13 @@ static void set_values(const struct bands *b, const double *d, double part, doub
     }
 }
 
-/* ---- derivatives: dD/dp by differences of matrices on one basis, d lambda = -l* dD u/(l* D' u), d W = Im d lambda/(h - Im d
- * lambda/dW) */
-
-/* d lambda of a pair of the nominal machine; side [2] are `apart`. work [2 size^2 + size] */
-static double complex rate_of(struct system *nominal, struct system side[2], double apart, double speed, int turn,
-                              const struct pair *pair, double complex *work)
-{
-    size_t size = (size_t)nominal->size;
-    double complex *below = work, *above = work + size * size, *product = work + 2 * size * size;
-    for (int i = 0; i < 2; i++) {
-        system_at(&side[i], speed);
-        system_dynamic(&side[i], pair->lambda, turn, i ? above : below);
-    }
-    memset(product, 0, size * sizeof *product);
-    for (size_t col = 0; col < size; col++)
-        for (size_t row = 0; row < size; row++)
-            product[row] += (above[row + size * col] - below[row + size * col]) / apart * pair->u[col];
-    system_at(nominal, speed);
-    return -pair_share(nominal, pair, product);
-}
+/* ---- derivatives */
 
 static int differentiate(struct bands *b)
 {
     double h = b->options->harmonic;
-    size_t tracks = (size_t)b->tracks->nspeed * (size_t)b->tracks->nmode;
+    int nspeed = b->tracks ? b->tracks->nspeed : 0;
+    size_t tracks = b->tracks ? (size_t)nspeed * (size_t)b->tracks->nmode : 0;
     b->derivative = POOL_ARRAY(b->pool, double, (size_t)b->nsource *(size_t)b->ncritical);
     b->campbell = POOL_ARRAY(b->pool, double, (size_t)b->nsource *tracks);
     if (!b->derivative || !b->campbell)
@@ -210,16 +194,15 @@ static int differentiate(struct bands *b)
         status = !status && !a ? ROTID_ERROR_MEMORY : status;
         for (int i = 0; i < b->ncritical && !status; i++) {
             const struct critical *c = &b->critical[i];
-            double complex rate = rate_of(&nominal, side, 2 * step, c->speed, 0, &c->pair, a);
-            b->derivative[j + (ptrdiff_t)b->nsource * i] = cimag(rate) / (h - cimag(pair_rate(&nominal, &c->pair))) / c->speed;
+            b->derivative[j + (ptrdiff_t)b->nsource * i] = critical_rate(&nominal, side, 2 * step, h, c, a) / c->speed;
         }
-        for (int i = 0; i < b->tracks->nspeed && !status; i++)
+        for (int i = 0; i < nspeed && !status; i++)
             for (int m = 0; m < b->tracks->nmode; m++) {
                 const struct pair *pair = track_at(b->tracks, m, i);
                 double at = b->tracks->speed[i], w = cimag(pair->lambda);
                 if (isfinite(w))
-                    b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * m)] =
-                        cimag(rate_of(&nominal, side, 2 * step, at, w > at ? 1 : -1, pair, a)) / w;
+                    b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)nspeed * m)] =
+                        cimag(pair_difference(&nominal, side, 2 * step, at, w > at ? 1 : -1, pair, a)) / w;
             }
         pool_close(&scratch);
         if (status)
@@ -238,7 +221,7 @@ static int is_outside(const struct bands *b, const double *d)
             return 1;
         if (source->kind != SOURCE_MODULUS)
             continue;
-        const rotid_parameter *bounds = &b->job->unknowns.bounds[source->index];
+        const rotid_parameter *bounds = machine_bounds(b->machine, b->job, source->index);
         double value = b->values->x[source->index];
         value = source->is_logarithm ? value * exp(d[j]) : value + d[j];
         if (!(value >= bounds->lower && value <= bounds->upper))
@@ -290,34 +273,18 @@ static int draw_all(struct bands *b)
     return ROTID_OK;
 }
 
-static double alike(int n, const double complex *a, const double complex *b)
-{
-    double complex sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += conj(a[i]) * b[i];
-    return creal(sum * conj(sum));
-}
-
-/* The critical speeds of a draw, from near pairs of `from`; *found of them. */
+/* The critical speeds of a draw, from near pairs of `from`. How many were not found, or -1 where memory is out. */
 static int solve(struct pool *pool, const struct bands *b, const struct system *from, const struct critical *near,
                  struct system *s, const double *predicted, struct critical *to)
 {
     int lost = 0;
-    struct pair start;
-    if (pair_new(pool, s->size, &start))
-        return -1;
     for (int i = 0; i < b->ncritical; i++) {
         to[i].speed = predicted[i];
         if (pair_new(pool, s->size, &to[i].pair))
             return -1;
-        int bad = !isfinite(near[i].speed) || system_transfer(from, &near[i].pair, s, &start);
-        pair_copy(s->size, &start, &to[i].pair);
-        to[i].pair.lambda = creal(near[i].pair.lambda) + I * b->options->harmonic * predicted[i];
-        bad = bad || pair_synchronise(s, b->options->harmonic, &to[i].speed, &to[i].pair) ||
-              alike(s->size, start.u, to[i].pair.u) < SAME;
-        if (bad)
+        lost += !isfinite(near[i].speed) || critical_carry(from, &near[i], b->options->harmonic, s, &to[i]);
+        if (!isfinite(near[i].speed))
             to[i].speed = NAN;
-        lost += bad;
     }
     return lost;
 }
@@ -400,7 +367,7 @@ static double quantile(const double *sorted, int count, double p)
     return i + 1 < count ? sorted[i] + (at - i) * (sorted[i + 1] - sorted[i]) : sorted[count - 1];
 }
 
-static int summarise(struct bands *b, int i, struct critical_speed *to)
+static int summarise(struct bands *b, int i, rotid_critical_speed *to)
 {
     int draws = b->options->draws, count = 0, kept = 0;
     const struct machine *machine = b->machine;
@@ -413,7 +380,7 @@ static int summarise(struct bands *b, int i, struct critical_speed *to)
         if (!isfinite(speed))
             continue;
         margin[count] = machine->has_operation ? speeds_margin(machine, speed * judged) : (double)NAN;
-        kept += isfinite(to->margin.required) && margin[count] >= to->margin.required;
+        kept += isfinite(to->margin.required) && margin[count] >= speeds_required(machine, to->amplification, speed * judged);
         own[count++] = speed / RPM;
         sum += speed / RPM;
         square += speed * speed / RPM / RPM;
@@ -446,11 +413,11 @@ static double variance_of(const struct bands *b, const double *g, int j)
 }
 
 /* Of the Campbell diagram by the linear prediction, log-normal. */
-static void spread(const struct bands *b, struct speeds *out)
+static void spread(const struct bands *b, rotid_speeds *out)
 {
     for (int i = 0; i < out->ncampbell; i++)
         for (int m = 0; m < out->campbell[i].nmodes; m++) {
-            struct campbell_mode *to = &out->campbell[i].modes[m];
+            rotid_campbell_mode *to = &out->campbell[i].modes[m];
             const double *g = b->campbell + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * (to->mode - 1));
             double variance = 0;
             for (int j = 0; j < b->nsource; j++)
@@ -463,11 +430,11 @@ static void spread(const struct bands *b, struct speeds *out)
 }
 
 /* Of the linear prediction: sources of one name together, with their correlation. */
-static int share(struct bands *b, int i, struct critical_speed *to)
+static int share(struct bands *b, int i, rotid_critical_speed *to)
 {
     double all = 0;
     to->nvariance_shares = b->nname;
-    to->variance_shares = POOL_ARRAY(b->pool, struct variance_share, b->nname);
+    to->variance_shares = POOL_ARRAY(b->pool, rotid_variance_share, b->nname);
     if (!to->variance_shares)
         return ROTID_ERROR_MEMORY;
     for (int name = 0; name < b->nname; name++)
@@ -502,23 +469,71 @@ static int find_watched(struct bands *b, struct system *nominal)
     return status;
 }
 
-int bands_make(struct pool *pool, const struct machine *machine, const struct job *job, const struct machine_values *values,
-               const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
-               struct system *nominal, const struct basis_size *basis, const struct tracks *tracks, int ncritical,
-               const struct critical *critical, struct message_list *notes, struct speeds *out)
+static struct bands begin(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
+                          const rotid_fit_result *fit, const struct speeds_options *options)
 {
-    struct bands b = {.pool = pool,
-                      .machine = machine,
-                      .job = job,
-                      .fit = fit,
-                      .options = options,
-                      .environment = environment,
-                      .nominal = nominal,
-                      .basis = {basis->modes, basis->coupled, 0},
-                      .values = values,
-                      .ncritical = ncritical,
-                      .critical = critical,
-                      .tracks = tracks};
+    return (struct bands){.pool = pool,
+                          .machine = search->machine,
+                          .job = search->job,
+                          .fit = fit,
+                          .options = options,
+                          .nominal = &search->system,
+                          .basis = {search->basis.modes, search->basis.coupled, 0},
+                          .values = &search->values,
+                          .ncritical = ncritical,
+                          .critical = critical};
+}
+
+int bands_linear(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
+                 const rotid_fit_result *fit, double *std)
+{
+    const struct speeds_options options = {.harmonic = search->harmonic};
+    struct bands b = begin(pool, search, ncritical, critical, fit, &options);
+    int status = find_sources(&b);
+    memset(std, 0, (size_t)ncritical * sizeof *std);
+    if (status || !b.nsource || !ncritical)
+        return status;
+    status = factor_covariance(&b);
+    if (!status)
+        status = differentiate(&b);
+    for (int i = 0; i < ncritical && !status; i++) {
+        double variance = 0;
+        for (int j = 0; j < b.nsource; j++)
+            variance += variance_of(&b, b.derivative + (ptrdiff_t)b.nsource * i, j);
+        std[i] = sqrt(fmax(0, variance));
+    }
+    return status;
+}
+
+int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest)
+{
+    const struct speeds_options options = {.harmonic = search->harmonic};
+    int n = machine_unknowns(search->machine, search->job);
+    double *one = POOL_ARRAY(pool, double, n);
+    const rotid_fit_result all = {.n = n, .std = one}; /* every unknown is uncertain */
+    struct bands b = begin(pool, search, 1, critical, &all, &options);
+    for (int p = 0; p < n && one; p++)
+        one[p] = 1;
+    int status = one ? find_sources(&b) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = differentiate(&b);
+    *rest = 0;
+    memset(gradient, 0, (size_t)n * sizeof *gradient);
+    for (int j = 0; j < b.nsource && !status; j++)
+        if (j < b.nmodulus)
+            gradient[b.source[j].index] = b.derivative[j];
+        else
+            *rest += variance_of(&b, b.derivative, j);
+    return status;
+}
+
+int bands_make(struct pool *pool, struct search *search, const rotid_fit_result *fit, const struct speeds_options *options,
+               const rotid_environment *environment, struct message_list *notes, rotid_speeds *out)
+{
+    int ncritical = search->ncritical;
+    struct bands b = begin(pool, search, ncritical, search->critical, fit, options);
+    b.environment = environment;
+    b.tracks = &search->tracks;
     int status = find_sources(&b), lost = 0;
     if (status || !b.nsource || !options->draws || !ncritical)
         return status;
@@ -530,7 +545,7 @@ int bands_make(struct pool *pool, const struct machine *machine, const struct jo
     if (!status)
         status = draw_all(&b);
     if (!status)
-        status = find_watched(&b, nominal);
+        status = find_watched(&b, &search->system);
     b.speed = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
     b.growth = POOL_ARRAY(pool, double, options->draws);
     if (!status && (!b.speed || !b.growth))

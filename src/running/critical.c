@@ -4,8 +4,9 @@
 
 #include "running/running.h"
 
-#define HALVINGS   60
-#define STANDSTILL 1e-3 /* of the highest speed */
+#define HALVINGS 60
+#define SLOW     1e-3 /* of the highest speed */
+#define SAME     0.3  /* |u'v|^2 of a critical speed's mode in another machine */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {
@@ -103,7 +104,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
         if (cimag(all[i].lambda) > limit && t->nmode >= 6)
             break;
         /* near standstill two modes are nearly one: the vectors of pairs_all tell them apart, an iteration does not */
-        if ((s->hysteretic || speed[0] > STANDSTILL * speed[last]) && settle(s, speed[0], &all[i]))
+        if ((s->hysteretic || speed[0] > SLOW * speed[last]) && settle(s, speed[0], &all[i]))
             continue;
         status = add_mode(pool, s, t, &all[i], 0);
     }
@@ -184,6 +185,30 @@ int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, 
     return ROTID_OK;
 }
 
+double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *c,
+                     double complex *work)
+{
+    double complex rate = pair_difference(nominal, side, apart, c->speed, 0, &c->pair, work);
+    return cimag(rate) / (h - cimag(pair_rate(nominal, &c->pair)));
+}
+
+int critical_carry(const struct system *from, const struct critical *near, double h, struct system *s, struct critical *to)
+{
+    struct pair start = s->spare[0];
+    double complex alike = 0;
+    int lost = system_transfer(from, &near->pair, s, &start);
+    pair_copy(s->size, &start, &to->pair);
+    to->mode = near->mode;
+    to->pair.lambda = creal(near->pair.lambda) + I * h * to->speed;
+    lost = lost || pair_synchronise(s, h, &to->speed, &to->pair);
+    for (int j = 0; j < s->size && !lost; j++)
+        alike += conj(start.u[j]) * to->pair.u[j];
+    lost = lost || creal(alike * conj(alike)) < SAME;
+    if (lost)
+        to->speed = NAN;
+    return lost;
+}
+
 static int grows(const struct pair *pair)
 {
     return creal(pair->lambda) > GROWS * cabs(pair->lambda);
@@ -192,12 +217,10 @@ static int grows(const struct pair *pair)
 /* The step from decay to growth may be a jump where w = W: by halves. */
 double onset_find(struct system *s, const struct tracks *t, int *mode)
 {
-    struct pool scratch;
-    struct pair now;
+    struct pair now = s->spare[1]; /* pair_follow has the other one */
     double lowest = NAN;
     *mode = -1;
-    pool_open(&scratch, NULL);
-    for (int m = 0; m < t->nmode && !pair_new(&scratch, s->size, &now); m++) {
+    for (int m = 0; m < t->nmode; m++) {
         int i = 0;
         while (i < t->nspeed && !(is_there(track_at(t, m, i)) && grows(track_at(t, m, i))))
             i++;
@@ -220,6 +243,5 @@ double onset_find(struct system *s, const struct tracks *t, int *mode)
             *mode = m;
         }
     }
-    pool_close(&scratch);
     return lowest;
 }

@@ -19,13 +19,61 @@ int machine_nominal(struct pool *pool, const struct machine *machine, const doub
     return ROTID_OK;
 }
 
+int machine_unknowns(const struct machine *machine, const struct job *job)
+{
+    return job->unknowns.nparameter + machine->nunknown;
+}
+
+const rotid_parameter *machine_bounds(const struct machine *machine, const struct job *job, int p)
+{
+    int own = p - job->unknowns.nparameter;
+    return own < 0 ? &job->unknowns.bounds[p] : &machine->unknown[own].bounds;
+}
+
+double machine_bearing_factor(const struct machine *machine, const struct machine_values *values, int i, int damping)
+{
+    int p = machine->bearing[i].unknown[damping];
+    return (damping ? values->bearing_c[i] : values->bearing_k[i]) * (p < 0 ? 1 : values->x[p]);
+}
+
+int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_result *fit, rotid_fit_result *own)
+{
+    const struct state *state = &states->state[0];
+    int at_rest = state->job.unknowns.nparameter, n = machine_unknowns(states->machine, &state->job), all = fit->n;
+    double *x = POOL_ARRAY(pool, double, (size_t)n *(size_t)(n + 2));
+    if (!x)
+        return ROTID_ERROR_MEMORY;
+    *own = *fit;
+    own->n = n;
+    own->x = x;
+    own->std = x + n;
+    own->covariance = x + 2 * (ptrdiff_t)n;
+    for (int p = 0; p < n; p++) {
+        int i = p < at_rest ? state_unknown(state, p) : states->nparameter + p - at_rest;
+        own->x[p] = i < all ? fit->x[i] : machine_bounds(states->machine, &state->job, p)->start;
+        own->std[p] = i < all ? fit->std[i] : (double)NAN;
+        for (int q = 0; q < n; q++) {
+            int j = q < at_rest ? state_unknown(state, q) : states->nparameter + q - at_rest;
+            own->covariance[p + (ptrdiff_t)n * q] = i < all && j < all ? fit->covariance[i + (ptrdiff_t)all * j] : (double)NAN;
+        }
+    }
+    return ROTID_OK;
+}
+
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p)
 {
+    if (p >= job->unknowns.nparameter)
+        return 1;
     const struct parameter *parameter = &job->unknowns.parameter[p];
     int spring = parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT,
         disk = parameter->kind == PARAMETER_DISK_MASS || parameter->kind == PARAMETER_DISK_INERTIA;
-    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]);
+    int cause = parameter->kind == PARAMETER_EFFECT;
+    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]) &&
+           !(cause && machine->without_effect[parameter->index]);
 }
+
+/* A cause that is gone. */
+static const struct effect_kind nothing = {.id = "none"};
 
 /* What was left at the test stays in its list without stiffness or mass, so that parameters keep their indices. */
 static int add_parts(struct pool *pool, const struct machine *machine, struct rotor *rotor)
@@ -53,6 +101,9 @@ static int add_parts(struct pool *pool, const struct machine *machine, struct ro
         spring[springs++].position = machine->unbalance[i].z;
     for (int i = 0; i < machine->nprobe; i++)
         spring[springs++].position = machine->probe[i].z;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (machine->without_effect[i])
+            rotor->effect[i].kind = &nothing; /* which keeps its place and its parameters */
     rotor->disk = disk;
     rotor->ndisk = disks + machine->ndisk;
     rotor->spring = spring;

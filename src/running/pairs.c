@@ -13,8 +13,6 @@
 #define ONE       1e-7 /* relative distance of two eigenvalues below which they are one */
 #define IS_A_WAVE 1e-6 /* Im lambda over |lambda|: below, the mode is overdamped */
 
-const char *const whirl_words[] = {"backward", "mixed", "forward", NULL};
-
 int pair_new(struct pool *pool, int size, struct pair *pair)
 {
     pair->u = POOL_ARRAY(pool, double complex, 2 * (size_t)size);
@@ -264,6 +262,23 @@ double complex pair_share(const struct system *s, const struct pair *pair, const
     return above / below;
 }
 
+double complex pair_difference(struct system *nominal, struct system side[2], double apart, double speed, int turn,
+                               const struct pair *pair, double complex *work)
+{
+    size_t size = (size_t)nominal->size;
+    double complex *below = work, *above = work + size * size, *product = work + 2 * size * size;
+    for (int i = 0; i < 2; i++) {
+        system_at(&side[i], speed);
+        system_dynamic(&side[i], pair->lambda, turn, i ? above : below);
+    }
+    memset(product, 0, size * sizeof *product);
+    for (size_t col = 0; col < size; col++)
+        for (size_t row = 0; row < size; row++)
+            product[row] += (above[row + size * col] - below[row + size * col]) / apart * pair->u[col];
+    system_at(nominal, speed);
+    return -pair_share(nominal, pair, product);
+}
+
 double complex pair_rate(const struct system *s, const struct pair *pair)
 {
     by_speed(s, pair->lambda, pair->u, s->right);
@@ -287,15 +302,9 @@ static double biorthogonal(const struct system *s, const struct pair *pair, cons
 
 int pair_follow(struct system *s, double from, double to, int least, struct pair *pair)
 {
-    struct pool scratch;
-    struct pair next;
+    struct pair next = s->spare[0];
     double at = from, step = (to - from) / least, most = fabs(step);
     int lost = 0, halved = 0;
-    pool_open(&scratch, NULL);
-    if (pair_new(&scratch, s->size, &next)) {
-        pool_close(&scratch);
-        return 1;
-    }
     while (at != to && !lost) {
         double then = fabs(to - at) <= fabs(step) * (1 + 1e-9) ? to : at + step;
         system_at(s, at);
@@ -320,7 +329,6 @@ int pair_follow(struct system *s, double from, double to, int least, struct pair
         step /= 2;
         lost = ++halved > HALVINGS;
     }
-    pool_close(&scratch);
     return lost;
 }
 

@@ -66,7 +66,7 @@ static double falls_to(struct system *s, int probe, double peak, double to, doub
     return outside;
 }
 
-int response_peak(struct system *s, int probe, double from, double near, double to, struct peak *peak)
+int response_peak(struct system *s, int probe, double from, double near, double to, rotid_response_peak *peak)
 {
     double width = fmax(near - from, to - near) / 2, best = near, most = amplitude(s, probe, near);
     for (int pass = 0; pass < 24; pass++, width *= 0.6) { /* the nearest maximum: around the critical speed, then closer */
@@ -99,18 +99,18 @@ int response_peak(struct system *s, int probe, double from, double near, double 
         return 1;
     most = amplitude(s, probe, best);
     double low = falls_to(s, probe, best, best / 4, HALF * most), high = falls_to(s, probe, best, best * 4, HALF * most);
-    *peak = (struct peak){s->machine->probe[probe].name, best / RPM, most, best / (high - low)};
+    *peak = (rotid_response_peak){s->machine->probe[probe].name, best / RPM, most, best / (high - low)};
     return 0;
 }
 
 /* ---- at rest under weight */
 
-int static_loads(struct pool *pool, struct system *s, double speed, struct speeds *out)
+int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds *out)
 {
     const struct machine *machine = s->machine;
     double complex *q = POOL_ARRAY(pool, double complex, s->size);
     out->nbearing_loads = machine->nbearing;
-    out->bearing_loads = POOL_ARRAY(pool, struct bearing_load, machine->nbearing);
+    out->bearing_loads = POOL_ARRAY(pool, rotid_bearing_load, machine->nbearing);
     if (!q || !out->bearing_loads)
         return ROTID_ERROR_MEMORY;
     out->weight_n = s->total_mass * GRAVITY;
@@ -127,7 +127,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, struct speed
     complex_solve(s->size, 0, s->d, s->pivot, q);
     for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
         const struct bearing *b = &machine->bearing[i];
-        double k[4], c[4], x = 0, y = 0, f = s->values->bearing_k[i];
+        double k[4], c[4], x = 0, y = 0, f = machine_bearing_factor(s->machine, s->values, i, 0);
         bearing_at(b, speed, k, c, NULL, NULL);
         for (int j = 0; j < s->columns; j++) {
             x += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
@@ -138,7 +138,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, struct speed
             y -= creal(q[s->plane + s->columns + pedestal]);
             pedestal++;
         }
-        out->bearing_loads[i] = (struct bearing_load){b->name, b->z, f * (k[XX] * x + k[XY] * y), f * (k[YX] * x + k[YY] * y)};
+        out->bearing_loads[i] = (rotid_bearing_load){b->name, b->z, f * (k[XX] * x + k[XY] * y), f * (k[YX] * x + k[YY] * y)};
     }
     for (int i = 0; i < s->naxis; i++) {
         double x = 0, y = 0;
@@ -156,7 +156,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, struct speed
 #define MAP_ROWS    17
 #define MAP_DECADES 4
 
-int map_make(struct pool *pool, struct system *s, double speed, double most, struct speeds *out)
+int map_make(struct pool *pool, struct system *s, double speed, double most, rotid_speeds *out)
 {
     const struct machine *machine = s->machine;
     int n = s->columns, status = ROTID_OK;
@@ -167,19 +167,19 @@ int map_make(struct pool *pool, struct system *s, double speed, double most, str
            *k = POOL_ARRAY(&scratch, double, square), *work = POOL_ARRAY(&scratch, double, quadratic_workspace(n));
     double complex *lambda = POOL_ARRAY(&scratch, double complex, 2 * (size_t)n),
                    *u = POOL_ARRAY(&scratch, double complex, 2 * square);
-    out->map = POOL_ARRAY(pool, struct map_row, MAP_ROWS);
+    out->map = POOL_ARRAY(pool, rotid_map_row, MAP_ROWS);
     if (!m || !c || !k || !work || !lambda || !u || !out->map)
         status = ROTID_ERROR_MEMORY;
     out->nmap = status ? 0 : MAP_ROWS;
     for (int row = 0; row < MAP_ROWS && !status; row++) {
-        struct map_row *to = &out->map[row];
+        rotid_map_row *to = &out->map[row];
         to->stiffness_factor = pow(10, MAP_DECADES * (row / (MAP_ROWS - 1.0) - 0.5));
         memcpy(k, s->k, square * sizeof *k);
         for (int i = 0; i < machine->nbearing; i++) {
             const struct bearing *b = &machine->bearing[i];
             double kb[4], cb[4];
             bearing_at(b, speed, kb, cb, NULL, NULL);
-            double stiff = (kb[XX] + kb[YY]) / 2 * s->values->bearing_k[i] * to->stiffness_factor,
+            double stiff = (kb[XX] + kb[YY]) / 2 * machine_bearing_factor(s->machine, s->values, i, 0) * to->stiffness_factor,
                    under = (b->kp[0] + b->kp[1]) / 2;
             stiff = b->has_pedestal ? stiff * under / (stiff + under) : stiff;
             const double *v = s->bearing + (ptrdiff_t)n * i;

@@ -2,11 +2,12 @@
 #define ROTID_RUNNING_RUNNING_H
 
 /* Running: the machine in operation: critical speeds, stability, unbalance response, margins, with their bands.
- * In: struct machine (cards behind *RUNNING), the rotor of a job, the moduli with their covariance. Out: struct speeds.
+ * In: struct machine (cards behind *RUNNING), the rotor of a job, the moduli with their covariance. Out: rotid_speeds.
  *
  * In the fixed frame, q = (x, y), W the speed from x to y:
  *   M q'' + (C_b + C_i + W [0 P; -P 0]) q' + (K + K_b + W [0 C_i; -C_i 0]) q = f
  *
+ *   loss           loss.c (loss_of_test): losses from the damping ratios of the test
  *   machine        machine.c (machine_rotor): the rotor of the test with what the machine has; bearing_at: tables over speed
  *   matrices       system.c (system_build): K, M, P, losses and pull by src/model, on a basis of modes at rest with the static
  *                  motions by forces at the bearings and by gyroscopic moments; system_at: C(W), K(W)
@@ -15,12 +16,15 @@
  *   criticals      critical.c: Newton on Im lambda(W) = h W; onset of instability by bisection
  *   response       response.c: unbalance response, peaks, amplification by half power; sag and bearing loads
  *   bands          bands.c: derivatives by every uncertain number, by left and right vectors; draws from the posterior of the
- * fit, the bearings, losses, pull; every critical solved again all of it      speeds.c (speeds_run)
+ *                  fit, the bearings, losses, pull; every critical speed solved again
+ *   worth          worth.c (worth_run): which test at rest narrows a critical speed most
+ *   run-up         runup.c: measured critical speeds as residuals of a fit; beside the model's
+ *   all of it      search.c (search_within): the range, the basis, the critical speeds; speeds.c (speeds_run)
  *
  * Loss factors: x + iy = f e^{iwt} + conj(b) e^{-iwt}; the elastic K of the group is multiplied by 1 + i eta sgn(w - W) on f and
  * by 1 + i eta on b, sgn 0 = 0.
  *
- * Callers: deck fills struct machine; cli runs; result, report and page read struct speeds. Only model/model.h is asked for
+ * Callers: deck fills struct machine; cli runs; result, report and page read rotid_speeds. Only model/model.h is asked for
  * matrices: the room must not know what discretises a rotor. */
 
 #include <complex.h>
@@ -46,6 +50,7 @@ struct bearing {
     int count;                 /* speeds of the table; 1: constants */
     double *speed;             /* [count] rad/s, increasing */
     double *k, *c;             /* [4 * count] N/m, N.s/m */
+    int unknown[2];            /* which unknown of the machine is a factor on k, on c; -1: none */
     int has_pedestal;          /* what carries it moves: */
     double m[2], kp[2], cp[2]; /* kg, N/m, N.s/m of the pedestal in x and y */
 };
@@ -53,6 +58,7 @@ struct bearing {
 struct loss {           /* in the rotating part */
     int group, viscous; /* viscous: C = value [s] K; else loss factor [1] */
     double value, std;
+    int from_test; /* until both are settled by loss_of_test */
 };
 
 struct pull { /* unbalanced magnetic pull: a negative stiffness over a group */
@@ -68,6 +74,7 @@ struct change { /* from rest to operation: a factor on a parameter */
 
 struct unbalance {
     double z, value, phase; /* m, kg.m, rad from x in the direction of spin */
+    double grade;           /* m/s of ISO 21940-11, of which `value` was a share in the deck; 0: none */
 };
 
 struct probe {
@@ -75,9 +82,23 @@ struct probe {
     double z, angle; /* m, rad from x to y */
 };
 
+struct runup_reading {    /* a measured critical speed */
+    int number, backward; /* from 1, of those with backward whirl, or with any other */
+    double speed, std;    /* rad/s */
+    struct job_place place;
+};
+
+struct machine_unknown { /* a factor on all stiffness or all damping of a bearing and of those like it */
+    int bearing, damping;
+    rotid_parameter bounds;
+};
+
 /* What stands behind *RUNNING. */
 struct machine {
-    int nbearing, nloss, npull, nchange, nunbalance, nprobe;
+    int nbearing, nloss, npull, nchange, nunbalance, nprobe, nrunup, nunknown;
+    struct runup_reading *runup;
+    int runup_held; /* HOLDOUT=RUNUP: it takes no part in fits */
+    struct machine_unknown *unknown;
     struct bearing *bearing;
     struct loss *loss;
     struct pull *pull;
@@ -85,17 +106,19 @@ struct machine {
     struct unbalance *unbalance;
     struct probe *probe;
     int without_sling;
-    int *without_spring, *without_disk; /* [nspring], [ndisk] of the rotor at rest: 1 where it is gone */
+    int *without_spring, *without_disk, *without_effect; /* [nspring], [ndisk], [neffect] of the rotor at rest: 1 where it is
+                                                            gone */
     int ndisk;
     struct disk *disk; /* that the machine has beside those of the test */
     int has_operation;
     double low, high; /* rad/s: running range */
     double margin;    /* relative, required; 0: none stated */
+    int api617;       /* that of API 617 in its place, by the amplification factor */
 };
 
 /* The numbers that are uncertain: factors around the nominal values, all 1 there. */
 struct machine_values {
-    const double *x;                                      /* [nparameter] of the job */
+    const double *x;                                      /* [machine_unknowns] */
     double *bearing_k, *bearing_c, *loss, *pull, *change; /* [nbearing] twice, [nloss], [npull], [nchange] factors */
 };
 
@@ -107,14 +130,39 @@ int machine_rotor(struct pool *pool, const struct machine *machine, const struct
 /* All factors 1 at x. ROTID_OK or ROTID_ERROR_MEMORY. */
 int machine_nominal(struct pool *pool, const struct machine *machine, const double *x, struct machine_values *values);
 
-/* Whether unknown p of the job acts in the machine: what it is of may have been left at the test. */
+/* The unknowns of the machine: those of the job, and behind them its own. */
+int machine_unknowns(const struct machine *machine, const struct job *job);
+const rotid_parameter *machine_bounds(const struct machine *machine, const struct job *job, int p);
+
+/* On the stiffness or the damping of bearing i. */
+double machine_bearing_factor(const struct machine *machine, const struct machine_values *values, int i, int damping);
+
+/* What a fit of all states says of the unknowns of the machine: n, x, std and covariance of *own alone are to be used. Those of
+ * the machine that took no part in the fit are at their starts, without std. ROTID_OK or ROTID_ERROR_MEMORY. */
+int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_result *fit, rotid_fit_result *own);
+
+/* Whether unknown p acts in the machine: what it is of may have been left at the test. */
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p);
+
+/* Of a group from the damping ratios that were measured at rest, at the values of the job's rotor: loss factor [1] and viscous
+ * loss [s], each the mean over `count` modes and the standard deviation of one of them; count 0: no mode says anything. Statuses
+ * of model_open and the prediction. */
+struct loss_of_test {
+    int count;
+    double value[2], std[2];
+};
+int loss_of_test(struct pool *pool, const struct job *job, int group, struct loss_of_test *out);
 
 /* k, c [4] of a bearing at a speed [rad/s] >= 0, linear between those of its table, constant outside; their rates by speed, or
  * NULL. */
 void bearing_at(const struct bearing *bearing, double speed, double k[4], double c[4], double dk[4], double dc[4]);
 
 /* ---------------------------------------------------------------------------------------------------------------- system */
+
+struct pair {
+    double complex lambda;
+    double complex *u, *left; /* [size] u'u = 1; left: u* D = 0 from the left, in any scale */
+};
 
 /* The matrices of a machine on a basis. A plane has `plane` unknowns, those of the basis and behind them the pedestals; size = 2
  * plane: those of x, then those of y. */
@@ -145,6 +193,7 @@ struct system {
     /* workspace of pairs */
     double complex *d, *right, *left;
     int *pivot;
+    struct pair spare[2]; /* the first of pair_follow and critical_carry, the second of onset_find */
 };
 
 /* How large a basis is to be. */
@@ -165,18 +214,11 @@ void system_at(struct system *system, double speed);
 /* a [size^2] := lambda^2 M + lambda C + K at that speed; side: sgn(w - W), of the loss factors. */
 void system_dynamic(const struct system *system, double complex lambda, int side, double complex *a);
 
-struct pair;
-
 /* The pair of one system on the basis of another one of the same mesh: u := V' M u_full. Without left vector. Returns 0, or 1
  * where the vectors of the other one have lost more than a tenth of it. */
 int system_transfer(const struct system *from, const struct pair *pair, const struct system *to, struct pair *there);
 
 /* ----------------------------------------------------------------------------------------------------------------- pairs */
-
-struct pair {
-    double complex lambda;
-    double complex *u, *left; /* [size] u'u = 1; left: u* D = 0 from the left, in any scale */
-};
 
 int pair_new(struct pool *pool, int size, struct pair *pair);
 void pair_copy(int size, const struct pair *from, struct pair *to);
@@ -207,121 +249,18 @@ double complex pair_rate(const struct system *system, const struct pair *pair);
 /* l* A u/(l* dD/dlambda u) for the product A u [size] */
 double complex pair_share(const struct system *system, const struct pair *pair, const double complex *product);
 
-enum whirl { WHIRL_BACKWARD, WHIRL_MIXED, WHIRL_FORWARD };
-extern const char *const whirl_words[];
+/* d lambda/dp of a pair that has its left vector, dD/dp from the matrices of two machines on the basis of the nominal one,
+ * `apart` in p: -l* dD u/(l* dD/dlambda u). turn: side of the loss factors. work [2 size^2 + size] */
+double complex pair_difference(struct system *nominal, struct system side[2], double apart, double speed, int turn,
+                               const struct pair *pair, double complex *work);
+
+enum whirl { WHIRL_BACKWARD, WHIRL_MIXED, WHIRL_FORWARD }; /* as whirl_words */
 enum whirl pair_whirl(const struct system *system, const double complex *u);
 
 /* --------------------------------------------------------------------------------------------------------------- results */
 
-/* of a critical speed to the running range */
-struct margin {
-    double value;   /* (low - W)/low below the range, (W - high)/high above it, below 0 inside [1]; by the speed of the peak where
-                       there is one; null of backward whirl, without a peak beside others and without a range */
-    double ci95[2]; /* 95 % interval of value [1] */
-    double required;    /* what the deck requires of value [1]; null where it states nothing */
-    double probability; /* that value is at least what is required [1]; null without bands */
-};
-
-/* of the unbalance response at a probe, nearest to a critical speed */
-struct peak {
-    const char *probe;    /* its name */
-    double speed_rpm;     /* of the peak [rpm] */
-    double amplitude_m;   /* zero to peak [m] */
-    double amplification; /* speed over the width at 0.707 of the peak [1]; null where another peak is nearer than that */
-};
-
-/* of one source of doubt */
-struct variance_share {
-    const char
-        *source;  /* identified (all unknowns of the fit together), bearing NAME, loss GROUP, pull GROUP, change PARAMETER */
-    double share; /* in the variance of the linear prediction [1] */
-};
-
-struct critical_speed {
-    int number;           /* from 1, by rising speed */
-    int mode;             /* of the Campbell diagram, from 1 */
-    double speed_rpm;     /* where Im lambda is harmonic times the speed [rpm] */
-    double std;           /* standard deviation of speed_rpm by draws [rpm]; null without uncertain numbers */
-    double ci95[2];       /* 95 % interval of speed_rpm by draws [rpm] */
-    const char *whirl;    /* backward, mixed (the orbits along the rotor differ) or forward */
-    double log_decrement; /* there, without the jump of loss factors [1] */
-    double damping_ratio; /* there, the same of critical damping [1] */
-    double amplification; /* largest of the peaks [1]; null where none is known */
-    struct margin margin; /* to the running range */
-    int npeaks;
-    struct peak *peaks; /* of the unbalance response, by probe */
-    int nvariance_shares;
-    struct variance_share *variance_shares; /* where the doubt of speed_rpm comes from */
-    int nz;
-    double *z;    /* places along the axis [m] */
-    double *x_re; /* shape at each z: real part of the motion in x, largest component 1 [1] */
-    double *x_im; /* imaginary part of it [1]; the motion is Re (x e^iwt) */
-    double *y_re; /* real part of the motion in y, upwards [1] */
-    double *y_im; /* imaginary part of it [1] */
-};
-
-struct campbell_mode {
-    int mode;             /* from 1, of one mode over all speeds */
-    double frequency_hz;  /* |Im lambda|/2 pi in the fixed frame [Hz] */
-    double ci95[2];       /* 95 % interval of frequency_hz by the linear prediction [Hz]; null without uncertain numbers */
-    double damping_ratio; /* -Re lambda/|lambda| [1]; below 0 the mode grows */
-    double log_decrement; /* [1] */
-    const char *whirl;    /* backward, mixed or forward */
-};
-
-struct campbell_speed {
-    double speed_rpm; /* [rpm] */
-    int nmodes;
-    struct campbell_mode *modes; /* by rising frequency; overdamped ones are left out */
-};
-
-struct stability {
-    double onset_rpm;          /* lowest speed from which a mode grows [rpm]; null: none up to the highest one computed */
-    int mode;                  /* which, of the Campbell diagram */
-    double probability_stable; /* that no mode grows at the highest running speed [1]; null without bands or range */
-};
-
-struct probe_response {
-    const char *probe; /* its name */
-    int nspeed_rpm;
-    double *speed_rpm;   /* [rpm] */
-    double *amplitude_m; /* at each speed, zero to peak [m] */
-    double *phase_deg;   /* at each speed: lag behind the mark at angle 0, 0 to 360 [deg] */
-};
-
-struct bearing_load {
-    const char *bearing; /* its name, null where it has none */
-    double position_m;   /* from the left end [m] */
-    double load_x_n; /* force of the weight on the bearing in x, at the lowest running speed or the highest one computed [N] */
-    double load_y_n; /* the same in y, upwards [N] */
-};
-
-struct map_row {
-    double stiffness_factor; /* on the stiffness of all bearings [1] */
-    int nspeed_rpm;
-    double *speed_rpm; /* undamped forward critical speeds with the mean of both direct stiffnesses [rpm] */
-};
-
-struct speeds {
-    double low_rpm;     /* lowest running speed [rpm]; null where no range is stated */
-    double high_rpm;    /* highest running speed [rpm] */
-    double harmonic;    /* excitation per revolution that the critical speeds are of [1] */
-    int draws;          /* of the bands; 0: nothing is uncertain */
-    double basis_error; /* largest relative change of a critical speed by half as large a basis again [1] */
-    int ncritical_speeds;
-    struct critical_speed *critical_speeds; /* by rising speed */
-    struct stability stability;             /* whether a mode grows */
-    int ncampbell;
-    struct campbell_speed *campbell; /* modes over the speed */
-    int nunbalance;
-    struct probe_response *unbalance; /* response at each probe */
-    double weight_n;                  /* of the rotor [N] */
-    double sag_m;                     /* largest deflection by it, with that of the bearings [m] */
-    int nbearing_loads;
-    struct bearing_load *bearing_loads; /* by weight */
-    int nmap;
-    struct map_row *map; /* critical speed map: over the stiffness of the bearings */
-};
+#define SPEEDS_COUNT 41 /* of a Campbell diagram */
+#define SPEEDS_DRAWS 2000
 
 /* What is computed beside the machine. */
 struct speeds_options {
@@ -333,12 +272,12 @@ struct speeds_options {
     int threads; /* of the draws; the result does not depend on it */
 };
 
-/* x [nparameter] of the job; fit: of the unknowns, or NULL: they are taken as known. Reasons and notes go to the list. ROTID_OK;
- * ROTID_ERROR_STIFFNESS where bearings do not hold the rotor or the pull is stronger; ROTID_STOP_CANCELLED: all but the bands is
- * there; statuses of system_build, pairs_all. */
+/* x [machine_unknowns]; fit: of these (machine_fit), or NULL: they are taken as known. Reasons and notes go to the list.
+ * ROTID_OK; ROTID_ERROR_STIFFNESS where bearings do not hold the rotor or the pull is stronger; ROTID_STOP_CANCELLED: all but the
+ * bands is there; statuses of system_build, pairs_all. */
 int speeds_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
-               struct message_list *notes, struct speeds *out);
+               struct message_list *notes, rotid_speeds *out);
 
 /* ------------------------------------------------------------------------------------------- tracks, criticals, response */
 
@@ -365,6 +304,45 @@ struct critical {
 int criticals_find(struct pool *pool, struct system *system, const struct tracks *tracks, double h, int *count,
                    struct critical **critical);
 
+/* dW/dp [rad/s] of a critical speed: Im dlambda/dp/(h - Im dlambda/dW); the others as for pair_difference. */
+double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *critical,
+                     double complex *work);
+
+/* The critical speed of another system of the same mesh that has the mode of `near`, by Newton from to->speed. Returns 0, or 1
+ * and a speed of NaN where it is lost. */
+int critical_carry(const struct system *from, const struct critical *near, double h, struct system *system, struct critical *to);
+
+/* A machine over a range of speeds: its system, its modes and its critical speeds. */
+struct search {
+    const struct machine *machine;
+    const struct job *job;
+    struct machine_values values;
+    double from, harmonic; /* from: rad/s; harmonic: 1: synchronous */
+    int count;             /* speeds at which modes are looked at */
+    struct system system;
+    struct basis_size basis;
+    struct tracks tracks;
+    double *speed; /* [count] rad/s */
+    int ncritical;
+    struct critical *critical; /* by rising speed */
+};
+
+#define STANDSTILL 1e-8 /* of the highest speed: in place of 0, where forward and backward whirl are one */
+
+/* Up to a speed [rad/s]; machine, job, values, from, harmonic and count of *search are in, the others out. Reasons go to the
+ * list. Statuses of system_build, ROTID_ERROR_STIFFNESS where the pull is stronger than the bearings; those of pairs_all. */
+int search_within(struct pool *pool, double to, struct message_list *notes, struct search *search);
+
+/* Up to `least` [rad/s] or beyond, until so many critical speeds of forward or mixed whirl and of backward whirl are found, or
+ * the range has been made larger several times. */
+int search_until(struct pool *pool, double least, int forward, int backward, struct message_list *notes, struct search *search);
+
+/* The number-th critical speed, from 1, with backward whirl, or with any other; NULL: there is none. */
+const struct critical *search_find(const struct search *search, int number, int backward);
+
+/* How many of the critical speeds are of backward whirl, or are not. */
+int search_count(const struct search *search, int backward);
+
 /* The lowest speed from which a mode grows, NaN: none; *mode of the tracks. */
 double onset_find(struct system *system, const struct tracks *tracks, int *mode);
 
@@ -378,23 +356,66 @@ int response_at(struct system *system, double speed, double complex *q);
 double complex probe_motion(const struct system *system, int probe, const double complex *q);
 
 /* The peak of a probe near a speed within [from, to]. Returns 0, or 1 where the response has none there. */
-int response_peak(struct system *system, int probe, double from, double near, double to, struct peak *peak);
+int response_peak(struct system *system, int probe, double from, double near, double to, rotid_response_peak *peak);
 
 /* Weight, sag and loads at a speed into *out. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_STIFFNESS. */
-int static_loads(struct pool *pool, struct system *system, double speed, struct speeds *out);
+int static_loads(struct pool *pool, struct system *system, double speed, rotid_speeds *out);
+
+/* The margin that is required of a critical speed with that amplification factor, NaN: none. API Std 617, 8th edition, 6.8.2.5,
+ * as two programs quote it: none for a factor below 2.5; min(16, 17 (1 - 1/(AF - 1.5))) % of the lowest running speed below it,
+ * min(26, 10 + 17 (1 - 1/(AF - 1.5))) % of the highest one above it; inside the range 0, which is not kept. */
+double speeds_required(const struct machine *machine, double amplification, double speed);
 
 /* (low - W)/low below the running range, (W - high)/high above it, below 0 inside. */
 double speeds_margin(const struct machine *machine, double speed);
 
 /* Bands, shares of variance and probabilities of the critical speeds in *out by draws of what is uncertain; nothing where nothing
- * is. nominal: at the values, with its basis of that size. Statuses of system_build; ROTID_ERROR_FINITE where the covariance of
- * the fit is none. */
-int bands_make(struct pool *pool, const struct machine *machine, const struct job *job, const struct machine_values *values,
-               const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
-               struct system *nominal, const struct basis_size *basis, const struct tracks *tracks, int ncritical,
-               const struct critical *critical, struct message_list *notes, struct speeds *out);
+ * is. fit: of the unknowns of the machine (machine_fit), or NULL. Statuses of system_build; ROTID_ERROR_FINITE where the
+ * covariance of the fit is none. */
+int bands_make(struct pool *pool, struct search *search, const rotid_fit_result *fit, const struct speeds_options *options,
+               const rotid_environment *environment, struct message_list *notes, rotid_speeds *out);
+
+/* std [ncritical]: standard deviation of critical speeds of *search by what is uncertain, relative, in linear prediction; 0 where
+ * nothing is. Statuses of bands_make. */
+int bands_linear(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
+                 const rotid_fit_result *fit, double *std);
+
+/* gradient [machine_unknowns] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0 of those
+ * that do not act in the machine. *rest: variance of ln W by bearings, losses, pull and changes, in linear prediction. Statuses
+ * of bands_make. */
+int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest);
+
+/* ------------------------------------------------------------------------------------------------ worth of a test at rest */
+
+struct worth_options {
+    int number, backward; /* of the critical speed, as of a run-up */
+    double noise;         /* of the frequencies of a test, relative */
+};
+
+/* Tests at rest by how much they narrow a critical speed: fills speed_tests, speed_rpm, speed_std, speed_identified and sentence
+ * of *out. x, fit as for speeds_run. Statuses of search_until, bands_gradient, model_open and the prediction;
+ * ROTID_ERROR_ARGUMENT where there is no such critical speed, or nothing to be identified. */
+int worth_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+              const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes,
+              rotid_suggestion *out);
+
+/* ---------------------------------------------------------------------------------------------------------------- run-up */
+
+/* Measured critical speeds W^ as residuals (W - W^)/std of a fit of all states, over their unknowns and behind these the
+ * machine's own: dW/dp by critical_rate. *joined: the states with both, which lean on *runup; as they are, and *runup NULL, where
+ * nothing was measured or it is held out. Statuses of search_until, ROTID_ERROR_ARGUMENT where the model at its start has no such
+ * critical speed; the list says why. runup_close in any case: it says whether an evaluation ran out of memory. */
+struct runup;
+int runup_join(struct pool *pool, const struct states *states, struct message_list *notes, struct states *joined,
+               struct runup **runup);
+int runup_close(struct runup *runup);
+
+/* The measured critical speeds beside those of the model at x [machine_unknowns]; fit as for speeds_run. Statuses of search_until
+ * and bands_linear. */
+int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+                  const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list);
 
 /* Critical speed map at the stiffness of a speed. ROTID_OK or ROTID_ERROR_MEMORY. */
-int map_make(struct pool *pool, struct system *system, double speed, double most, struct speeds *out);
+int map_make(struct pool *pool, struct system *system, double speed, double most, rotid_speeds *out);
 
 #endif

@@ -4,133 +4,17 @@
 
 #include "running/running.h"
 
-#define STANDSTILL  1e-8 /* of the highest speed: in place of 0, where forward and backward whirl are one */
-#define BEYOND      1.3  /* times the running range, or the third critical speed */
-#define MODES_FIRST 14
-#define MODES_MOST  48
-#define REACH       2.5   /* the highest mode of the basis over the highest speed, at least */
-#define NO_DAMPING  1e-12 /* of |lambda| */
-#define COUPLED     10
-#define CURVE       241 /* speeds of a response */
-#define pi          3.14159265358979323846
+#define BEYOND     1.3   /* times the running range */
+#define NO_DAMPING 1e-12 /* of |lambda| */
+#define CURVE      241   /* speeds of a response */
+#define pi         3.14159265358979323846
 
 struct run {
     struct pool *pool;
-    const struct machine *machine;
-    const struct job *job;
     const struct speeds_options *options;
-    struct machine_values values;
-    struct system system;
-    struct basis_size basis;
-    struct tracks tracks;
-    int ncritical;
-    struct critical *critical;
-    double *speed;
-    struct speeds *out;
+    struct search search;
+    rotid_speeds *out;
 };
-
-static int refuse_system(const struct run *r, int status, int failed, struct message_list *notes)
-{
-    if (status == ROTID_ERROR_STIFFNESS)
-        message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
-                    "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
-    if (status == ROTID_ERROR_SECTION) {
-        struct job_place place = job_part_place(r->job, failed);
-        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s",
-                    discrete_refusal(r->job->options.solid ? AS_SOLID : AS_BEAM, &r->job->rotor, failed));
-    }
-    return status;
-}
-
-/* Whether the bearings are stronger than the magnetic pull: the symmetric part of the stiffness at standstill is positive
- * definite.
- */
-static int is_held(struct run *r)
-{
-    struct system *s = &r->system;
-    struct pool scratch;
-    int held = 0, n = s->size;
-    if (!r->machine->npull)
-        return 1;
-    pool_open(&scratch, r->pool->allocator);
-    double *k = POOL_ARRAY(&scratch, double, (size_t)n *(size_t)n);
-    system_at(s, 0);
-    for (int j = 0; j < n && k; j++)
-        for (int i = 0; i < n; i++)
-            k[i + (ptrdiff_t)n * j] = (s->stiff[i + (ptrdiff_t)n * j] + s->stiff[j + (ptrdiff_t)n * i]) / 2;
-    held = k && !cholesky_factor(n, k);
-    pool_close(&scratch);
-    return held;
-}
-
-/* With a basis that reaches far enough beyond the highest speed, as far as the model has so many modes. */
-static int build(struct run *r, double highest, struct message_list *notes)
-{
-    int status, failed;
-    r->basis = (struct basis_size){MODES_FIRST, COUPLED, 1};
-    for (;; r->basis.modes += r->basis.modes / 2) {
-        status = system_build(r->pool, r->machine, r->job, &r->values, NULL, &r->basis, &r->system, &failed);
-        if (status)
-            return refuse_system(r, status, failed, notes);
-        if (!is_held(r)) {
-            message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
-                        "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
-                        "below their stiffness");
-            return ROTID_ERROR_STIFFNESS;
-        }
-        if (r->system.highest >= REACH * highest || r->basis.modes >= r->system.n || r->basis.modes >= MODES_MOST)
-            return ROTID_OK;
-    }
-}
-
-static int grid(struct run *r, double from, double to, int count)
-{
-    r->speed = POOL_ARRAY(r->pool, double, count);
-    for (int i = 0; i < count && r->speed; i++)
-        r->speed[i] = fmax(STANDSTILL * to, count > 1 ? from + (to - from) * i / (count - 1) : to);
-    return r->speed ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
-static int find(struct run *r, double to)
-{
-    const struct speeds_options *o = r->options;
-    int status = grid(r, o->from, to, o->count);
-    if (!status)
-        status = tracks_make(r->pool, &r->system, o->count, r->speed, 2 * to * fmax(1, o->harmonic), &r->tracks);
-    return status ? status : criticals_find(r->pool, &r->system, &r->tracks, o->harmonic, &r->ncritical, &r->critical);
-}
-
-/* To beyond the third forward critical speed: by the modes at standstill at first. */
-static int find_range(struct run *r, struct message_list *notes)
-{
-    double to = r->options->to > 0 ? r->options->to : r->machine->has_operation ? BEYOND * r->machine->high : 0;
-    if (to > 0) {
-        int status = build(r, to * fmax(1, r->options->harmonic), notes);
-        return status ? status : find(r, to);
-    }
-    int status = build(r, 0, notes), count;
-    struct pair *all = status ? NULL : POOL_ARRAY(r->pool, struct pair, r->system.size);
-    for (int i = 0; i < r->system.size && all; i++)
-        if (pair_new(r->pool, r->system.size, &all[i]))
-            return ROTID_ERROR_MEMORY;
-    if (status || !all)
-        return status ? status : ROTID_ERROR_MEMORY;
-    status = pairs_all(r->pool, &r->system, STANDSTILL * r->system.highest, &count, all);
-    if (!status && !count)
-        return ROTID_ERROR_EIGEN;
-    to = status ? 0 : BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / r->options->harmonic;
-    for (int attempt = 0; attempt < 4 && !status; attempt++, to *= 1.6) {
-        int forward = 0;
-        status = build(r, to, notes);
-        if (!status)
-            status = find(r, to);
-        for (int i = 0; i < r->ncritical && !status; i++)
-            forward += pair_whirl(&r->system, r->critical[i].pair.u) != WHIRL_BACKWARD;
-        if (forward >= 3)
-            break;
-    }
-    return status;
-}
 
 /* ---- to results */
 
@@ -147,29 +31,30 @@ static double decrement(double complex lambda)
 
 static int by_frequency(const void *a, const void *b)
 {
-    double x = ((const struct campbell_mode *)a)->frequency_hz, y = ((const struct campbell_mode *)b)->frequency_hz;
+    double x = ((const rotid_campbell_mode *)a)->frequency_hz, y = ((const rotid_campbell_mode *)b)->frequency_hz;
     return (x > y) - (x < y);
 }
 
 static int fill_campbell(struct run *r)
 {
-    struct speeds *out = r->out;
-    out->ncampbell = r->tracks.nspeed;
-    out->campbell = POOL_ARRAY(r->pool, struct campbell_speed, out->ncampbell);
+    rotid_speeds *out = r->out;
+    out->ncampbell = r->search.tracks.nspeed;
+    out->campbell = POOL_ARRAY(r->pool, rotid_campbell_speed, out->ncampbell);
     for (int i = 0; i < out->ncampbell && out->campbell; i++) {
-        struct campbell_speed *to = &out->campbell[i];
-        to->speed_rpm =
-            r->tracks.speed[i] <= 2 * STANDSTILL * r->tracks.speed[r->tracks.nspeed - 1] ? 0 : r->tracks.speed[i] / RPM;
-        to->modes = POOL_ARRAY(r->pool, struct campbell_mode, r->tracks.nmode);
-        for (int m = 0; m < r->tracks.nmode && to->modes; m++) {
-            const struct pair *pair = track_at(&r->tracks, m, i);
+        rotid_campbell_speed *to = &out->campbell[i];
+        to->speed_rpm = r->search.tracks.speed[i] <= 2 * STANDSTILL * r->search.tracks.speed[r->search.tracks.nspeed - 1]
+                            ? 0
+                            : r->search.tracks.speed[i] / RPM;
+        to->modes = POOL_ARRAY(r->pool, rotid_campbell_mode, r->search.tracks.nmode);
+        for (int m = 0; m < r->search.tracks.nmode && to->modes; m++) {
+            const struct pair *pair = track_at(&r->search.tracks, m, i);
             if (isfinite(creal(pair->lambda)))
-                to->modes[to->nmodes++] = (struct campbell_mode){m + 1,
-                                                                 cimag(pair->lambda) / (2 * pi),
-                                                                 {NAN, NAN},
-                                                                 ratio(pair->lambda),
-                                                                 decrement(pair->lambda),
-                                                                 whirl_words[pair_whirl(&r->system, pair->u)]};
+                to->modes[to->nmodes++] = (rotid_campbell_mode){m + 1,
+                                                                cimag(pair->lambda) / (2 * pi),
+                                                                {NAN, NAN},
+                                                                ratio(pair->lambda),
+                                                                decrement(pair->lambda),
+                                                                whirl_words[pair_whirl(&r->search.system, pair->u)]};
         }
         if (!to->modes)
             return ROTID_ERROR_MEMORY;
@@ -178,9 +63,9 @@ static int fill_campbell(struct run *r)
     return out->campbell ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int fill_shape(const struct run *r, const double complex *u, struct critical_speed *to)
+static int fill_shape(const struct run *r, const double complex *u, rotid_critical_speed *to)
 {
-    const struct system *s = &r->system;
+    const struct system *s = &r->search.system;
     const double *z = discrete_place_z(&s->discrete);
     double complex largest = 0;
     double *all = POOL_ARRAY(r->pool, double, 5 * (size_t)s->naxis);
@@ -223,24 +108,35 @@ double speeds_margin(const struct machine *machine, double speed)
     return -fmin((speed - low) / low, (high - speed) / high);
 }
 
-static int fill_peaks(struct run *r, int i, struct critical_speed *to)
+double speeds_required(const struct machine *machine, double amplification, double speed)
 {
-    const struct machine *machine = r->machine;
-    struct system *s = &r->system;
-    double here = r->critical[i].speed, from = here / 2, end = fmin(here * 2, fmax(here * 1.02, r->speed[r->options->count - 1]));
-    to->peaks = POOL_ARRAY(r->pool, struct peak, machine->nprobe);
+    if (!machine->api617)
+        return machine->margin > 0 ? machine->margin : NAN;
+    if (!(amplification >= 2.5))
+        return NAN;
+    double raw = 17 * (1 - 1 / (amplification - 1.5));
+    return speed < machine->low ? fmin(16, raw) / 100 : speed > machine->high ? fmin(26, 10 + raw) / 100 : 0;
+}
+
+static int fill_peaks(struct run *r, int i, rotid_critical_speed *to)
+{
+    const struct machine *machine = r->search.machine;
+    struct system *s = &r->search.system;
+    double here = r->search.critical[i].speed, from = here / 2,
+           end = fmin(here * 2, fmax(here * 1.02, r->search.speed[r->options->count - 1]));
+    to->peaks = POOL_ARRAY(r->pool, rotid_response_peak, machine->nprobe);
     if (!to->peaks)
         return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < r->ncritical; j++) { /* up to half-way to the next one */
-        double other = r->critical[j].speed, middle = (here + other) / 2;
+    for (int j = 0; j < r->search.ncritical; j++) { /* up to half-way to the next one */
+        double other = r->search.critical[j].speed, middle = (here + other) / 2;
         if (j < i && other < here * (1 - 1e-6))
             from = fmax(from, middle);
         if (j > i && other > here * (1 + 1e-6))
             end = fmin(end, middle);
     }
     for (int p = 0; p < machine->nprobe && machine->nunbalance; p++) {
-        struct peak peak;
-        if (creal(r->critical[i].pair.lambda) > -1e-9 * here || response_peak(s, p, from, here, end, &peak))
+        rotid_response_peak peak;
+        if (creal(r->search.critical[i].pair.lambda) > -1e-9 * here || response_peak(s, p, from, here, end, &peak))
             continue; /* without damping the peak is infinite */
         to->peaks[to->npeaks++] = peak;
         if (isfinite(peak.amplification) && !(peak.amplification <= to->amplification))
@@ -251,67 +147,67 @@ static int fill_peaks(struct run *r, int i, struct critical_speed *to)
 
 static int fill_criticals(struct run *r)
 {
-    struct speeds *out = r->out;
+    rotid_speeds *out = r->out;
     int status = ROTID_OK;
-    out->ncritical_speeds = r->ncritical;
-    out->critical_speeds = POOL_ARRAY(r->pool, struct critical_speed, r->ncritical);
-    for (int i = 0; i < r->ncritical && out->critical_speeds && !status; i++) {
-        struct critical_speed *to = &out->critical_speeds[i];
-        const struct pair *pair = &r->critical[i].pair;
-        enum whirl whirl = pair_whirl(&r->system, pair->u);
-        *to = (struct critical_speed){.number = i + 1,
-                                      .speed_rpm = r->critical[i].speed / RPM,
-                                      .std = NAN,
-                                      .ci95 = {NAN, NAN},
-                                      .whirl = whirl_words[whirl],
-                                      .log_decrement = decrement(pair->lambda),
-                                      .damping_ratio = ratio(pair->lambda),
-                                      .amplification = NAN,
-                                      .margin = {NAN, {NAN, NAN}, NAN, NAN},
-                                      .mode = r->critical[i].mode + 1};
+    out->ncritical_speeds = r->search.ncritical;
+    out->critical_speeds = POOL_ARRAY(r->pool, rotid_critical_speed, r->search.ncritical);
+    for (int i = 0; i < r->search.ncritical && out->critical_speeds && !status; i++) {
+        rotid_critical_speed *to = &out->critical_speeds[i];
+        const struct pair *pair = &r->search.critical[i].pair;
+        enum whirl whirl = pair_whirl(&r->search.system, pair->u);
+        *to = (rotid_critical_speed){.number = i + 1,
+                                     .speed_rpm = r->search.critical[i].speed / RPM,
+                                     .std = NAN,
+                                     .ci95 = {NAN, NAN},
+                                     .whirl = whirl_words[whirl],
+                                     .log_decrement = decrement(pair->lambda),
+                                     .damping_ratio = ratio(pair->lambda),
+                                     .amplification = NAN,
+                                     .margin = {NAN, {NAN, NAN}, NAN, NAN},
+                                     .mode = r->search.critical[i].mode + 1};
         status = fill_shape(r, pair->u, to);
         if (!status && whirl != WHIRL_BACKWARD)
             status = fill_peaks(r, i, to);
-        int has_response = r->machine->nprobe && r->machine->nunbalance && to->damping_ratio > 0;
-        if (!r->machine->has_operation || whirl == WHIRL_BACKWARD || (has_response && !to->npeaks))
+        int has_response = r->search.machine->nprobe && r->search.machine->nunbalance && to->damping_ratio > 0;
+        if (!r->search.machine->has_operation || whirl == WHIRL_BACKWARD || (has_response && !to->npeaks))
             continue; /* what has no peak is no critical speed to be kept away from */
-        double judged = to->npeaks ? to->peaks[0].speed_rpm * RPM : r->critical[i].speed;
+        double judged = to->npeaks ? to->peaks[0].speed_rpm * RPM : r->search.critical[i].speed;
         for (int p = 1; p < to->npeaks; p++) /* the peak that is nearest to the range */
-            if (speeds_margin(r->machine, to->peaks[p].speed_rpm * RPM) < speeds_margin(r->machine, judged))
+            if (speeds_margin(r->search.machine, to->peaks[p].speed_rpm * RPM) < speeds_margin(r->search.machine, judged))
                 judged = to->peaks[p].speed_rpm * RPM;
-        to->margin.value = speeds_margin(r->machine, judged);
-        to->margin.required = r->machine->margin > 0 ? r->machine->margin : NAN;
+        to->margin.value = speeds_margin(r->search.machine, judged);
+        to->margin.required = speeds_required(r->search.machine, to->amplification, judged);
     }
     return out->critical_speeds ? status : ROTID_ERROR_MEMORY;
 }
 
 static int fill_response(struct run *r)
 {
-    const struct machine *machine = r->machine;
-    struct system *s = &r->system;
-    double to = r->speed[r->options->count - 1], from = fmax(r->speed[0], to / CURVE);
+    const struct machine *machine = r->search.machine;
+    struct system *s = &r->search.system;
+    double to = r->search.speed[r->options->count - 1], from = fmax(r->search.speed[0], to / CURVE);
     double complex *q = POOL_ARRAY(r->pool, double complex, s->size);
     int count = CURVE;
-    double *speed = POOL_ARRAY(r->pool, double, CURVE + 9 * (size_t)r->ncritical);
+    double *speed = POOL_ARRAY(r->pool, double, CURVE + 9 * (size_t)r->search.ncritical);
     if (!machine->nprobe || !machine->nunbalance)
         return ROTID_OK;
     if (!speed || !q)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < CURVE; i++)
         speed[i] = from + (to - from) * i / (CURVE - 1);
-    for (int i = 0; i < r->ncritical; i++) /* within the half-power width of each */
+    for (int i = 0; i < r->search.ncritical; i++) /* within the half-power width of each */
         for (int j = -4; j <= 4; j++) {
-            double at = r->critical[i].speed * (1 + j / 2.0 * fmax(1e-4, ratio(r->critical[i].pair.lambda)));
+            double at = r->search.critical[i].speed * (1 + j / 2.0 * fmax(1e-4, ratio(r->search.critical[i].pair.lambda)));
             if (at > from && at < to)
                 speed[count++] = at;
         }
     sort_doubles((size_t)count, speed);
     r->out->nunbalance = machine->nprobe;
-    r->out->unbalance = POOL_ARRAY(r->pool, struct probe_response, machine->nprobe);
+    r->out->unbalance = POOL_ARRAY(r->pool, rotid_probe_response, machine->nprobe);
     for (int p = 0; p < machine->nprobe && r->out->unbalance; p++) {
-        struct probe_response *own = &r->out->unbalance[p];
-        *own = (struct probe_response){machine->probe[p].name, count, speed, POOL_ARRAY(r->pool, double, count),
-                                       POOL_ARRAY(r->pool, double, count)};
+        rotid_probe_response *own = &r->out->unbalance[p];
+        *own = (rotid_probe_response){machine->probe[p].name, count, speed, POOL_ARRAY(r->pool, double, count),
+                                      POOL_ARRAY(r->pool, double, count)};
         if (!own->amplitude_m || !own->phase_deg)
             return ROTID_ERROR_MEMORY;
     }
@@ -337,19 +233,21 @@ static int check_basis(struct run *r)
     int failed, count = 0, status;
     pool_open(&scratch, r->pool->allocator);
     more.pool = &scratch;
-    more.basis = (struct basis_size){r->basis.modes + r->basis.modes / 2, r->basis.coupled + r->basis.coupled / 2, 1};
-    status = system_build(&scratch, r->machine, r->job, &r->values, &r->system, &more.basis, &more.system, &failed);
-    for (int i = 0; i < r->ncritical && !status; i++) {
-        struct critical again = {.speed = r->critical[i].speed};
-        if (pair_new(&scratch, more.system.size, &again.pair))
+    more.search.basis = (struct basis_size){r->search.basis.modes + r->search.basis.modes / 2,
+                                            r->search.basis.coupled + r->search.basis.coupled / 2, 1};
+    status = system_build(&scratch, r->search.machine, r->search.job, &r->search.values, &r->search.system, &more.search.basis,
+                          &more.search.system, &failed);
+    for (int i = 0; i < r->search.ncritical && !status; i++) {
+        struct critical again = {.speed = r->search.critical[i].speed};
+        if (pair_new(&scratch, more.search.system.size, &again.pair))
             status = ROTID_ERROR_MEMORY;
-        if (!status && !system_transfer(&r->system, &r->critical[i].pair, &more.system, &again.pair) &&
-            !pair_synchronise(&more.system, r->options->harmonic, &again.speed, &again.pair)) {
-            r->out->basis_error = fmax(r->out->basis_error, fabs(again.speed / r->critical[i].speed - 1));
+        if (!status && !system_transfer(&r->search.system, &r->search.critical[i].pair, &more.search.system, &again.pair) &&
+            !pair_synchronise(&more.search.system, r->options->harmonic, &again.speed, &again.pair)) {
+            r->out->basis_error = fmax(r->out->basis_error, fabs(again.speed / r->search.critical[i].speed - 1));
             count++;
         }
     }
-    if (count < r->ncritical)
+    if (count < r->search.ncritical)
         r->out->basis_error = NAN;
     pool_close(&scratch);
     return status;
@@ -357,37 +255,42 @@ static int check_basis(struct run *r)
 
 static int fill(struct run *r)
 {
-    double reference = r->machine->has_operation ? r->machine->low : r->speed[r->options->count - 1];
+    double reference = r->search.machine->has_operation ? r->search.machine->low : r->search.speed[r->options->count - 1];
     int mode, status = fill_campbell(r);
     if (!status)
         status = fill_criticals(r);
     if (!status)
         status = fill_response(r);
     if (!status)
-        status = static_loads(r->pool, &r->system, reference, r->out);
+        status = static_loads(r->pool, &r->search.system, reference, r->out);
     if (!status)
-        status = map_make(r->pool, &r->system, reference, 2 * r->speed[r->options->count - 1], r->out);
+        status = map_make(r->pool, &r->search.system, reference, 2 * r->search.speed[r->options->count - 1], r->out);
     if (!status)
         status = check_basis(r);
-    double onset = onset_find(&r->system, &r->tracks, &mode);
-    r->out->stability = (struct stability){onset / RPM, mode < 0 ? ROTID_NONE : mode + 1, NAN};
+    double onset = onset_find(&r->search.system, &r->search.tracks, &mode);
+    r->out->stability = (rotid_stability){onset / RPM, mode < 0 ? ROTID_NONE : mode + 1, NAN};
     return status;
 }
 
 int speeds_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
-               struct message_list *notes, struct speeds *out)
+               struct message_list *notes, rotid_speeds *out)
 {
-    struct run r = {.pool = pool, .machine = machine, .job = job, .options = options, .out = out};
-    *out = (struct speeds){.harmonic = options->harmonic,
-                           .low_rpm = machine->has_operation ? machine->low / RPM : NAN,
-                           .high_rpm = machine->has_operation ? machine->high / RPM : NAN};
-    int status = machine_nominal(pool, machine, x, &r.values);
+    struct run r = {
+        .pool = pool,
+        .options = options,
+        .search = {.machine = machine, .job = job, .from = options->from, .harmonic = options->harmonic, .count = options->count},
+        .out = out};
+    double to = options->to > 0 ? options->to : machine->has_operation ? BEYOND * machine->high : 0;
+    *out = (rotid_speeds){.harmonic = options->harmonic,
+                          .low_rpm = machine->has_operation ? machine->low / RPM : NAN,
+                          .high_rpm = machine->has_operation ? machine->high / RPM : NAN};
+    int status = machine_nominal(pool, machine, x, &r.search.values);
     if (!status)
-        status = find_range(&r, notes);
+        status = to > 0 ? search_within(pool, to, notes, &r.search) : search_until(pool, 0, 3, 0, notes, &r.search);
     if (!status)
         status = fill(&r);
-    return status ? status
-                  : bands_make(pool, machine, job, &r.values, fit, options, environment, &r.system, &r.basis, &r.tracks,
-                               r.ncritical, r.critical, notes, out);
+    if (!status)
+        status = runup_compare(pool, machine, job, x, fit, notes, &out->nrunup, &out->runup);
+    return status ? status : bands_make(pool, &r.search, fit, options, environment, notes, out);
 }

@@ -105,7 +105,7 @@ static int hold(struct builder *b)
         double mean = 0;
         for (int j = 0; j < bearing->count; j++)
             mean += fmax(0, (bearing->k[4 * j + XX] + bearing->k[4 * j + YY]) / 2) / bearing->count;
-        mean *= s->values->bearing_k[i];
+        mean *= machine_bearing_factor(machine, s->values, i, 0);
         if (bearing->has_pedestal && mean > 0) {
             double under = (bearing->kp[0] + bearing->kp[1]) / 2;
             mean = mean * under / (mean + under);
@@ -275,6 +275,9 @@ static int open_dense(struct pool *pool, struct system *s)
     size_t square = (size_t)s->size * (size_t)s->size;
     double *real = POOL_ARRAY(pool, double, 7 * square);
     s->d = POOL_ARRAY(pool, double complex, square + 2 * (size_t)s->size);
+    for (int i = 0; i < 2; i++)
+        if (pair_new(pool, s->size, &s->spare[i]))
+            return ROTID_ERROR_MEMORY;
     s->pivot = POOL_ARRAY(pool, int, s->size);
     if (!real || !s->d || !s->pivot)
         return ROTID_ERROR_MEMORY;
@@ -402,11 +405,12 @@ void system_at(struct system *s, double speed)
         const double *v = s->bearing + (ptrdiff_t)s->columns * i;
         double k[4], c[4], dk[4], dc[4];
         int at = bearing->has_pedestal ? s->columns + pedestal++ : -1;
+        double of_k = machine_bearing_factor(machine, s->values, i, 0), of_c = machine_bearing_factor(machine, s->values, i, 1);
         bearing_at(bearing, speed, k, c, dk, dc);
-        add_bearing(s, v, at, k, s->values->bearing_k[i], s->stiff);
-        add_bearing(s, v, at, c, s->values->bearing_c[i], s->c);
-        add_bearing(s, v, at, dk, s->values->bearing_k[i], s->dk);
-        add_bearing(s, v, at, dc, s->values->bearing_c[i], s->dc);
+        add_bearing(s, v, at, k, of_k, s->stiff);
+        add_bearing(s, v, at, c, of_c, s->c);
+        add_bearing(s, v, at, dk, of_k, s->dk);
+        add_bearing(s, v, at, dc, of_c, s->dc);
         for (int plane = 0; plane < 2 && at >= 0; plane++) {
             ptrdiff_t diagonal = (ptrdiff_t)(s->size + 1) * (at + plane * s->plane);
             s->stiff[diagonal] += bearing->kp[plane];

@@ -10,7 +10,7 @@ struct header header_of(const struct study *study, const char *version, const ch
     return (struct header){.version = version,
                            .commit = commit,
                            .plan = study->plan->path,
-                           .studies = study->plan->command == PLAN_DIAGNOSE ? "diagnose" : "identify",
+                           .studies = plan_commands[study->plan->command],
                            .plan_digest = study->plan_digest,
                            .decks_digest = study->decks_digest,
                            .data_digest = study->data_digest,

@@ -216,16 +216,36 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     return run->warnings && !pool->out_of_memory;
 }
 
-char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
-                      const rotid_fit_result *fit, const struct message_list *notes)
+/* What the machine is in truth beside the values of the parameters. */
+static int add_speeds(struct pool *pool, const struct fitted *fitted, struct study_run *run)
 {
-    const struct states *states = &experiment->states;
+    run->speeds = fitted->speeds;
+    if (!fitted->truth || !run->truth)
+        return 1;
+    const struct study_run truth = {.speeds = fitted->truth};
+    int count;
+    const rotid_fitted_parameter *value = study_run_values(pool, &truth, &count);
+    rotid_component *all = POOL_ARRAY(pool, rotid_component, run->ntruth + count);
+    if (!value || !all)
+        return 0;
+    memcpy(all, run->truth, (size_t)run->ntruth * sizeof *all);
+    for (int i = 0; i < count; i++)
+        all[run->ntruth++] = (rotid_component){value[i].name, value[i].value};
+    run->truth = all;
+    return 1;
+}
+
+char *line_identified(const struct line *line, const struct experiment *experiment, const struct fitted *fitted,
+                      const struct message_list *notes)
+{
+    const struct states *states = fitted->states;
     struct pool pool;
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
-    rotid_identification *said = states->nstate > 1 ? result_identification_states(&pool, states, result, fit)
-                                                    : result_identification(&pool, &states->state->job, result);
-    int whole = add_fit(&pool, experiment, NULL, states, said, notes, &run);
+    rotid_identification *said = states->nstate > 1
+                                     ? result_identification_states(&pool, states, fitted->found, fitted->fit)
+                                     : result_identification(&pool, &states->state->job, states->bounds, fitted->found);
+    int whole = add_fit(&pool, experiment, NULL, states, said, notes, &run) && add_speeds(&pool, fitted, &run);
     if (whole && !(line->study->plan->spread > 0)) /* the way from each start is what such a plan is about */
         said->history = NULL;
     if (whole && !line->study->plan->baseline)

@@ -18,7 +18,7 @@ static const struct {
     const char *options[9];
 } table[] = {
     {"HEADING", heading, 0, {NULL}},
-    {"STUDY", plan_study, 1, {"COMMAND", "SEED", "REPLICATES", "BASELINE", "BOOTSTRAP", NULL}},
+    {"STUDY", plan_study, 1, {"COMMAND", "SEED", "REPLICATES", "BASELINE", "BOOTSTRAP", "DRAWS", NULL}},
     {"DECKS", plan_decks, 0, {NULL}},
     {"VARIANT", plan_variant, 0, {"NAME", NULL}},
     {"MODES", plan_modes, 0, {NULL}},
@@ -30,7 +30,10 @@ static const struct {
     {"HIDE", plan_hide, 0, {"TYPE", "NAME", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", NULL}},
 };
 
+#define DRAWS 200 /* of a run: the mean of many runs wants no more of each */
 #define CARDS (sizeof table / sizeof *table)
+
+const char *const plan_commands[] = {"identify", "diagnose", "speeds", NULL};
 
 static void check_options(struct plan_reader *reader, const struct card *card, const char *const *options)
 {
@@ -104,7 +107,7 @@ static int fill_axes(struct pool *pool, struct plan *plan)
 
 static struct plan empty(const char *path)
 {
-    return (struct plan){.path = path, .seed = 1, .replicates = 1, .count = 1};
+    return (struct plan){.path = path, .seed = 1, .replicates = 1, .count = 1, .draws = DRAWS};
 }
 
 int plan_read(struct pool *pool, const char *path, struct message_list *messages, struct plan *plan)

@@ -29,9 +29,17 @@ static void no_data(struct plan_reader *reader, const struct card *card)
         deck_error(&reader->fields, card->line[0].place, "*%s has no data lines, expected options on the card", card->name);
 }
 
+static void of_command(struct plan_reader *reader, const struct card_option *option, enum plan_command of,
+                       const char *const *commands)
+{
+    if (option && reader->plan->command != of)
+        deck_error(&reader->fields, option->place, "%s has no meaning for COMMAND=%s, expected COMMAND=%s", option->name,
+                   commands[reader->plan->command], commands[of]);
+}
+
 void plan_study(struct plan_reader *reader, const struct card *card)
 {
-    static const char *const commands[] = {"IDENTIFY", "DIAGNOSE", NULL};
+    static const char *const commands[] = {"IDENTIFY", "DIAGNOSE", "SPEEDS", NULL};
     struct plan *plan = reader->plan;
     const struct card_option *command = card_option(card, "COMMAND"), *baseline = card_option(card, "BASELINE");
     double number;
@@ -48,11 +56,12 @@ void plan_study(struct plan_reader *reader, const struct card *card)
         plan->replicates = (int)number;
     if (whole_option(reader, card, "BOOTSTRAP", 100, 1000000, &number))
         plan->bootstrap = (int)number;
-    if (baseline && plan->baseline && plan->command == PLAN_DIAGNOSE)
-        deck_error(&reader->fields, baseline->place, "BASELINE has no meaning for COMMAND=DIAGNOSE, expected COMMAND=IDENTIFY");
-    if (card_option(card, "BOOTSTRAP") && plan->command == PLAN_IDENTIFY)
-        deck_error(&reader->fields, card_option(card, "BOOTSTRAP")->place,
-                   "BOOTSTRAP has no meaning for COMMAND=IDENTIFY, expected COMMAND=DIAGNOSE");
+    if (whole_option(reader, card, "DRAWS", 0, 1000000, &number))
+        plan->draws = (int)number;
+    if (plan->baseline)
+        of_command(reader, baseline, PLAN_IDENTIFY, commands);
+    of_command(reader, card_option(card, "BOOTSTRAP"), PLAN_DIAGNOSE, commands);
+    of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS, commands);
 }
 
 /* As seen from where the program runs: a relative one is relative to the file that names it. */

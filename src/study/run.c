@@ -612,22 +612,62 @@ static const char *reason(struct pool *pool, int status, const struct message_li
     return text ? text : rotid_status_text(status);
 }
 
+/* The machine at the values of the fit, and at those that made the data where nothing else acts in these. */
+static int compute_speeds(struct pool *pool, const struct study *study, const struct experiment *experiment,
+                          const rotid_environment *environment, struct message_list *notes, struct fitted *fitted)
+{
+    const struct states *states = &experiment->states;
+    const struct machine *machine = states->machine;
+    const struct job *job = experiment->job;
+    struct speeds_options options = {
+        .count = SPEEDS_COUNT, .harmonic = 1, .draws = study->plan->draws, .seed = study->seed, .threads = 1};
+    rotid_fit_result own;
+    int n = job->unknowns.nparameter, status = machine_fit(pool, states, fitted->fit, &own), known = experiment->made_by != NULL;
+    double *x = POOL_ARRAY(pool, double, machine_unknowns(machine, job));
+    fitted->speeds = POOL_NEW(pool, rotid_speeds);
+    rotid_speeds *truth = POOL_NEW(pool, rotid_speeds);
+    if (status || !x || !fitted->speeds || !truth)
+        return status ? status : ROTID_ERROR_MEMORY;
+    status = speeds_run(pool, machine, job, own.x, &own, &options, environment, notes, fitted->speeds);
+    for (int p = 0; p < machine_unknowns(machine, job); p++) {
+        x[p] = p < n && experiment->truth ? experiment->truth[state_unknown(&states->state[0], p)]
+                                          : machine_bounds(machine, job, p)->start;
+        known &= isfinite(x[p]) && !experiment->made_by->effect;
+    }
+    options.draws = 0;
+    if (!status && known) {
+        fitted->truth = truth;
+        status = speeds_run(pool, machine, job, x, NULL, &options, environment, notes, truth);
+    }
+    return status;
+}
+
 static char *identify(struct pool *pool, const struct study *study, const struct line *line, struct experiment *experiment,
                       const rotid_environment *environment, struct message_list *notes, int *status)
 {
-    struct identification *result = POOL_ARRAY(pool, struct identification, experiment->states.nstate);
-    rotid_fit_result *fit = NULL;
+    const struct states *states = &experiment->states;
+    struct states joined = *states; /* with the run-up where that was measured: a model makes none */
+    struct fitted fitted = {.states = &joined, .found = POOL_ARRAY(pool, struct identification, states->nstate)};
+    struct runup *runup = NULL;
     char *text = NULL;
-    *status = ROTID_ERROR_MEMORY;
-    if (result)
-        *status = identify_states_bare(pool, &experiment->states, study->plan->baseline, environment, notes, result, &fit);
-    if (*status)
-        return NULL;
-    if (fit->status == ROTID_STOP_CANCELLED)
+    *status = fitted.found ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (study->plan->command == PLAN_SPEEDS && !states->machine) {
+        message_add(notes, SEVERITY_ERROR, NULL, 0, 0, "the deck has no *RUNNING, expected the machine in operation behind it");
+        *status = ROTID_ERROR_ARGUMENT;
+    }
+    if (!*status && !study->plan->from_model)
+        *status = runup_join(pool, states, notes, &joined, &runup);
+    if (!*status)
+        *status = identify_states_bare(pool, &joined, study->plan->baseline, environment, notes, fitted.found, &fitted.fit);
+    if (runup_close(runup))
+        *status = ROTID_ERROR_MEMORY;
+    if (!*status && fitted.fit->status != ROTID_STOP_CANCELLED && study->plan->command == PLAN_SPEEDS)
+        *status = compute_speeds(pool, study, experiment, environment, notes, &fitted);
+    if (!*status && fitted.fit->status == ROTID_STOP_CANCELLED)
         *status = ROTID_STOP_CANCELLED;
-    else
-        text = line_identified(line, experiment, result, fit, notes);
-    rotid_fit_free(fit);
+    if (!*status)
+        text = line_identified(line, experiment, &fitted, notes);
+    rotid_fit_free(fitted.fit);
     return text;
 }
 

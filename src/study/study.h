@@ -33,6 +33,7 @@
 #include "report/report.h"
 #include "result/result.h"
 #include "run/run.h"
+#include "running/running.h"
 
 /* ---------------------------------------------------------------------------------------------------------------- digest */
 
@@ -65,7 +66,8 @@ uint64_t digest_name(const char *name);
 
 /* A plan of many runs, as its file states it: keyword cards, docs/study.md. */
 
-enum plan_command { PLAN_IDENTIFY, PLAN_DIAGNOSE };
+enum plan_command { PLAN_IDENTIFY, PLAN_DIAGNOSE, PLAN_SPEEDS };
+extern const char *const plan_commands[]; /* as results name them */
 
 struct plan_deck {
     const char *name, *path; /* as written; as seen from where the program runs */
@@ -113,6 +115,7 @@ struct plan {
     enum plan_command command;
     unsigned long seed;
     int replicates, baseline, bootstrap; /* bootstrap: replicates inside a diagnosis, 0: its own choice */
+    int draws;                           /* of the bands of critical speeds */
     int ndeck;
     struct plan_deck *deck;
     /* axes; one that is not in the file has one entry, with a name or text of NULL */
@@ -301,10 +304,18 @@ struct line {
     double begin; /* on the clock */
 };
 
-/* result [states of the experiment], fit: of all. Each with the line feed at its end, to be freed with json_free; NULL where
+/* What was fitted and, of *RUNNING, computed from it. */
+struct fitted {
+    const struct states *states;  /* with the unknowns of the machine where its run-up was fitted */
+    struct identification *found; /* [states] */
+    rotid_fit_result *fit;        /* of all */
+    rotid_speeds *speeds, *truth; /* NULL without; truth: of the model that made the data */
+};
+
+/* Each with the line feed at its end, to be freed with json_free; NULL where
  * memory is out. */
-char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
-                      const rotid_fit_result *fit, const struct message_list *notes);
+char *line_identified(const struct line *line, const struct experiment *experiment, const struct fitted *fitted,
+                      const struct message_list *notes);
 char *line_diagnosed(const struct line *line, const struct experiment *experiment, struct diagnosis *result,
                      const struct message_list *notes);
 char *line_failed(const struct line *line, const char *error, double seconds);
@@ -527,6 +538,10 @@ struct csv_study {
     const struct table *runs; /* as summary_read has filled it */
 };
 extern const struct csv_part csv_study_parts[CSV_MOST_FILES];
+
+/* What a run says in numbers: the parameters of its fit, then its critical speeds, "forward:1" (mixed ones among them) and
+ * "backward:1" [rpm]. NULL where memory is out. */
+rotid_fitted_parameter *study_run_values(struct pool *pool, const struct study_run *run, int *count);
 
 /* What a parameter is in truth; NaN where that is not known. */
 double study_run_truth(const struct study_run *run, const char *name);

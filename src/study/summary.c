@@ -172,6 +172,30 @@ double study_run_truth(const struct study_run *run, const char *name)
     return NAN;
 }
 
+rotid_fitted_parameter *study_run_values(struct pool *pool, const struct study_run *run, int *count)
+{
+    int parameters = run->fit ? run->fit->nparameters : 0, speeds = run->speeds ? run->speeds->ncritical_speeds : 0,
+        number[2] = {0, 0};
+    rotid_fitted_parameter *list = POOL_ARRAY(pool, rotid_fitted_parameter, parameters + speeds);
+    *count = list ? parameters + speeds : 0;
+    for (int p = 0; p < parameters && list; p++)
+        list[p] = run->fit->parameters[p];
+    for (int i = 0; i < speeds && list; i++) {
+        const rotid_critical_speed *c = &run->speeds->critical_speeds[i];
+        int backward = !strcmp(c->whirl, whirl_words[0]);
+        list[parameters + i] =
+            (rotid_fitted_parameter){.name = pool_format(pool, "%s:%d", backward ? "backward" : "forward", ++number[backward]),
+                                     .unit = "rpm",
+                                     .value = c->speed_rpm,
+                                     .start = NAN,
+                                     .std = c->std,
+                                     .ci95 = {c->ci95[0], c->ci95[1]}};
+        if (!list[parameters + i].name)
+            return NULL;
+    }
+    return list;
+}
+
 static void add_modes(struct cell_sums *cell, const rotid_identification *fit)
 {
     for (int k = 0; k < fit->nmodes; k++) {
@@ -257,11 +281,17 @@ static void add_run(struct sums *s, const struct study_run *run)
         cell->chi2_sum += fit->chi2_per_dof;
     }
     add_modes(cell, fit);
-    for (int p = 0; p < fit->nparameters; p++) {
-        struct parameter_sums *parameter = find_parameter(s, cell, &fit->parameters[p]);
+    struct pool scratch;
+    int count;
+    pool_open(&scratch, s->pool->allocator);
+    const rotid_fitted_parameter *value = study_run_values(&scratch, run, &count);
+    s->failed |= !value;
+    for (int p = 0; p < count && value; p++) {
+        struct parameter_sums *parameter = find_parameter(s, cell, &value[p]);
         if (parameter)
-            add_value(parameter, &fit->parameters[p], study_run_truth(run, fit->parameters[p].name));
+            add_value(parameter, &value[p], study_run_truth(run, value[p].name));
     }
+    pool_close(&scratch);
     if (run->diagnosis)
         add_diagnosis(s, cell, run);
 }

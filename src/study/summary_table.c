@@ -182,9 +182,14 @@ void table_add_run(struct table *table, const struct study_run *run)
     static const rotid_fitted_parameter nothing = {
         .name = "", .unit = "1", .value = NAN, .start = NAN, .std = NAN, .ci95 = {NAN, NAN}};
     const rotid_identification *fit = run->fit;
-    int count = fit && fit->nparameters ? fit->nparameters : 1;
-    for (int p = 0; p < count; p++) {
-        const rotid_fitted_parameter *is = fit && fit->nparameters ? &fit->parameters[p] : &nothing;
+    int count;
+    const rotid_fitted_parameter *value = table ? study_run_values(table->pool, run, &count) : NULL;
+    if (!value && table)
+        table->failed = 1;
+    if (!value)
+        return;
+    for (int p = 0; p < (count ? count : 1); p++) {
+        const rotid_fitted_parameter *is = count ? &value[p] : &nothing;
         double truth = study_run_truth(run, is->name);
         table_row(table);
         number_column(table, "run", NULL, SHOW_COUNT, run->run);

@@ -63,7 +63,10 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
                const rotid_environment *environment, double *chi2)
 {
     int n = b->states.nparameter, count = b->states.nstate + 1;
-    struct states states = {count, POOL_ARRAY(pool, struct state, count), n, POOL_ARRAY(pool, rotid_parameter, 2 * n), NULL};
+    struct states states = {.nstate = count,
+                            .state = POOL_ARRAY(pool, struct state, count),
+                            .nparameter = n,
+                            .bounds = POOL_ARRAY(pool, rotid_parameter, 2 * n)};
     struct identification *out = POOL_ARRAY(pool, struct identification, count);
     rotid_fit_result *fit = NULL;
     struct message_list quiet;

@@ -1,0 +1,281 @@
+#include <math.h>
+#include <string.h>
+
+#include "running/running.h"
+
+#define STEP   1e-4 /* of an unknown, on both sides: differences of matrices to 1e-8 */
+#define SPEEDS 25   /* at which the modes are looked at in a search */
+#define BEYOND 1.1  /* times the highest measured speed: how far a search goes at least */
+
+/* The machine at one point of a fit. */
+struct point {
+    struct pool pool;
+    int is_open;
+    double *x; /* [machine_unknowns] */
+    struct search search;
+    struct critical *critical; /* [nrunup] of each reading; speed NaN where it was not found */
+};
+
+struct runup {
+    struct pool *pool;
+    const struct states *states; /* without the unknowns of the machine */
+    const struct machine *machine;
+    const struct job *job;
+    struct joint_more more;
+    struct point anchor; /* the start, whose mesh the others share */
+    int out_of_memory;   /* in an evaluation, which a minimiser takes for a point without a model */
+    int at;              /* which of the points is the last one where every reading has a critical speed */
+    struct point point[2];
+    struct message_list quiet;
+};
+
+/* Which unknown of the fit of all states unknown p of the machine is. */
+static int of_all(const struct runup *r, int p)
+{
+    int at_rest = r->job->unknowns.nparameter;
+    return p < at_rest ? state_unknown(&r->states->state[0], p) : r->states->nparameter + p - at_rest;
+}
+
+/* The critical speeds of a machine up to all that were measured. */
+static int search_all(struct pool *pool, struct message_list *notes, struct search *s)
+{
+    int most[2] = {0, 0};
+    double highest = 0;
+    for (int i = 0; i < s->machine->nrunup; i++) {
+        const struct runup_reading *reading = &s->machine->runup[i];
+        most[reading->backward] = reading->number > most[reading->backward] ? reading->number : most[reading->backward];
+        highest = fmax(highest, reading->speed);
+    }
+    return search_until(pool, BEYOND * highest, most[0], most[1], notes, s);
+}
+
+static int search_anew(struct runup *r, struct point *p, struct message_list *notes)
+{
+    int lost = 0, status = search_all(&p->pool, notes, &p->search);
+    for (int i = 0; i < r->machine->nrunup && !status; i++) {
+        const struct critical *found = search_find(&p->search, r->machine->runup[i].number, r->machine->runup[i].backward);
+        p->critical[i].speed = NAN;
+        if (found)
+            p->critical[i] = *found;
+        lost += !found;
+    }
+    return status ? status : lost;
+}
+
+static int open_point(struct runup *r, const double *x, struct point *p)
+{
+    int n = machine_unknowns(r->machine, r->job);
+    if (p->is_open)
+        pool_close(&p->pool);
+    pool_open(&p->pool, r->pool->allocator);
+    p->is_open = 1;
+    p->x = POOL_ARRAY(&p->pool, double, n);
+    p->critical = POOL_ARRAY(&p->pool, struct critical, r->machine->nrunup);
+    if (!p->x || !p->critical)
+        return ROTID_ERROR_MEMORY;
+    for (int q = 0; q < n; q++)
+        p->x[q] = x[of_all(r, q)];
+    p->search = (struct search){.machine = r->machine, .job = r->job, .harmonic = 1, .count = SPEEDS};
+    return machine_nominal(&p->pool, r->machine, p->x, &p->search.values);
+}
+
+/* From the point before by the modes there. How many readings are left without a critical speed, or a status below 0. */
+static int carry(struct runup *r, const struct point *from, struct point *to)
+{
+    int failed, lost = 0;
+    to->search.basis = from->search.basis;
+    int status = system_build(&to->pool, r->machine, r->job, &to->search.values, &r->anchor.search.system, &to->search.basis,
+                              &to->search.system, &failed);
+    for (int i = 0; i < r->machine->nrunup && !status; i++) {
+        to->critical[i].speed = from->critical[i].speed;
+        if (pair_new(&to->pool, to->search.system.size, &to->critical[i].pair))
+            return ROTID_ERROR_MEMORY;
+        lost += critical_carry(&from->search.system, &from->critical[i], 1, &to->search.system, &to->critical[i]) ||
+                (system_at(&to->search.system, to->critical[i].speed), pair_left(&to->search.system, 0, &to->critical[i].pair));
+    }
+    return status ? status : lost;
+}
+
+static int residual(void *user, const double *x, double *out)
+{
+    struct runup *r = user;
+    struct point *here = &r->point[1 - r->at];
+    int status = open_point(r, x, here);
+    r->out_of_memory |= status != ROTID_OK;
+    if (status)
+        return status;
+    int lost = carry(r, &r->point[r->at], here);
+    if (lost && lost != ROTID_ERROR_MEMORY) {
+        message_open(&r->quiet, &here->pool);
+        status = open_point(r, x, here);
+        lost = status ? status : search_anew(r, here, &r->quiet);
+    }
+    r->out_of_memory |= lost == ROTID_ERROR_MEMORY;
+    if (lost == ROTID_ERROR_MEMORY)
+        return lost;
+    for (int i = 0; i < r->machine->nrunup; i++) {
+        const struct runup_reading *reading = &r->machine->runup[i];
+        out[i] = lost < 0 ? (double)NAN : (here->critical[i].speed - reading->speed) / reading->std;
+    }
+    if (!lost)
+        r->at = 1 - r->at;
+    return ROTID_OK;
+}
+
+/* Both sides of unknown q on the basis of a point. x [2 machine_unknowns] */
+static int build_sides(struct pool *pool, const struct runup *r, const struct point *p, int q, double step, double *x,
+                       struct machine_values values[2], struct system side[2])
+{
+    int n = machine_unknowns(r->machine, r->job), failed, status = ROTID_OK;
+    for (int i = 0; i < 2 && !status; i++) {
+        values[i] = p->search.values;
+        values[i].x = memcpy(x + (ptrdiff_t)n * i, p->x, (size_t)n * sizeof *x);
+        x[q + (ptrdiff_t)n * i] += i ? step : -step;
+        status = system_build(pool, r->machine, r->job, &values[i], &p->search.system, NULL, &side[i], &failed);
+    }
+    return status;
+}
+
+static int jacobian(void *user, const double *x, int rows, double *out)
+{
+    struct runup *r = user;
+    struct pool scratch;
+    int n = machine_unknowns(r->machine, r->job), nrunup = r->machine->nrunup, moved = 0, status = ROTID_OK;
+    pool_open(&scratch, r->pool->allocator);
+    double *sides = POOL_ARRAY(&scratch, double, 2 * (size_t)n + (size_t)nrunup);
+    for (int q = 0; q < n; q++)
+        moved |= r->point[r->at].x[q] != x[of_all(r, q)];
+    if (!sides || moved)
+        status = sides ? residual(r, x, sides + 2 * (ptrdiff_t)n) : ROTID_ERROR_MEMORY;
+    struct point *p = &r->point[r->at];
+    size_t size = (size_t)p->search.system.size;
+    double complex *work = POOL_ARRAY(&scratch, double complex, 2 * size * size + size);
+    if (!status && !work)
+        status = ROTID_ERROR_MEMORY;
+    for (int q = 0; q < n && !status; q++) {
+        struct pool own;
+        struct system side[2];
+        struct machine_values values[2];
+        double step = STEP * fabs(p->x[q]);
+        pool_open(&own, r->pool->allocator);
+        status = build_sides(&own, r, p, q, step, sides, values, side);
+        for (int i = 0; i < nrunup && !status; i++)
+            out[i + (ptrdiff_t)rows * of_all(r, q)] +=
+                critical_rate(&p->search.system, side, 2 * step, 1, &p->critical[i], work) / r->machine->runup[i].std;
+        pool_close(&own);
+    }
+    pool_close(&scratch);
+    r->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    return status;
+}
+
+static int join_bounds(struct pool *pool, const struct states *states, struct states *joined)
+{
+    const struct machine *machine = states->machine;
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, states->nparameter + machine->nunknown);
+    if (!bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < states->nparameter; p++)
+        bounds[p] = states->bounds[p];
+    for (int p = 0; p < machine->nunknown; p++)
+        bounds[states->nparameter + p] = machine->unknown[p].bounds;
+    joined->bounds = bounds;
+    joined->nparameter = states->nparameter + machine->nunknown;
+    return ROTID_OK;
+}
+
+static void refuse_reading(const struct runup *r, struct message_list *notes)
+{
+    const struct point *p = &r->anchor;
+    const struct search *s = &p->search;
+    for (int i = 0; i < r->machine->nrunup; i++) {
+        const struct runup_reading *reading = &r->machine->runup[i];
+        if (isfinite(p->critical[i].speed))
+            continue;
+        message_add(
+            notes, SEVERITY_ERROR, reading->place.file, reading->place.line, reading->place.column,
+            "the model has %d critical speeds with %s whirl up to %.0f rpm, expected number %d of *RUNUP to be one of them",
+            search_count(s, reading->backward), reading->backward ? "backward" : "forward", s->speed[s->count - 1] / RPM,
+            reading->number);
+    }
+}
+
+int runup_join(struct pool *pool, const struct states *states, struct message_list *notes, struct states *joined,
+               struct runup **runup)
+{
+    const struct machine *machine = states->machine;
+    *joined = *states;
+    *runup = NULL;
+    if (!machine || !machine->nrunup || machine->runup_held)
+        return ROTID_OK;
+    struct runup *r = *runup = POOL_NEW(pool, struct runup);
+    double *start = POOL_ARRAY(pool, double, states->nparameter + machine->nunknown);
+    if (!r || !start || join_bounds(pool, states, joined))
+        return ROTID_ERROR_MEMORY;
+    *r = (struct runup){.pool = pool, .states = states, .machine = machine, .job = &states->state[0].job};
+    r->more = (struct joint_more){machine->nrunup, r, residual, jacobian};
+    joined->more = &r->more;
+    for (int p = 0; p < joined->nparameter; p++)
+        start[p] = joined->bounds[p].start;
+    int status = open_point(r, start, &r->anchor);
+    if (!status)
+        status = search_anew(r, &r->anchor, notes);
+    if (status > 0) {
+        refuse_reading(r, notes);
+        return ROTID_ERROR_ARGUMENT;
+    }
+    if (!status)
+        status = open_point(r, start, &r->point[0]);
+    if (!status)
+        status = carry(r, &r->anchor, &r->point[0]);
+    return status > 0 ? ROTID_ERROR_EIGEN : status;
+}
+
+int runup_close(struct runup *runup)
+{
+    struct point *const all[] = {runup ? &runup->point[0] : NULL, runup ? &runup->point[1] : NULL, runup ? &runup->anchor : NULL};
+    for (int i = 0; i < 3 && runup; i++)
+        if (all[i]->is_open)
+            pool_close(&all[i]->pool);
+    return runup && runup->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+/* ---- beside the model */
+
+int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+                  const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list)
+{
+    struct search search = {.machine = machine, .job = job, .harmonic = 1, .count = SPEEDS};
+    struct critical *found = POOL_ARRAY(pool, struct critical, machine->nrunup);
+    double *std = POOL_ARRAY(pool, double, machine->nrunup);
+    int status = found && std ? ROTID_OK : ROTID_ERROR_MEMORY, nfound = 0;
+    *count = 0;
+    if (!machine->nrunup || status)
+        return status;
+    *count = POOL_LIST(pool, *list, machine->nrunup);
+    status = *count ? machine_nominal(pool, machine, x, &search.values) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = search_all(pool, notes, &search);
+    for (int i = 0; i < machine->nrunup && !status; i++) {
+        const struct critical *own = search_find(&search, machine->runup[i].number, machine->runup[i].backward);
+        if (own)
+            found[nfound++] = *own;
+    }
+    if (!status)
+        status = bands_linear(pool, &search, nfound, found, fit, std);
+    for (int i = 0, next = 0; i < machine->nrunup && !status; i++) {
+        const struct runup_reading *reading = &machine->runup[i];
+        const struct critical *own = search_find(&search, reading->number, reading->backward);
+        double predicted = own ? own->speed : NAN, relative = own ? std[next++] : NAN;
+        double doubt = machine->runup_held ? hypot(reading->std, relative * predicted) : reading->std;
+        (*list)[i] = (rotid_runup_speed){.number = reading->number,
+                                         .whirl = reading->backward ? "backward" : "forward",
+                                         .measured_rpm = reading->speed / RPM,
+                                         .measured_std = reading->std / RPM,
+                                         .predicted_rpm = predicted / RPM,
+                                         .predicted_std = relative * predicted / RPM,
+                                         .z = (reading->speed - predicted) / doubt,
+                                         .holdout = machine->runup_held};
+    }
+    return status;
+}

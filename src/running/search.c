@@ -1,0 +1,122 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "running/running.h"
+
+#define BEYOND      1.3 /* times the running range, or the third critical speed */
+#define FARTHER     1.6 /* the range where too few were found within it */
+#define MODES_FIRST 14
+#define MODES_MOST  48
+#define REACH       2.5 /* the highest mode of the basis over the highest speed, at least */
+#define COUPLED     10
+#define ATTEMPTS    4
+
+static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
+{
+    if (status == ROTID_ERROR_STIFFNESS)
+        message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
+                    "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
+    if (status == ROTID_ERROR_SECTION) {
+        struct job_place place = job_part_place(s->job, failed);
+        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s",
+                    discrete_refusal(s->job->options.solid ? AS_SOLID : AS_BEAM, &s->job->rotor, failed));
+    }
+    return status;
+}
+
+/* Whether the bearings are stronger than the magnetic pull: the symmetric part of the stiffness at standstill is positive
+ * definite.
+ */
+static int is_held(struct pool *pool, struct system *s, int npull)
+{
+    struct pool scratch;
+    int held = 0, n = s->size;
+    if (!npull)
+        return 1;
+    pool_open(&scratch, pool->allocator);
+    double *k = POOL_ARRAY(&scratch, double, (size_t)n *(size_t)n);
+    system_at(s, 0);
+    for (int j = 0; j < n && k; j++)
+        for (int i = 0; i < n; i++)
+            k[i + (ptrdiff_t)n * j] = (s->stiff[i + (ptrdiff_t)n * j] + s->stiff[j + (ptrdiff_t)n * i]) / 2;
+    held = k && !cholesky_factor(n, k);
+    pool_close(&scratch);
+    return held;
+}
+
+/* With a basis that reaches far enough beyond the highest speed, as far as the model has so many modes. */
+static int build(struct pool *pool, struct search *s, double highest, struct message_list *notes)
+{
+    int status, failed;
+    s->basis = (struct basis_size){MODES_FIRST, COUPLED, 1};
+    for (;; s->basis.modes += s->basis.modes / 2) {
+        status = system_build(pool, s->machine, s->job, &s->values, NULL, &s->basis, &s->system, &failed);
+        if (status)
+            return refuse_system(s, status, failed, notes);
+        if (!is_held(pool, &s->system, s->machine->npull)) {
+            message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
+                        "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
+                        "below their stiffness");
+            return ROTID_ERROR_STIFFNESS;
+        }
+        if (s->system.highest >= REACH * highest || s->basis.modes >= s->system.n || s->basis.modes >= MODES_MOST)
+            return ROTID_OK;
+    }
+}
+
+static int find(struct pool *pool, struct search *s, double to)
+{
+    s->speed = POOL_ARRAY(pool, double, s->count);
+    for (int i = 0; i < s->count && s->speed; i++)
+        s->speed[i] = fmax(STANDSTILL * to, s->count > 1 ? s->from + (to - s->from) * i / (s->count - 1) : to);
+    int status = s->speed ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = tracks_make(pool, &s->system, s->count, s->speed, 2 * to * fmax(1, s->harmonic), &s->tracks);
+    return status ? status : criticals_find(pool, &s->system, &s->tracks, s->harmonic, &s->ncritical, &s->critical);
+}
+
+int search_within(struct pool *pool, double to, struct message_list *notes, struct search *s)
+{
+    int status = build(pool, s, to * fmax(1, s->harmonic), notes);
+    return status ? status : find(pool, s, to);
+}
+
+int search_count(const struct search *s, int backward)
+{
+    int count = 0;
+    for (int i = 0; i < s->ncritical; i++)
+        count += (pair_whirl(&s->system, s->critical[i].pair.u) == WHIRL_BACKWARD) == backward;
+    return count;
+}
+
+const struct critical *search_find(const struct search *s, int number, int backward)
+{
+    for (int i = 0; i < s->ncritical; i++) {
+        number -= (pair_whirl(&s->system, s->critical[i].pair.u) == WHIRL_BACKWARD) == backward;
+        if (!number)
+            return &s->critical[i];
+    }
+    return NULL;
+}
+
+int search_until(struct pool *pool, double least, int forward, int backward, struct message_list *notes, struct search *s)
+{
+    int status = build(pool, s, 0, notes), count;
+    struct pair *all = status ? NULL : POOL_ARRAY(pool, struct pair, s->system.size);
+    for (int i = 0; i < s->system.size && all; i++)
+        if (pair_new(pool, s->system.size, &all[i]))
+            return ROTID_ERROR_MEMORY;
+    if (status || !all)
+        return status ? status : ROTID_ERROR_MEMORY;
+    status = pairs_all(pool, &s->system, STANDSTILL * s->system.highest, &count, all);
+    if (!status && !count)
+        return ROTID_ERROR_EIGEN;
+    double to = status ? 0 : fmax(least, BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / s->harmonic);
+    for (int attempt = 0; attempt < ATTEMPTS && !status; attempt++, to *= FARTHER) {
+        status = search_within(pool, to, notes, s);
+        if (!status && search_count(s, 0) >= forward && search_count(s, 1) >= backward)
+            break;
+    }
+    return status;
+}

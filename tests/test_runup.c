@@ -1,0 +1,305 @@
+/* Measured critical speeds: bearings identified with the core, and held out, on machines that are solved by another route: the
+ * differential equation of the shaft, in steps. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "running_case.h"
+#include "support.h"
+
+#define pi 3.14159265358979323846
+
+/* A uniform shaft on two springs, Q = S (v' - psi), M = EI psi', Q' = -m w^2 v, M' + Q = -J w^2 psi. At rest J = rho I; where a
+ * forward whirl has the speed of the shaft J = rho I - 2 rho I. */
+struct shaft {
+    double length, e, g, nu, rho, diameter, at[2], stiffness[2];
+};
+
+enum { AT_REST = 1, FORWARD = -1, BACKWARD = 3 }; /* J/rho I */
+
+static void stretch(const struct shaft *s, double w, int whirl, double length, double y[4])
+{
+    double area = pi * s->diameter * s->diameter / 4, inertia = pi * pow(s->diameter, 4) / 64,
+           shear = 6 * (1 + s->nu) / (7 + 6 * s->nu) * s->g * area;
+    int steps = (int)(100 * length) + 1;
+    double h = length / steps;
+    for (int i = 0; i < steps; i++) {
+        double term[4], sum[4];
+        memcpy(term, y, sizeof term);
+        memcpy(sum, y, sizeof sum);
+        for (int k = 1; k < 14; k++) { /* y(z + h) = exp(A h) y */
+            double next[4] = {term[1] + term[3] / shear, term[2] / (s->e * inertia),
+                              -term[3] - whirl * s->rho * inertia * w * w * term[1], -s->rho * area * w * w * term[0]};
+            for (int j = 0; j < 4; j++) {
+                term[j] = next[j] * h / k;
+                sum[j] += term[j];
+            }
+        }
+        memcpy(y, sum, sizeof sum);
+    }
+}
+
+/* Zero where the shaft has a mode: M and Q at the end of motions with neither at the beginning. */
+static double left_over(const struct shaft *s, double w, int whirl)
+{
+    double y[2][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}};
+    for (int i = 0; i < 2; i++) {
+        stretch(s, w, whirl, s->at[0], y[i]);
+        y[i][3] += s->stiffness[0] * y[i][0];
+        stretch(s, w, whirl, s->at[1] - s->at[0], y[i]);
+        y[i][3] += s->stiffness[1] * y[i][0];
+        stretch(s, w, whirl, s->length - s->at[1], y[i]);
+    }
+    return y[0][2] * y[1][3] - y[0][3] * y[1][2];
+}
+
+/* The index-th one above `from` [rad/s]. */
+static double frequency(const struct shaft *s, double from, int whirl, int index)
+{
+    double step = 5, low = from, value = left_over(s, low, whirl);
+    for (;;) {
+        double next = left_over(s, low + step, whirl);
+        if (next * value < 0 && !--index)
+            break;
+        low += step;
+        value = next;
+    }
+    for (int i = 0; i < 60; i++) {
+        step /= 2;
+        if (left_over(s, low + step, whirl) * value > 0)
+            low += step;
+    }
+    return low;
+}
+
+static const struct shaft truth = {2, 1.1e11, 3e10, 0.28, 7600, 0.2, {0.3, 1.7}, {2.4e8, 2.4e8}};
+
+/* The deck: modes at rest of the truth, bearings as stated, `more` behind. */
+static char *deck_of(double stated, const char *fit, const char *more)
+{
+    struct shaft free = truth;
+    char *text = pool_format(&test_pool,
+                             "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.25e11, 2.5e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, "
+                             "MATERIAL=l\n2, 0.2, 0, 200\n*NOISE, FREQUENCY=1e-4\n*MODES\n");
+    free.stiffness[0] = free.stiffness[1] = 0;
+    for (int k = 1; k <= 4; k++)
+        text = pool_format(&test_pool, "%s%d, %.12g\n", text, k, frequency(&free, 50, AT_REST, k) / (2 * pi));
+    return pool_format(&test_pool,
+                       "%s*FIT, FUNCTIONAL=LIKELIHOOD%s\n*IDENTIFY\ncore.E, 5e10, 3e11, 1.25e11\ncore.G, 5e9, 1e11, 2.5e10\n"
+                       "*RUNNING\n*BEARING, NAME=a, STD=0.05\n0.3, %g, 0\n*BEARING, NAME=b, LIKE=a\n1.7, %g, 0\n%s",
+                       text, fit, stated, stated, more);
+}
+
+static char *readings(double std)
+{
+    char *text = pool_format(&test_pool, "*RUNUP\n");
+    for (int k = 1; k <= 2; k++)
+        text = pool_format(&test_pool, "%s%d, %.12g, %g\n", text, k, frequency(&truth, 50, FORWARD, k) / RPM, std);
+    return text;
+}
+
+static rotid_identification *identify(const char *text, int expected)
+{
+    rotid_deck *deck;
+    rotid_identification *found = NULL;
+    char failure[ROTID_FAILURE_LENGTH];
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+    int status = rotid_identify(deck, 0, NULL, failure, &found);
+    if (status != expected)
+        print_message("%s\n", failure);
+    assert_int_equal(status, expected);
+    rotid_deck_free(deck);
+    return found;
+}
+
+static void the_critical_speeds_are_those_of_the_differential_equation(void **state)
+{
+    (void)state;
+    struct running_case c;
+    char *deck = deck_of(2.4e8, "", "");
+    assert_int_equal(running_case_open(deck, 30000, 9, 0, &c), ROTID_OK);
+    c.x[0] = truth.e;
+    c.x[1] = truth.g;
+    assert_int_equal(running_case_run(&c, NULL, 30000, 9, 0), ROTID_OK);
+    for (int whirl = FORWARD; whirl <= BACKWARD; whirl += BACKWARD - FORWARD)
+        for (int i = 0, k = 0; i < c.speeds.ncritical_speeds; i++)
+            if (!strcmp(c.speeds.critical_speeds[i].whirl, whirl == FORWARD ? "forward" : "backward"))
+                assert_close(c.speeds.critical_speeds[i].speed_rpm, frequency(&truth, 50, whirl, ++k) / RPM, 2e-5, 0);
+    running_case_close(&c);
+}
+
+static void bearings_and_core_are_identified_together(void **state)
+{
+    (void)state;
+    char *text = deck_of(2e8, "", pool_format(&test_pool, "%s*IDENTIFY\na.k, 0.2, 5, 0.8\n", readings(10)));
+    rotid_identification *found = identify(text, ROTID_OK);
+    assert_int_equal(found->nparameters, 3);
+    assert_string_equal(found->status, "converged");
+    assert_string_equal(found->parameters[2].name, "a.k");
+    assert_string_equal(found->parameters[2].unit, "1");
+    assert_close(found->parameters[0].value, truth.e, 2e-4, 0);
+    assert_close(found->parameters[1].value, truth.g, 1e-3, 0);
+    assert_close(found->parameters[2].value, 1.2, 1e-3, 0);
+    assert_int_equal(found->dof, 4 + 2 - 3);
+    assert_true(found->parameters[2].identifiable && found->parameters[2].std < 0.05);
+    assert_int_equal(found->nrunup, 2);
+    for (int i = 0; i < 2; i++) {
+        assert_close(found->runup[i].predicted_rpm, found->runup[i].measured_rpm, 1e-4, 0);
+        assert_close(found->runup[i].measured_std, 10, 1e-12, 0);
+        assert_true(!found->runup[i].holdout && fabs(found->runup[i].z) < 0.2);
+        assert_true(found->runup[i].predicted_std < 11); /* of the fit: STD of the bearing is replaced by it */
+    }
+    rotid_identification_free(found);
+}
+
+/* The deviation of the bearing from the first reading alone: std_k = std_W/(dW/dk), by the differential equation. */
+static void a_reading_weighs_by_its_standard_deviation(void **state)
+{
+    (void)state;
+    struct shaft side[2] = {truth, truth};
+    for (int i = 0; i < 2; i++)
+        side[i].stiffness[0] = side[i].stiffness[1] = truth.stiffness[0] * (i ? 1.01 : 0.99);
+    double rate = (frequency(&side[1], 50, FORWARD, 1) - frequency(&side[0], 50, FORWARD, 1)) / 0.02 / RPM, /* by ln k */
+        measured = frequency(&truth, 50, FORWARD, 1) / RPM;
+    char *text = deck_of(2e8, "", pool_format(&test_pool, "*RUNUP\n1, %.12g, 200\n*IDENTIFY\na.k, 0.2, 5, 1\n", measured));
+    rotid_identification *found = identify(text, ROTID_OK);
+    /* the moduli, which the modes determine to 1e-4, add nothing */
+    assert_close(found->parameters[2].std / found->parameters[2].value, 200 / rate, 5e-3, 0);
+    rotid_identification_free(found);
+}
+
+static void a_run_up_that_is_held_out_shows_a_wrong_bearing(void **state)
+{
+    (void)state;
+    for (int wrong = 0; wrong < 2; wrong++) {
+        rotid_identification *found = identify(deck_of(wrong ? 1.6e8 : 2.4e8, ", HOLDOUT=RUNUP", readings(10)), ROTID_OK);
+        assert_int_equal(found->nparameters, 2);
+        assert_int_equal(found->dof, 2);
+        assert_int_equal(found->nrunup, 2);
+        const rotid_runup_speed *first = &found->runup[0];
+        assert_true(first->holdout);
+        if (wrong)
+            assert_true(first->z > 4 && first->predicted_rpm < first->measured_rpm);
+        else
+            assert_true(fabs(first->z) < 0.1);
+        assert_close(first->z, (first->measured_rpm - first->predicted_rpm) / hypot(10, first->predicted_std), 1e-9, 0);
+        assert_true(first->predicted_std > 20); /* of the bearings: 5 % of their stiffness */
+        rotid_identification_free(found);
+    }
+}
+
+/* The unknowns of the machine stand behind those of all states, and the fit of all has their covariance. */
+static void states_share_the_machine(void **state)
+{
+    (void)state;
+    struct shaft free = truth;
+    const rotid_speeds_options options = {.size = sizeof options, .draws = 30, .count = 9};
+    rotid_speeds *speeds;
+    rotid_deck *deck;
+    free.stiffness[0] = free.stiffness[1] = 0;
+    char *text = pool_format(
+        &test_pool, "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.25e11, 2.5e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, "
+                    "MATERIAL=l\n2, 0.2, 0, 200\n*NOISE, FREQUENCY=1e-4\n*IDENTIFY\ncore.E, 5e10, 3e11, 1.25e11\ncore.G, "
+                    "5e9, 1e11, 2.5e10\n");
+    for (int s = 0; s < 2; s++) {
+        text = pool_format(&test_pool, "%s*STATE, NAME=s%d\n*MODES\n", text, s);
+        for (int k = 1 + s; k <= 3 + s; k++)
+            text = pool_format(&test_pool, "%s%d, %.12g\n", text, k, frequency(&free, 50, AT_REST, k) / (2 * pi));
+    }
+    text = pool_format(&test_pool,
+                       "%s*RUNNING\n*BEARING, NAME=a\n0.3, 2e8, 0\n*BEARING, NAME=b, LIKE=a\n1.7, 2e8, 0\n%s*IDENTIFY\n"
+                       "a.k, 0.2, 5, 1\n",
+                       text, readings(10));
+    rotid_identification *found = identify(text, ROTID_OK);
+    assert_int_equal(found->nstates, 2);
+    assert_int_equal(found->dof, 3 + 3 + 2 - 3);
+    assert_string_equal(found->parameters[2].name, "a.k");
+    assert_close(found->parameters[2].value, 1.2, 1e-3, 0);
+    assert_close(found->parameters[0].value, truth.e, 2e-4, 0);
+    assert_int_equal(found->nrunup, 2);
+    assert_close(found->runup[1].predicted_rpm, found->runup[1].measured_rpm, 1e-4, 0);
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_speeds_compute(deck, &options, NULL, NULL, &speeds), ROTID_OK);
+    const rotid_critical_speed *c = &speeds->critical_speeds[0];
+    assert_string_equal(c->variance_shares[0].source, "identified");
+    assert_true(isfinite(c->std) && c->std > 0 && c->ci95[0] < c->speed_rpm && c->speed_rpm < c->ci95[1]);
+    rotid_speeds_free(speeds);
+    rotid_deck_free(deck);
+    rotid_identification_free(found);
+}
+
+static void a_number_that_the_model_does_not_have_is_refused(void **state)
+{
+    (void)state;
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck;
+    rotid_identification *found;
+    char *text = deck_of(2e8, "", "*RUNUP\n90, 5000, 10\n");
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+    assert_status(rotid_identify(deck, 0, NULL, failure, &found), ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(failure, "expected number 90 of *RUNUP"));
+    assert_non_null(strstr(failure, "deck:"));
+    rotid_deck_free(deck);
+}
+
+/* dW/dp of a machine with everything, beside differences of residuals that are solved again. */
+static void derivatives_are_those_of_differences(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.1e11, 3e10, "
+        "0.28\n*DENSITY\n7600\n*SHAFT, NAME=left, MATERIAL=s\n0.3, 0.10, 0, 12\n0.2, 0.16, 0.02, 8\n*SHAFT, NAME=core, "
+        "MATERIAL=l\n0.7, 0.30, 0, 20\n*SHAFT, NAME=right, MATERIAL=s\n0.4, 0.11, 0, 14\n*NOISE, FREQUENCY=1e-3\n*MODES\n1, "
+        "200\n*IDENTIFY\ncore.E, 1e10, 1e12, 1.1e11\ncore.G, 1e9, 1e12, 3e10\nleft.E, 1e10, 1e12, 2.1e11\n*RUNNING\n*DISK\nend, "
+        "12, 0.1, 0.18\n*BEARING, NAME=a\n0.15, 8e7, 2e7, -1e7, 6e7, 3e4, -2e3, 1e3, 2.5e4\n*BEARING, NAME=b\n1.5, 9e7, 7e7, "
+        "2e4, "
+        "3e4\n*PEDESTAL, BEARING=b\n150, 200, 6e8, 4e8, 1e4, 2e4\n*PULL, GROUP=core\n1e7\n*LOSS\ncore, 0.02\n*RUNUP\n1, 4000, "
+        "10\n2, 9000, 20\n1, 3500, 10, BACKWARD\n*IDENTIFY\na.k, 0.1, 10, 1.1\na.c, 0.1, 10, 0.9\nb.k, 0.1, 10, 1\n";
+    enum { N = 6, ROWS = 3 };
+    struct message_list notes;
+    struct states joined;
+    struct runup *runup;
+    rotid_deck *deck;
+    char failure[ROTID_FAILURE_LENGTH];
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+    message_open(&notes, &test_pool);
+    assert_status(runup_join(&test_pool, deck_states_of(deck), &notes, &joined, &runup), ROTID_OK);
+    assert_int_equal(joined.nparameter, N);
+    assert_int_equal(joined.more->count, ROWS);
+    double x[N], r[2][ROWS], jacobian[(ROWS + 2) * N] = {0};
+    for (int p = 0; p < N; p++)
+        x[p] = joined.bounds[p].start;
+    assert_status(joined.more->residual(joined.more->user, x, r[0]), ROTID_OK);
+    assert_status(joined.more->jacobian(joined.more->user, x, ROWS + 2, jacobian + 2), ROTID_OK);
+    for (int p = 0; p < N; p++) {
+        double step = 1e-4 * x[p];
+        for (int side = 0; side < 2; side++) {
+            x[p] = joined.bounds[p].start + (side ? step : -step);
+            assert_status(joined.more->residual(joined.more->user, x, r[side]), ROTID_OK);
+        }
+        x[p] = joined.bounds[p].start;
+        for (int i = 0; i < ROWS; i++) {
+            double by_difference = (r[1][i] - r[0][i]) / (2 * step),
+                   scale = fabs(jacobian[2 + i]) * joined.bounds[0].start / x[p];
+            assert_close(jacobian[2 + i + (ROWS + 2) * p], by_difference, 1e-6, 1e-5 * scale);
+        }
+    }
+    runup_close(runup);
+    rotid_deck_free(deck);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_critical_speeds_are_those_of_the_differential_equation, open_test_pool,
+                                        close_test_pool),
+        cmocka_unit_test_setup_teardown(bearings_and_core_are_identified_together, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_reading_weighs_by_its_standard_deviation, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_run_up_that_is_held_out_shows_a_wrong_bearing, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(states_share_the_machine, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_number_that_the_model_does_not_have_is_refused, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(derivatives_are_those_of_differences, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
