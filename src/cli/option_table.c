@@ -42,6 +42,10 @@ const struct option_row option_table[] = {
      .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
      .more = "At the values of the deck, whichever of the two MODEL on *FIT asks for."},
 
+    {.name = "type", .commands = "modes", .kind = OPTION_WORD, AT(mode_type), .words = mode_type_words, .standard = AS_STATED,
+     .help = "modes of bending, torsion or axial motion (default: that of *MODES, else bending)",
+     .more = "Torsion and axial motion are those of bars, with the polar inertia and the mass of the disks."},
+
     {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
      .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},
     {.name = "step", .commands = "sensitivity", .kind = OPTION_REAL, AT(step), FROM(1e-9, 0.5), .standard = 0.01, .value = "S",

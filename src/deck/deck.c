@@ -199,7 +199,7 @@ static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
-    enum discretisation as = job->options.solid ? AS_SOLID : AS_BEAM;
+    enum discretisation as = job_discretisation(job);
     int failed, status = keep_places(reader);
     if (!status)
         status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
