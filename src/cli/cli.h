@@ -66,8 +66,6 @@ struct speeds_arguments {
     int draws;
 };
 
-#define AS_STATED (-1) /* of modes: --type is not given */
-
 struct given_option {
     const char *name, *value; /* value: "" where it has none */
 };
