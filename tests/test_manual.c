@@ -187,6 +187,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--speeds", "0:100"},
                                             {"--harmonic", "2"},
                                             {"--draws", "10"},
+                                            {"--type", "torsion"},
                                             {"--campbell", "/x/y"},
                                             {"--response", "/x/z"},
                                             {NULL, NULL}};

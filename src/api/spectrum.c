@@ -103,8 +103,8 @@ static int run(struct call *call, const struct job *stated, int type, const doub
     return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int open_and_run(const rotid_deck *deck, int type, const double *x, int nmode, int with_other, const rotid_environment *environment,
-                        char *failure, rotid_spectrum **spectrum)
+static int open_and_run(const rotid_deck *deck, int type, const double *x, int nmode, int with_other,
+                        const rotid_environment *environment, char *failure, rotid_spectrum **spectrum)
 {
     struct call call;
     int status = call_open(&call, environment, failure, spectrum, "spectrum");

@@ -26,8 +26,8 @@ static double middle_of(const struct mesh *mesh, int e)
 }
 
 /* What a material with these moduli and density adds; f: NULL, or the factors of effects */
-static void add_part(const struct beam *beam, const struct material *of, const struct section *section, const struct effect_field *f,
-                     struct bar *sum)
+static void add_part(const struct beam *beam, const struct material *of, const struct section *section,
+                     const struct effect_field *f, struct bar *sum)
 {
     int twist = beam->type == MODE_TORSION;
     sum->stiffness += twist ? of->g * section->torsion * (f ? f->g : 1) : of->e * section->stiff_area * (f ? f->e : 1);
@@ -139,8 +139,7 @@ static double bars_inertia(const struct beam *beam, const struct bars *bars)
 {
     double area, own, pitch;
     section_rods(bars->number, bars->diameter, bars->pitch, &area, &own, &pitch);
-    return bars->material.rho * bars->length *
-           (beam->type == MODE_TORSION ? 2 * own + area * bars->pitch * bars->pitch : area);
+    return bars->material.rho * bars->length * (beam->type == MODE_TORSION ? 2 * own + area * bars->pitch * bars->pitch : area);
 }
 
 /* What a mass of an effect adds to its element: as a ring of the surface, like that of a solid */

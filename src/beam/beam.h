@@ -119,7 +119,7 @@ struct beam {
     struct hinge *hinge; /* [nhinge] */
     int nparameter;
     const struct parameter *parameter; /* [nparameter] */
-    enum mode_type type;                /* of its degrees of freedom */
+    enum mode_type type;               /* of its degrees of freedom */
     int elastic_only;                  /* leaves springs and axial forces out of K: what bends the rotor itself */
 };
 

@@ -231,7 +231,8 @@ int discrete_place_dof(const struct discrete *discrete, int i)
 
 int discrete_sensor_dof(const struct discrete *discrete, int sensor)
 {
-    return discrete->as == AS_SOLID ? discrete->solid.mesh.sensor_dof[sensor] : node_dof(discrete, discrete->beam.mesh.sensor_node[sensor]);
+    return discrete->as == AS_SOLID ? discrete->solid.mesh.sensor_dof[sensor]
+                                    : node_dof(discrete, discrete->beam.mesh.sensor_node[sensor]);
 }
 
 double discrete_sensor_z(const struct discrete *discrete, int sensor)

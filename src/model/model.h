@@ -68,8 +68,8 @@ void discrete_spread(const struct discrete *discrete, int group, double stiffnes
 /* v [n]: the deflection of the section where spring i of the rotor is attached is v'u. */
 void discrete_spring_motion(const struct discrete *discrete, int i, double *v);
 
-/* u [2 n]: all of the rotor moves by 1; turns by theta = 1 about the left end. In torsion and along the axis there is the first one
- * alone. Returns their number. */
+/* u [2 n]: all of the rotor moves by 1; turns by theta = 1 about the left end. In torsion and along the axis there is the first
+ * one alone. Returns their number. */
 int discrete_rigid_motions(const struct discrete *discrete, double *u);
 
 /* How many of the lowest modes are rigid-body or suspension modes: at most the rigid motions

@@ -41,8 +41,8 @@ static double rectangle_torsion(double height, double width)
 void section_rectangular(double height, double width, struct section *section)
 {
     double area = height * width, inertia = width * height * height * height / 12;
-    *section = (struct section){area, inertia, area, inertia, 1, 0, 0, rectangle_torsion(height, width),
-                                area * (height * height + width * width) / 12};
+    *section = (struct section){
+        area, inertia, area, inertia, 1, 0, 0, rectangle_torsion(height, width), area * (height * height + width * width) / 12};
 }
 
 int section_perforate(int number, double d, double e, double stiff_outer, struct section *section)

@@ -111,7 +111,7 @@ struct job_unknowns {
 struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
-    int solid; /* the rotor as a solid of revolution, not as a beam */
+    int solid;           /* the rotor as a solid of revolution, not as a beam */
     enum mode_type type; /* of the modes; but for bending by bars, whatever `solid` says */
     struct frf_request frf;
 };
@@ -339,7 +339,8 @@ int states_copy(struct pool *pool, const struct states *from, struct states *to)
 /* Says, as an error, that somebody who works on one state has been given several. */
 void states_refuse(const struct states *states, const char *deck, struct message_list *notes);
 
-/* An error in the list, and ROTID_ERROR_ARGUMENT, where a state is not of bending and `what` ("a diagnosis") is of bending alone. */
+/* An error in the list, and ROTID_ERROR_ARGUMENT, where a state is not of bending and `what` ("a diagnosis") is of bending alone.
+ */
 int states_refuse_types(const struct states *states, const char *what, struct message_list *notes);
 
 /* -------------------------------------------------------------------------------------------------------------- identify */
