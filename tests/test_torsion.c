@@ -419,6 +419,17 @@ static void what_is_of_bending_alone_is_refused(void **state)
     assert_non_null(find_message(&r.messages, "BENDING"));
 }
 
+static void what_a_type_does_not_see_is_said(void **state)
+{
+    (void)state;
+    struct message_list messages;
+    struct job job;
+    read_job(pool_format(&test_pool, HUNG "*DISK\n0.3, 5\n*FIT, MODEL=SOLID\n%s", measured(ROTID_TORSION, 2)), &messages, &job);
+    assert_non_null(find_message(&messages, "the disk at 0.3 m has no polar inertia"));
+    assert_non_null(find_message(&messages, "modes of type TORSION are those of bars"));
+    assert_int_equal(job_discretisation(&job), AS_TORSION);
+}
+
 /* The one writer of decks gives the type back. */
 static void type_is_written_and_read_back(void **state)
 {
@@ -452,6 +463,7 @@ int main(void)
         TEST(bending_and_torsion_are_fitted_together),
         TEST(shapes_of_torsion_pair_its_modes),
         TEST(what_is_of_bending_alone_is_refused),
+        TEST(what_a_type_does_not_see_is_said),
         TEST(type_is_written_and_read_back),
     };
     return cmocka_run_group_tests_name("torsion", tests, folder_make, folder_remove);
