@@ -915,7 +915,7 @@ module rotid
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 48
+    integer(c_size_t) :: size = 40
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
