@@ -417,6 +417,7 @@ static void what_is_of_bending_alone_is_refused(void **state)
     rotid_deck_free(deck);
     try_path(&r, folder_write("whirl.inp", HUNG "*MODES, TYPE=WHIRL\n1, 100\n"), NULL);
     assert_non_null(find_message(&r.messages, "BENDING"));
+    pool_close(&r.pool);
 }
 
 static void what_a_type_does_not_see_is_said(void **state)
