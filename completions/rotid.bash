@@ -28,6 +28,7 @@ _rotid_options=(
     '--set:check modes sensitivity identify diagnose suggest speeds frf export study:value:'
     '--csv:modes identify uff study:value:'
     '--compare:modes::'
+    '--type:modes:words:stated bending torsion axial'
     '--at:sensitivity:value:'
     '--step:sensitivity:value:'
     '--range:sensitivity:value:'

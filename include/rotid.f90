@@ -85,6 +85,11 @@ module rotid
   integer(c_int), parameter :: ROTID_NELSON = 0
   integer(c_int), parameter :: ROTID_MODAL = 1
 
+  ! type of modes
+  integer(c_int), parameter :: ROTID_BENDING = 0
+  integer(c_int), parameter :: ROTID_TORSION = 1
+  integer(c_int), parameter :: ROTID_AXIAL = 2
+
   ! ------------------------------------------------------------------------------------------------ types: environment
 
   type, bind(C) :: rotid_allocator
@@ -298,6 +303,7 @@ module rotid
     type(c_ptr) :: paired_by = c_null_ptr ! text
     integer(c_int) :: holdout = 0
     real(c_double) :: residual = 0
+    type(c_ptr) :: type = c_null_ptr ! text
   end type rotid_compared_mode
 
   type, bind(C) :: rotid_member_shape
@@ -555,6 +561,7 @@ module rotid
     type(c_ptr) :: master_mass = c_null_ptr ! real
     integer(c_int) :: nmessage = 0
     type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: type = c_null_ptr ! text
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_spectrum
 
@@ -1357,6 +1364,18 @@ module rotid
       type(c_ptr), intent(out) :: spectrum
       integer(c_int) :: status
     end function rotid_spectrum_beside
+
+    function rotid_spectrum_of_type(deck, type, x, nmode, environment, failure, spectrum) result(status) &
+      bind(C, name="rotid_spectrum_of_type")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      integer(c_int), value :: type
+      type(c_ptr), value :: x           ! real [nparameter]
+      integer(c_int), value :: nmode
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: spectrum
+      integer(c_int) :: status
+    end function rotid_spectrum_of_type
 
     subroutine rotid_spectrum_free(spectrum) bind(C, name="rotid_spectrum_free")
       import :: c_ptr

@@ -133,6 +133,9 @@ typedef struct rotid_reference {
 
 /* What a deck says. All arrays belong to it and are not to be changed. A deck is only read by the routines below: several threads
  * may work on one, and it may be freed before their results. */
+/* What a rotor does in a mode: its deflection in one plane, the rotation about its axis, the displacement along it. */
+enum { ROTID_BENDING, ROTID_TORSION, ROTID_AXIAL };
+
 typedef struct rotid_deck rotid_deck;
 struct rotid_deck {
     const char *path;
@@ -352,6 +355,7 @@ typedef struct rotid_compared_mode {
     const char *paired_by; /* what decided the pairing: shape or number */
     int holdout;           /* held out of the fit */
     double residual;       /* frequency residual of the functional, of held-out modes too [1] */
+    const char *type;      /* BENDING, TORSION or AXIAL: of the motion, within which modes are numbered */
 } rotid_compared_mode;
 
 /* How tie rods or bars move in one mode. */
@@ -643,6 +647,8 @@ typedef struct rotid_spectrum {
                             where it cannot be had */
     int nmessage;
     const rotid_message *message; /* of the pairing; with an error among them no measured mode is paired */
+    const char *type;             /* of the modes: BENDING, TORSION or AXIAL, whose shapes are the deflection, the rotation about the
+                                     axis or the displacement along it */
     void *memory;                 /* internal */
 } rotid_spectrum;
 
@@ -1193,6 +1199,10 @@ ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, in
  * the other one; failure says which. */
 ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                                     char *failure, rotid_spectrum **spectrum);
+/* rotid_spectrum_compute of the modes of a type, whichever type the deck states for its measured ones: ROTID_BENDING, ROTID_TORSION
+ * or ROTID_AXIAL. Measured modes of another type are left out. ROTID_ERROR_ARGUMENT where type is none of these. */
+ROTID_API int rotid_spectrum_of_type(const rotid_deck *deck, int type, const double *x, int nmode,
+                                     const rotid_environment *environment, char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
 /* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With

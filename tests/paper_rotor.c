@@ -67,7 +67,7 @@ struct rotor *paper_rotor(enum bundle_model model, int self_equilibrated)
                           .diameter = 0.032,
                           .pitch = 0.13364,
                           .tension = 150e3};
-    springs[0] = (struct spring){"left", 0, 9790, 0};
-    springs[1] = (struct spring){"right", z, 2000, 0};
+    springs[0] = (struct spring){"left", 0, 9790, 0, 0, 0};
+    springs[1] = (struct spring){"right", z, 2000, 0, 0, 0};
     return &rotor;
 }

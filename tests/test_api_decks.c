@@ -189,7 +189,7 @@ static void arguments_out_of_range_are_refused(void **state)
     } wrong[] = {{{.size = sizeof wrong->options, .threads = -1}, "options->threads is -1, expected 0 or more"},
                  {{.size = sizeof wrong->options, .replicates = -1}, "options->replicates is -1, expected 0 ... 1000000"},
                  {{.size = sizeof wrong->options, .seed = -1}, "options->seed is -1, expected 0 or more"},
-                 {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 48"}};
+                 {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 40"}};
     const struct {
         rotid_suggest_options options;
         const char *text;

@@ -23,8 +23,8 @@ static struct rotor bar(double length, double diameter, int elements, int withou
     }
     shaft = (struct group){.layer_of = -1, .name = "shaft", .material = steel};
     segment = (struct segment){0, elements, 0, length, diameter, 0, diameter, 0, 0};
-    springs[0] = (struct spring){"left", 0, 0, 0};
-    springs[1] = (struct spring){"right", length, 0, 0};
+    springs[0] = (struct spring){"left", 0, 0, 0, 0, 0};
+    springs[1] = (struct spring){"right", length, 0, 0, 0, 0};
     disk = (struct disk){"tip", length, 0, 0, 0, 0, 0};
     return (struct rotor){.ngroup = 1, .group = &shaft, .nsegment = 1, .segment = &segment, .spring = springs, .disk = &disk};
 }

@@ -328,8 +328,9 @@ static void attach(struct random_stream *stream, int index, struct random_rotor 
         r->disk[i] = (struct disk){"disk", random_position(stream, rotor), mass, mass * between(stream, 0, 0.03), 0, 0, 0};
     }
     for (int i = rotor->nspring = below(stream, 4); i-- > 0;)
-        r->spring[i] = (struct spring){"spring", random_position(stream, rotor), pow(10, between(stream, 3, 9)),
-                                       i ? pow(10, between(stream, 3, 7)) : 0};
+        r->spring[i] = (struct spring){
+            "spring", random_position(stream, rotor), pow(10, between(stream, 3, 9)), i ? pow(10, between(stream, 3, 7)) : 0, 0,
+            0};
     double a = random_position(stream, rotor), b = random_position(stream, rotor);
     struct material material = random_material(stream);
     material.isotropic = 1; /* of the oracle's builders */

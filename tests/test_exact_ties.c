@@ -62,7 +62,7 @@ static void add_disk(struct bench *b, double position, double mass, double diame
 
 static void add_spring(struct bench *b, double position, double lateral, double rotational)
 {
-    b->spring[b->rotor.nspring++] = (struct spring){"spring", position, lateral, rotational};
+    b->spring[b->rotor.nspring++] = (struct spring){"spring", position, lateral, rotational, 0, 0};
 }
 
 static void add_rods(struct bench *b, enum bundle_model model, double from, double to)

@@ -188,6 +188,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--for", "speed:1"},
                                             {"--harmonic", "2"},
                                             {"--draws", "10"},
+                                            {"--type", "torsion"},
                                             {"--campbell", "/x/y"},
                                             {"--response", "/x/z"},
                                             {NULL, NULL}};

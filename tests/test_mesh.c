@@ -96,7 +96,7 @@ static void every_kind_of_attachment_gets_its_node(void **state)
 {
     (void)state;
     struct rotor rotor = bare();
-    springs[0] = (struct spring){"a", 0.05, 1, 0};
+    springs[0] = (struct spring){"a", 0.05, 1, 0, 0, 0};
     disks[0] = (struct disk){"b", 0.15, 1, 0, 0, 0, 0};
     bars[0] = (struct bars){"c", groups[0].material, 0.55, 0.4, BUNDLE_RODS, 6, 2, 0.01, 0.04};
     rotor.nspring = rotor.ndisk = rotor.nbars = 1;
@@ -144,7 +144,7 @@ static void two_positions_at_the_same_place_share_a_node(void **state)
     (void)state;
     struct rotor rotor = bare();
     add_sensors(&rotor, 1, (double[]){0.33});
-    springs[0] = (struct spring){"a", 0.33, 1, 0};
+    springs[0] = (struct spring){"a", 0.33, 1, 0, 0, 0};
     disks[0] = (struct disk){"b", 0.3303, 1, 0, 0, 0, 0};
     disks[1] = (struct disk){"c", 0.3297, 1, 0, 0, 0, 0}; /* comes first: the others then lie within 1 % of its node */
     rotor.nspring = 1;
@@ -161,8 +161,8 @@ static void ends_of_the_rotor_are_nodes_already(void **state)
 {
     (void)state;
     struct rotor rotor = bare();
-    springs[0] = (struct spring){"start", 0, 1, 0};
-    springs[1] = (struct spring){"end", rotor_length(&rotor), 1, 0};
+    springs[0] = (struct spring){"start", 0, 1, 0, 0, 0};
+    springs[1] = (struct spring){"end", rotor_length(&rotor), 1, 0, 0, 0};
     rotor.nspring = 2;
     add_sensors(&rotor, 3, (double[]){1e-9, 1.5 - 1e-9, 1.5});
     struct mesh mesh = build(&rotor, 3);

@@ -93,6 +93,25 @@ static void peak_and_critical_speed_of_a_damped_rotor_lie_apart(void **state)
     running_case_close(&c);
 }
 
+/* Two excitations per revolution meet a mode at half of its speed. */
+static void a_harmonic_is_critical_at_its_share_of_the_speed(void **state)
+{
+    (void)state;
+    struct running_case c;
+    struct message_list notes;
+    struct speeds_options options = {.to = 4000 * RPM, .count = 9, .harmonic = 1, .seed = 1, .threads = 1};
+    double first[2];
+    assert_int_equal(running_case_open(LIGHT "*BEARING\n0.5, 0, 100\n", 4000, 9, 0, &c), ROTID_OK);
+    for (int h = 0; h < 2; h++, options.harmonic = 2) {
+        message_open(&notes, &test_pool);
+        assert_int_equal(speeds_run(&test_pool, c.machine, c.job, c.x, NULL, &options, NULL, &notes, &c.speeds), ROTID_OK);
+        assert_true(c.speeds.ncritical_speeds > 0);
+        first[h] = c.speeds.critical_speeds[0].speed_rpm;
+    }
+    assert_close(first[1], first[0] / 2, 1e-4, 0); /* the light shaft has gyroscopic moments of its own */
+    running_case_close(&c);
+}
+
 /* A rigid rotor on two like springs: bounce at 2 k/m, cones at Id w^2 -+ W Ip w - k L^2/2 = 0. */
 static void a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia(void **state)
 {
@@ -386,6 +405,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_viscous_loss_drives_forward_whirl_from_w0_and_more, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_loss_factor_drives_it_from_w0_or_never, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(peak_and_critical_speed_of_a_damped_rotor_lie_apart, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_harmonic_is_critical_at_its_share_of_the_speed, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(kxy_above_kyx_drives_forward_whirl, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(all_pairs_are_those_of_the_full_model, open_test_pool, close_test_pool),

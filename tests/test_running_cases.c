@@ -133,6 +133,44 @@ static void critical_speeds_of_many_sections(void **state)
     assert_int_equal(compare("B12_uniform_zorzi_nelson", 24000, 13, "none", ""), 18);
 }
 
+/* deck with every `old` in it replaced; there is one at least */
+static char *with(const char *deck, const char *old, const char *now)
+{
+    char *text = pool_copy_text(&test_pool, "");
+    const char *at = strstr(deck, old);
+    assert_non_null(at);
+    for (; at; deck = at + strlen(old), at = strstr(deck, old))
+        text = pool_format(&test_pool, "%s%.*s%s", text, (int)(at - deck), deck, now);
+    return pool_format(&test_pool, "%s%s", text, deck);
+}
+
+/* The lines of the same rotor without shear, which a G of 1e4 times its own leaves 1e-4 of, on bearings that couple x and y. */
+static void critical_speeds_without_shear_and_on_coupled_bearings(void **state)
+{
+    (void)state;
+    static const char *const lines[2] = {"_isotropic_rayleigh", "_orthotropic_rayleigh"};
+    char *deck = with(running_case_deck("B11_nelson_mcvaugh", 1, ""), ", 79923076923.07692, ", ", 79923076923e4, ");
+    for (int i = 0; i < 2; i++) {
+        struct running_case c;
+        struct row row;
+        int compared = 0;
+        if (i)
+            deck = with(deck, "43780000.0, 0.0, 0.0, 43780000.0", "3.503e7, -0.8756e7, -0.8756e7, 3.503e7");
+        assert_int_equal(running_case_open(deck, 100000, 41, 0, &c), ROTID_OK);
+        FILE *in = expected("B11_nelson_mcvaugh");
+        while (next_row(in, &row)) {
+            if (!strstr(row.quantity, lines[i]))
+                continue;
+            assert_true(row.index <= c.speeds.ncritical_speeds);
+            assert_close(c.speeds.critical_speeds[row.index - 1].speed_rpm, row.value, row.tolerance / 100, 0);
+            compared++;
+        }
+        assert_int_equal(compared, 6);
+        (void)fclose(in);
+        running_case_close(&c);
+    }
+}
+
 /* A simply supported shaft with all its elements: pins as stiff as makes no difference, 1e-4 is that of the stiffness. */
 static void gyroscopic_split_of_a_uniform_shaft(void **state)
 {
@@ -206,6 +244,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(damping_and_cross_coupling_are_those_of_a_textbook, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bearings_by_tables_over_speed, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(critical_speeds_of_many_sections, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(critical_speeds_without_shear_and_on_coupled_bearings, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(gyroscopic_split_of_a_uniform_shaft, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(unbalance_response_of_two_disks, open_test_pool, close_test_pool),
     };

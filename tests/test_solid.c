@@ -257,7 +257,7 @@ static void derivatives_agree_with_differences(void **state)
     b.group[2].name = "right";
     b.group[3].name = "ring";
     b.rotor.nspring = 1;
-    b.spring[0] = (struct spring){"spring", 0.1, 1e6, 1e5};
+    b.spring[0] = (struct spring){"spring", 0.1, 1e6, 1e5, 0, 0};
     for (int i = 0; i < (int)(sizeof effects / sizeof *effects); i++) {
         b.effect[b.rotor.neffect] = effects[i];
         b.effect[b.rotor.neffect++].kind = rig_kind(kinds[i]);

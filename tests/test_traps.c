@@ -247,6 +247,8 @@ static void decks(void)
     rotid_spectrum_free(spectrum);
     failed |= rotid_spectrum_beside(deck, NULL, 4, NULL, failure, &spectrum);
     rotid_spectrum_free(spectrum);
+    failed |= rotid_spectrum_of_type(deck, ROTID_TORSION, NULL, 4, NULL, failure, &spectrum);
+    rotid_spectrum_free(spectrum);
     failed |= rotid_identify(deck, 1, NULL, failure, &found);
     rotid_identification_free(found);
     failed |= rotid_diagnose(deck, &quick, NULL, failure, &diagnosis);
@@ -274,7 +276,7 @@ static const struct {
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
     {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
-            "rotid_spectrum_beside rotid_spectrum_free rotid_identify "
+            "rotid_spectrum_beside rotid_spectrum_of_type rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free rotid_suggest rotid_suggestion_free "
             "rotid_speeds_compute rotid_speeds_free "},
 };

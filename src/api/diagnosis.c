@@ -55,6 +55,8 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
     struct diagnosis d;
     const struct states *states = deck_states(deck, call);
     int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = states_refuse_types(states, "a diagnosis", &call->notes);
     if (status)
         return status;
     status = states->nstate == 1 && !options.before

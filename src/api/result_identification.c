@@ -49,7 +49,8 @@ rotid_compared_mode result_compared_mode(const struct job *job, const struct com
                                  .nco = compared->nco[k],
                                  .paired_by = pairing_basis_name(compared->basis[k]),
                                  .holdout = job->measurement.holdout && job->measurement.holdout[k],
-                                 .residual = NAN};
+                                 .residual = NAN,
+                                 .type = mode_type_words[job->options.type]};
 }
 
 static void fill_modes(struct pool *pool, const struct job *job, const struct identification *found, rotid_identification *out)

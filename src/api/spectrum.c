@@ -1,4 +1,5 @@
 /* The modes of the model of a deck, for hosts. */
+#include <limits.h>
 #include <math.h>
 
 #include "api/api.h"
@@ -32,7 +33,8 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
                                    const struct comparison *compared, rotid_beam_beside_solid *beside)
 {
     struct pool *pool = &call->entry.scratch;
-    rotid_spectrum r = {.reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
+    rotid_spectrum r = {.type = mode_type_words[job->options.type],
+                        .reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
                         .nrigid_hz = s->nrigid,
                         .rigid_hz = s->rigid_hz,
                         .nsensor_z_m = s->nmaster,
@@ -62,8 +64,18 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
     return call_keep(call, &spectrum_whole_record, &r, &r.memory);
 }
 
-static int run(struct call *call, const struct job *job, const double *x, int nmode, int with_other, rotid_spectrum **result)
+#define AS_STATED INT_MIN /* type of the modes: that of the deck */
+
+static int run(struct call *call, const struct job *stated, int type, const double *x, int nmode, int with_other,
+               rotid_spectrum **result)
 {
+    struct job of_type, *job = &of_type;
+    if (type != AS_STATED && (type < ROTID_BENDING || type > ROTID_AXIAL))
+        return refuse(call->entry.failure, "type is %d, expected ROTID_BENDING, ROTID_TORSION or ROTID_AXIAL", type);
+    enum mode_type motion = type == AS_STATED ? stated->options.type : (enum mode_type)type;
+    int status = job_of_type(&call->entry.scratch, stated, motion, job);
+    if (status)
+        return status;
     double *at;
     rotid_beam_beside_solid *beside = NULL;
     struct spectrum found = {0};
@@ -73,7 +85,8 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
         return refuse(call->entry.failure, "nmode is %d, expected 0 or more", nmode);
     if (!nmode)
         nmode = count > MODES_SHOWN ? count : MODES_SHOWN;
-    int status = compute(job, x, nmode, &call->entry, &at, &found), paired;
+    status = compute(job, x, nmode, &call->entry, &at, &found);
+    int paired;
     if (status)
         return status;
     (void)doubt_units(job, &found, 0, &call->notes);
@@ -90,8 +103,8 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
     return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int open_and_run(const rotid_deck *deck, const double *x, int nmode, int with_other, const rotid_environment *environment,
-                        char *failure, rotid_spectrum **spectrum)
+static int open_and_run(const rotid_deck *deck, int type, const double *x, int nmode, int with_other,
+                        const rotid_environment *environment, char *failure, rotid_spectrum **spectrum)
 {
     struct call call;
     int status = call_open(&call, environment, failure, spectrum, "spectrum");
@@ -100,20 +113,26 @@ static int open_and_run(const rotid_deck *deck, const double *x, int nmode, int 
     *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job ? run(&call, job, x, nmode, with_other, spectrum) : ROTID_ERROR_ARGUMENT;
+        status = job ? run(&call, job, type, x, nmode, with_other, spectrum) : ROTID_ERROR_ARGUMENT;
     return call_close(&call, status);
 }
 
 int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                            char *failure, rotid_spectrum **spectrum)
 {
-    return open_and_run(deck, x, nmode, 0, environment, failure, spectrum);
+    return open_and_run(deck, AS_STATED, x, nmode, 0, environment, failure, spectrum);
 }
 
 int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment, char *failure,
                           rotid_spectrum **spectrum)
 {
-    return open_and_run(deck, x, nmode, 1, environment, failure, spectrum);
+    return open_and_run(deck, ROTID_BENDING, x, nmode, 1, environment, failure, spectrum);
+}
+
+int rotid_spectrum_of_type(const rotid_deck *deck, int type, const double *x, int nmode, const rotid_environment *environment,
+                           char *failure, rotid_spectrum **spectrum)
+{
+    return open_and_run(deck, type, x, nmode, 0, environment, failure, spectrum);
 }
 
 void rotid_spectrum_free(rotid_spectrum *spectrum)

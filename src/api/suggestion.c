@@ -128,6 +128,8 @@ static int suggest(struct call *call, const rotid_deck *deck, const rotid_sugges
     const struct states *states = deck_states(deck, call);
     struct suggestion *s = POOL_NEW(&call->entry.scratch, struct suggestion);
     int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = states_refuse_types(states, "a suggestion", &call->notes);
     if (status || !s)
         return status ? status : ROTID_ERROR_MEMORY;
     if (options.speed) {

@@ -16,6 +16,7 @@
  *   joints         hinge.c (hinge_condense): K := K - g g' c/(1 + c k), a rotational spring in series, condensed
  *   masses, springs at any place   lumped.c (lumped_add): carried by the static shapes of the element
  *   spin           gyroscopic.c (beam_gyroscopic): polar inertia P; beam_spread: a stiffness spread over a group
+ *   bars           bar.c (bar_open, bar_assemble, bar_differentiate): torsion and axial motion on the same mesh
  *   assembly       assembly.c (beam_assemble, beam_differentiate); deflection.c: deflection between nodes and in members
  *
  * Callers: model/discrete.c; solid/members.c for the elements of rods; export. The room must not know modes, data or causes. */
@@ -118,6 +119,7 @@ struct beam {
     struct hinge *hinge; /* [nhinge] */
     int nparameter;
     const struct parameter *parameter; /* [nparameter] */
+    enum mode_type type;               /* of its degrees of freedom */
     int elastic_only;                  /* leaves springs and axial forces out of K: what bends the rotor itself */
 };
 
@@ -150,6 +152,26 @@ void beam_spread(const struct beam *beam, int group, double stiffness, rotid_mat
 
 /* u [2 ndof]: v = 1, theta = 0, and v = -z, theta = 1. */
 void beam_rigid_motions(const struct beam *beam, double *u);
+
+/* ------------------------------------------------------------------------------------------------------------------- bar */
+
+/* Torsion or axial motion of the rotor: one degree of freedom a node of the axis, two-node bar elements
+ *   k = c/l [1 -1; -1 1],  m = j l/6 [2 1; 1 2],
+ * of torsion c = sum G J + F sum J/sum S and j = sum rho I_p over the layers, axially c = sum E S and j = sum rho S. F is the
+ * axial force that turns with the fibres. A bundle of tie rods is one such element between its ends, whose rods follow them:
+ *   torsion  c = N G J + N T R^2 + 12 N E I R^2/L^2, j = N rho S (R^2 + d^2/8);  axially c = N E S, j = N rho S.
+ * Bars move with their centre. Disks have their polar inertia or their mass, springs their torsional or axial stiffness. Joints,
+ * slings and what a cause does to bending alone have no part in either motion. */
+
+/* Makes these the degrees of freedom of a beam that is built. ROTID_OK or ROTID_ERROR_MEMORY. */
+int bar_open(struct pool *pool, enum mode_type type, struct beam *beam);
+
+/* As beam_assemble and beam_differentiate. */
+void bar_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_matrix *m);
+void bar_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm);
+
+/* Motion v [npoint] of a member (tie rods, then bars) at even places z [npoint] from its left end to its right one. */
+void bar_member_motion(const struct beam *beam, int member, const double *u, int npoint, double *z, double *v);
 
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);

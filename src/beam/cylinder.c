@@ -37,6 +37,6 @@ int section_equivalent(double area, double inertia, struct section *section)
     double outer, inner;
     int status = equivalent_cylinder(area, inertia, NULL, &outer, &inner);
     if (!status)
-        *section = (struct section){area, inertia, area, inertia, 0, inner / outer, outer};
+        *section = (struct section){area, inertia, area, inertia, 0, inner / outer, outer, 2 * inertia, 2 * inertia};
     return status;
 }

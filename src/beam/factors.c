@@ -22,7 +22,7 @@ void factors_refresh(struct beam *beam)
         struct effect_field *factor;
         for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
             struct effect_span span = factors_span(beam, e, &part[i]);
-            factor[i] = effects_on_axis(&beam->rotor, &span, 1);
+            factor[i] = effects_on_axis(&beam->rotor, &span, beam->type == MODE_BENDING);
         }
     }
 }

@@ -119,7 +119,7 @@ static struct section bundle_section(enum bundle_model model, int number, double
     section_rods(number, diameter, pitch, &area, &own, pitch_inertia);
     if (model == BUNDLE_TUBE)
         return *tube;
-    return (struct section){area, own, area, own, 0, 0, 0};
+    return (struct section){.stiff_area = area, .stiff_inertia = own, .mass_area = area, .mass_inertia = own};
 }
 
 static struct element bundle_element(const struct material *material, const struct section *section, double length)

@@ -76,7 +76,7 @@ struct command {
     const char *name, *deck, *json, *at, *extended, *changed, *output, *state, *csv;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;
+    int quiet, verbose, threads, no_baseline, compare, mode_type, points, replicates, start, condensed;
     int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;
@@ -147,7 +147,7 @@ struct command_fit {
 
 /* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. An
  * exit code, EXIT_DONE to go on. */
-int command_fit_deck(struct command *command, int wanted, struct command_fit *fit);
+int command_fit_deck(struct command *command, int wanted, const char *what, struct command_fit *fit);
 
 /* Warns of identifications at whose values the models are `done`, where they did not end well or their reduction is coarse. An
  * exit code, EXIT_DONE or EXIT_DOUBTFUL. */

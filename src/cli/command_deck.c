@@ -112,7 +112,7 @@ static int fit_all(struct command *command, const struct states *states, struct 
     return status;
 }
 
-int command_fit_deck(struct command *command, int wanted, struct command_fit *fit)
+int command_fit_deck(struct command *command, int wanted, const char *what, struct command_fit *fit)
 {
     const struct states *states = deck_states_of(command->read);
     struct identification *found = POOL_ARRAY(&command->pool, struct identification, states->nstate);
@@ -134,6 +134,9 @@ int command_fit_deck(struct command *command, int wanted, struct command_fit *fi
         return command_fail(command, status);
     for (int i = 0; i < fit->count; i++) {
         const struct state *state = &states->state[chosen < 0 ? i : chosen];
+        const struct states one = {.nstate = 1, .state = (struct state *)state};
+        if (what && states_refuse_types(&one, what, &command->messages))
+            return command_fail(command, ROTID_ERROR_ARGUMENT);
         fit->state[i] = (struct fitted_state){state->name, &state->job, found[chosen < 0 ? i : chosen]};
     }
     return EXIT_DONE;

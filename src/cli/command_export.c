@@ -116,7 +116,7 @@ int command_export(struct command *command)
     struct command_fit fit = {0};
     int code = refuse_model(command);
     if (!code)
-        code = command_fit_deck(command, command->read->nparameter && !command->start, &fit);
+        code = command_fit_deck(command, command->read->nparameter && !command->start, "a model for other programs", &fit);
     if (!code && command_cancelled(NULL)) {
         terminal_say("rotid: interrupted, nothing was written\n");
         code = EXIT_DOUBTFUL;

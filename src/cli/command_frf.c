@@ -135,7 +135,7 @@ int command_frf(struct command *command)
     }
     code = command_begin_states(command, &result);
     if (!code)
-        code = command_fit_deck(command, 1, &fit);
+        code = command_fit_deck(command, 1, "a lateral transfer function", &fit);
     result.nstates = result.nstates ? fit.count : 0;
     if (!code)
         code = synthesise_all(command, &fit, &result);

@@ -17,8 +17,10 @@ static int compute(struct command *command, struct result *result)
         const char *name;
         const rotid_deck *deck = command_state(command, s, &name);
         rotid_spectrum **spectrum = name ? &result->states[s].modes : &result->modes;
+        int type = command->mode_type - 1; /* behind the word "stated" */
         int status = command->compare ? rotid_spectrum_beside(deck, deck->stated, 0, NULL, failure, spectrum)
-                                      : rotid_spectrum_compute(deck, deck->stated, 0, NULL, failure, spectrum);
+                     : type < 0       ? rotid_spectrum_compute(deck, deck->stated, 0, NULL, failure, spectrum)
+                                      : rotid_spectrum_of_type(deck, type, deck->stated, 0, NULL, failure, spectrum);
         if (status)
             return command_fail_with(command, status, failure);
         command_take_messages(command, name, (*spectrum)->nmessage, (*spectrum)->message);
@@ -34,6 +36,9 @@ int command_modes(struct command *command)
 {
     struct result result = {.head = command->head};
     int code = command_refuse_csv(command, csv_spectrum_parts);
+    if (!code && command->compare && command->mode_type > 1 + ROTID_BENDING)
+        return arguments_wrong("--compare is of bending, expected it without --type=%s",
+                               command->mode_type == 1 + ROTID_TORSION ? "torsion" : "axial");
     if (!code)
         code = command_begin_states(command, &result);
     if (!code)

@@ -109,7 +109,7 @@ int command_speeds(struct command *command)
     if (!machine)
         return refuse_deck(command,
                            "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
-    int code = command_fit_deck(command, command->read->nparameter || machine->nunknown, &fit);
+    int code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);
     if (!code && command_cancelled(NULL)) {
         terminal_say("rotid: interrupted, nothing was computed\n");
         code = EXIT_DOUBTFUL;

@@ -10,7 +10,8 @@
 #define FROM(A, B)  .least = (A), .most = (B)
 #define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
 
-static const char *const estimators[] = {"H1", "H2", "HV", NULL};
+static const char *const estimators[] = {"H1", "H2", "HV", NULL},
+                         *const types[] = {"stated", "bending", "torsion", "axial", NULL};
 
 /* clang-format off */
 const struct option_row option_table[] = {
@@ -41,6 +42,10 @@ const struct option_row option_table[] = {
     {.name = "compare", .commands = "modes", .kind = OPTION_SWITCH, AT(compare),
      .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
      .more = "At the values of the deck, whichever of the two MODEL on *FIT asks for."},
+
+    {.name = "type", .commands = "modes", .kind = OPTION_WORD, AT(mode_type), .words = types,
+     .help = "of the modes, of which *MODES states one by TYPE= (default: stated)",
+     .more = "Torsion and axial motion are those of bars, with the polar inertia and the mass of the disks."},
 
     {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
      .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},

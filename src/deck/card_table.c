@@ -134,8 +134,11 @@ static const struct deck_row spring[] = {
     {POSITION(struct spring, position)},
     {FROM_0(struct spring, lateral, "lateral stiffness [N/m]")},
     {FROM_0(struct spring, rotational, "rotational stiffness [N.m/rad]"), OPTIONAL},
+    {FROM_0(struct spring, torsional, "torsional stiffness [N.m/rad]"), OPTIONAL},
+    {FROM_0(struct spring, axial, "axial stiffness [N/m]"), OPTIONAL},
     LAST};
 
+static const struct deck_row modes[] = {OTHER("TYPE", .words = mode_type_words), OTHER("FILE", .what = ""), LAST};
 static const struct deck_row mode[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), LAST},
     frequencies[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
 static const struct deck_row measured[] = {
@@ -193,12 +196,12 @@ const struct deck_card deck_card_table[] = {
     {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
     {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg] [, diametral inertia, polar inertia [kg.m2] [, hub length, hub outer diameter [m]]]", disk, LIST(disk, disk),
      .check = deck_check_disk},
-    {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
+    {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad] [, torsional stiffness [N.m/rad] [, axial stiffness [N/m]]]]", spring,
      LIST(spring, spring)},
     {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES, .instead = "LENGTH=length [m] on the card", .once = 1},
     {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", table, REPLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,
-     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", table, OF_STATE, .once = 1},
+     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", modes, OF_STATE, .once = 1},
     {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, OF_STATE},

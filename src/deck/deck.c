@@ -199,7 +199,7 @@ static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
-    enum discretisation as = job->options.solid ? AS_SOLID : AS_BEAM;
+    enum discretisation as = job_discretisation(job);
     int failed, status = keep_places(reader);
     if (!status)
         status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
@@ -247,11 +247,20 @@ static void choose_mesh(struct deck_reader *reader)
                   c.is_noise_known ? ", a tenth of the smallest noise" : "");
 }
 
-/* What a solid takes for granted where the deck says nothing of it. */
+/* What a model takes for granted where the deck says nothing of it. */
 static void note_assumptions(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
     int shear = -1, holes = -1;
+    const struct job *job = reader->job;
+    if (job->options.type != MODE_BENDING && job->options.solid)
+        deck_note(reader, reader->modes_card->place, "modes of type %s are those of bars, MODEL=SOLID is of bending",
+                  mode_type_words[job->options.type]);
+    for (int d = 0; d < rotor->ndisk && job->options.type == MODE_TORSION; d++)
+        if (rotor->disk[d].mass > 0 && !(rotor->disk[d].polar > 0))
+            deck_note(reader, reader->modes_card->place,
+                      "the disk at %.6g m has no polar inertia, which is all of it that counts in torsion",
+                      rotor->disk[d].position);
     for (int g = rotor->ngroup - 1; g >= 0 && reader->job->options.solid; g--) {
         const struct group *group = &rotor->group[g];
         shear = !group->material.isotropic && !group->material.laminated ? g : shear;

@@ -151,6 +151,7 @@ static void compare_data(struct comparing *c, const struct job *meant, const str
         modes &= a->number[k] == b->number[k] && deck_is_near(a->damping[k], b->damping[k]);
         held &= a->holdout[k] == b->holdout[k];
     }
+    modes &= meant->options.type == read->options.type;
     if (!modes || !are_near(a->nmode, a->frequency_hz, b->frequency_hz))
         differ(c, DECK_OTHER_DATA, "MODES");
     if (!held)

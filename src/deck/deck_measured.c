@@ -94,7 +94,10 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
     struct job *job = reader->job;
+    const struct card_option *type = card_option(card, "TYPE");
+    int word = type ? deck_option_word(reader, type, mode_type_words) : MODE_BENDING;
     reader->modes_card = card;
+    job->options.type = word > 0 ? (enum mode_type)word : MODE_BENDING;
     int count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout);
     job->measurement.number = POOL_ARRAY(reader->pool, int, card->nline);
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);

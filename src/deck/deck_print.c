@@ -218,7 +218,8 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
     if (job->measurement.nmode > DECK_MOST_MODES)
         refuse_writing(w);
     if (job->measurement.nmode)
-        deck_put(w, "*MODES\n");
+        deck_put(w, "*MODES%s%s\n", job->options.type ? ", TYPE=" : "",
+                 job->options.type ? mode_type_words[job->options.type] : "");
     for (int k = 0; k < job->measurement.nmode; k++) {
         double hz = job->measurement.frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
         int damped = job->measurement.damping[k] >= 0 && job->measurement.damping[k] < 1;

@@ -10,8 +10,23 @@ int discrete_build(struct pool *pool, enum discretisation as, const struct rotor
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed)
 {
     *discrete = (struct discrete){.as = as};
-    return as == AS_SOLID ? solid_build(pool, rotor, nparameter, parameter, NULL, refine, &discrete->solid, failed)
-                          : beam_build(pool, rotor, nparameter, parameter, refine, &discrete->beam, failed);
+    if (as == AS_SOLID)
+        return solid_build(pool, rotor, nparameter, parameter, NULL, refine, &discrete->solid, failed);
+    int status = beam_build(pool, rotor, nparameter, parameter, refine, &discrete->beam, failed);
+    if (as != AS_BEAM && !status)
+        status = bar_open(pool, as == AS_TORSION ? MODE_TORSION : MODE_AXIAL, &discrete->beam);
+    return status;
+}
+
+static int is_bar(const struct discrete *discrete)
+{
+    return discrete->as == AS_TORSION || discrete->as == AS_AXIAL;
+}
+
+/* of the motion at a node of the axis of a beam */
+static int node_dof(const struct discrete *discrete, int node)
+{
+    return is_bar(discrete) ? node : 2 * node;
 }
 
 const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, int failed)
@@ -58,6 +73,8 @@ void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix 
 {
     if (discrete->as == AS_SOLID)
         solid_assemble(&discrete->solid, x, k, m);
+    else if (is_bar(discrete))
+        bar_assemble(&discrete->beam, x, k, m);
     else
         beam_assemble(&discrete->beam, x, k, m);
 }
@@ -66,6 +83,8 @@ void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix
 {
     if (discrete->as == AS_SOLID)
         solid_differentiate(&discrete->solid, p, dk, dm);
+    else if (is_bar(discrete))
+        bar_differentiate(&discrete->beam, p, dk, dm);
     else
         beam_differentiate(&discrete->beam, p, dk, dm);
 }
@@ -105,12 +124,15 @@ void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
         v[2 * discrete->beam.mesh.spring_node[i]] = 1;
 }
 
-void discrete_rigid_motions(const struct discrete *discrete, double *u)
+int discrete_rigid_motions(const struct discrete *discrete, double *u)
 {
     if (discrete->as == AS_SOLID)
         solid_rigid_motions(&discrete->solid, u);
-    else
+    else if (!is_bar(discrete))
         beam_rigid_motions(&discrete->beam, u);
+    for (int i = 0; i < discrete->beam.mesh.ndof && is_bar(discrete); i++)
+        u[i] = 1;
+    return is_bar(discrete) ? 1 : 2;
 }
 
 static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
@@ -118,8 +140,9 @@ static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_ma
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
 }
 
-/* shape less the part of it that is a rigid motion: r [2 n] are both, mr M r, products m11, m12, m22 of them */
-static void take_rigid_part(int n, const double *r, const double *mr, const double *shape, double *elastic)
+/* shape less the part of it that is a rigid motion: r [count n] are the one or two there are, mr M r, products m11, m12, m22 of
+ * them */
+static void take_rigid_part(int n, int count, const double *r, const double *mr, const double *shape, double *elastic)
 {
     double m[3] = {0, 0, 0}, right[2] = {0, 0};
     for (int i = 0; i < n; i++) {
@@ -129,6 +152,8 @@ static void take_rigid_part(int n, const double *r, const double *mr, const doub
         right[0] += mr[i] * shape[i];
         right[1] += mr[n + i] * shape[i];
     }
+    if (count < 2) /* the second one is zero */
+        m[2] = 1;
     double det = m[0] * m[2] - m[1] * m[1];
     double a = (m[2] * right[0] - m[1] * right[1]) / det, b = (m[0] * right[1] - m[1] * right[0]) / det;
     for (int i = 0; i < n; i++)
@@ -142,7 +167,7 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
 {
     rotid_matrix structure, k, m;
     discrete_structure(discrete, &structure);
-    int n = structure.n, wanted = n < 4 ? n : 4; /* plane bending has two rigid motions: the third mode is always elastic */
+    int n = structure.n, wanted = n < 4 ? n : 4;
     int *elastic_only = discrete->as == AS_SOLID ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
     struct eigen_full eigen;
     double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, 6 * (size_t)n);
@@ -160,7 +185,7 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     if (status)
         return status;
     double *rigid = work + n, *mass_rigid = work + 3 * (ptrdiff_t)n, *elastic = work + 5 * (ptrdiff_t)n;
-    discrete_rigid_motions(discrete, rigid);
+    int free = discrete_rigid_motions(discrete, rigid); /* the mode behind as many is always elastic */
     matrix_multiply(&m, 2, rigid, mass_rigid);
     matrix_zero(&k);
     matrix_zero(&m);
@@ -168,10 +193,10 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     discrete_assemble(discrete, x, &k, &m);
     *elastic_only = 0;
     *nrigid = 0;
-    for (int j = 0; j < 2; j++) {
-        take_rigid_part(n, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
+    for (int j = 0; j < free && j < wanted; j++) {
+        take_rigid_part(n, free, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
         double energy = matrix_product(&k, elastic, elastic, work);
-        if (energy > 1e-6 * lambda[2] && energy > 0.5 * lambda[j])
+        if (energy > 1e-6 * lambda[free < wanted ? free : wanted - 1] && energy > 0.5 * lambda[j])
             break;
         (*nrigid)++;
     }
@@ -201,12 +226,13 @@ const double *discrete_place_z(const struct discrete *discrete)
 int discrete_place_dof(const struct discrete *discrete, int i)
 {
     const struct solid_mesh *mesh = &discrete->solid.mesh;
-    return discrete->as == AS_SOLID ? mesh->node[mesh->surface[i]].dof[0] : 2 * i;
+    return discrete->as == AS_SOLID ? mesh->node[mesh->surface[i]].dof[0] : node_dof(discrete, i);
 }
 
 int discrete_sensor_dof(const struct discrete *discrete, int sensor)
 {
-    return discrete->as == AS_SOLID ? discrete->solid.mesh.sensor_dof[sensor] : 2 * discrete->beam.mesh.sensor_node[sensor];
+    return discrete->as == AS_SOLID ? discrete->solid.mesh.sensor_dof[sensor]
+                                    : node_dof(discrete, discrete->beam.mesh.sensor_node[sensor]);
 }
 
 double discrete_sensor_z(const struct discrete *discrete, int sensor)
@@ -236,6 +262,8 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
     int bars = i - discrete->beam.rotor.ntierod;
     if (discrete->as == AS_SOLID)
         members_deflection(&discrete->solid, i, u, npoint, z, v);
+    else if (is_bar(discrete))
+        bar_member_motion(&discrete->beam, i, u, npoint, z, v);
     else if (bars < 0)
         tierod_deflection(&discrete->beam, i, u, npoint, z, v);
     else
@@ -252,7 +280,7 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
  * which no mesh of a reasonable size resolves; where there are none, from the elements. */
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor)
 {
-    if (as == AS_BEAM)
+    if (as != AS_SOLID)
         return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0};
     int corners = solid_has_corners(rotor);
     return (struct mesh_limit){COARSE_MESH, corners ? OF_CORNER : OF_SMOOTH, 1, 4, corners ? OF_FINER : OF_SMOOTH};
@@ -262,7 +290,7 @@ int discrete_transfer(const struct discrete *from, const double *u, const struct
 {
     if (from->as == AS_SOLID)
         solid_transfer(&from->solid, u, &to->solid, v);
-    else if (to->beam.mesh.nelement > from->beam.mesh.nelement)
+    else if (!is_bar(from) && to->beam.mesh.nelement > from->beam.mesh.nelement)
         beam_prolong(&from->beam, u, &to->beam.mesh, v);
     else
         return 0;

@@ -28,7 +28,7 @@
 
 /* A discretised rotor: a beam or a solid, the one place that knows there are two. */
 
-enum discretisation { AS_BEAM, AS_SOLID };
+enum discretisation { AS_BEAM, AS_SOLID, AS_TORSION, AS_AXIAL }; /* the last two: a beam in these motions, src/beam/bar.c */
 
 struct discrete {
     enum discretisation as;
@@ -68,10 +68,12 @@ void discrete_spread(const struct discrete *discrete, int group, double stiffnes
 /* v [n]: the deflection of the section where spring i of the rotor is attached is v'u. */
 void discrete_spring_motion(const struct discrete *discrete, int i, double *v);
 
-/* u [2 n]: all of the rotor moves by 1; turns by theta = 1 about the left end. */
-void discrete_rigid_motions(const struct discrete *discrete, double *u);
+/* u [2 n]: all of the rotor moves by 1; turns by theta = 1 about the left end. In torsion and along the axis there is the first
+ * one alone. Returns their number. */
+int discrete_rigid_motions(const struct discrete *discrete, double *u);
 
-/* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
+/* How many of the lowest modes are rigid-body or suspension modes: at most the rigid motions
+ * that there are, those at zero or with most of their potential
  * energy in springs and axial forces instead of bending. modes: vectors near the lowest ones, to begin with, as in rotid_model.
  * Nothing is left on the pool. Statuses of eigen_full_solve. */
 int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,

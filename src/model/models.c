@@ -242,7 +242,7 @@ const struct held_modes *models_held(struct models *models, const struct rotor *
 int models_keep_modes(struct models *models, int n, int count, const double *phi)
 {
     int known, status = ROTID_OK;
-    if (!models || !models->takes_up || (models->as == AS_BEAM && models_modes(models, n, &known) && known >= count))
+    if (!models || !models->takes_up || (models->as != AS_SOLID && models_modes(models, n, &known) && known >= count))
         return ROTID_OK;
     (void)pthread_mutex_lock(&models->lock);
     struct near *near = POOL_NEW(&models->pool, struct near);

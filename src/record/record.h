@@ -27,9 +27,8 @@
 
 /* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
 
-extern const char *const functional_words[],
-    *const reduction_words[], *const derivative_words[], *const pairing_words[], *const fit_status_words[],
-                                                                                     *const verdict_words[], *const whirl_words[];
+extern const char *const functional_words[], *const reduction_words[], *const derivative_words[], *const pairing_words[],
+    *const fit_status_words[], *const mode_type_words[], *const verdict_words[], *const whirl_words[];
 
 /* ---------------------------------------------------------------------------------------------------------------- record */
 

@@ -4,6 +4,7 @@ const char *const functional_words[] = {"LIKELIHOOD", "HYBRID", "HYBRID_F", NULL
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
 const char *const derivative_words[] = {"NELSON", "MODAL", NULL};
 const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
+const char *const mode_type_words[] = {"BENDING", "TORSION", "AXIAL", NULL}; /* ROTID_BENDING ... */
 const char *const pairing_words[] = {"shape", "number", NULL};
 static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
 static const char *const grounds[] = {"noise", "residuals", NULL};
@@ -35,6 +36,7 @@ static const struct record_field mode_fields[] = {
     TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
     FLAG(rotid_compared_mode, holdout, 0),
     NUMBER(rotid_compared_mode, residual, 0),
+    TEXT_OF(rotid_compared_mode, type, SINCE_LATER, mode_type_words),
     {0},
 };
 const struct record compared_mode_record = RECORD(rotid_compared_mode, mode_fields);

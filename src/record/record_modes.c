@@ -10,6 +10,7 @@ static const struct record_field measured_fields[] = {
     NUMBER(rotid_compared_mode, nco, CORRELATION | MAY_BE_NULL),
     TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
     FLAG(rotid_compared_mode, holdout, 0),
+    TEXT_OF(rotid_compared_mode, type, SINCE_LATER, mode_type_words),
     {0},
 };
 static const struct record measured_record = RECORD(rotid_compared_mode, measured_fields);
@@ -90,6 +91,7 @@ static const struct record_field spectrum_fields[] = {
     STRUCTS(rotid_spectrum, modes, 0, mode_record),
     STRUCT(rotid_spectrum, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCT(rotid_spectrum, meridian, IF_KNOWN | BEHIND_POINTER, meridian_record),
+    TEXT_OF(rotid_spectrum, type, SINCE_LATER, mode_type_words),
     STRUCT(rotid_spectrum, beside, IF_KNOWN | BEHIND_POINTER, beside_record),
     {0},
 };

@@ -12,11 +12,16 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
     const rotid_reference *hz = head_reference(head, "predicted_hz"), *error = head_reference(head, "error_percent");
     const unsigned reduced = strcmp(fit->reduction, "NONE") ? 0 : IN_CSV_ONLY; /* what a condensation would cost */
     struct table *table = table_open(pool, caption ? caption : "Modes: errors are predicted over measured frequency, less one");
+    int typed = 0; /* not all are of bending; older results have no type */
+    for (int k = 0; k < fit->nmodes; k++)
+        typed |= fit->modes[k].type && !same_text(fit->modes[k].type, "BENDING");
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
         table_row(table);
         if (fit->nstates)
             text_column(table, "state", SHOW_TEXT, fit_state_of_mode(fit, k));
+        if (typed)
+            text_column(table, "type", SHOW_TEXT, mode->type);
         number_column(table, "mode", NULL, SHOW_COUNT, mode->mode);
         number_column(table, "measured mode", NULL, SHOW_COUNT | IN_CSV_ONLY, mode->measured_mode);
         number_column(table, "measured", "Hz", SHOW_FIXED(3), mode->measured_hz);

@@ -126,7 +126,10 @@ void screen_check(const struct screen *to, const struct result *result, const st
 
 struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spectrum)
 {
-    struct table *table = table_open(pool, "Modes of the full and of the condensed model");
+    const int bends = !spectrum->type || same_text(spectrum->type, "BENDING"); /* older results have no type */
+    struct table *table = table_open(pool, bends ? "Modes of the full and of the condensed model"
+                                                 : pool_format(pool, "Modes of the full and of the condensed model: %s",
+                                                               same_text(spectrum->type, "AXIAL") ? "axial" : "torsion"));
     for (int j = 0; j < spectrum->nmodes; j++) {
         const rotid_model_mode *mode = &spectrum->modes[j];
         const rotid_compared_mode *measured = mode->measured;

@@ -87,6 +87,7 @@ struct disk {
 struct spring {
     const char *name;
     double position, lateral, rotational; /* N/m, N.m/rad */
+    double torsional, axial;              /* N.m/rad, N/m: about and along the axis */
 };
 
 struct sensor {
@@ -95,6 +96,10 @@ struct sensor {
 };
 
 struct effect; /* below */
+
+/* What a rotor does in a mode: its lateral deflection in one plane, the rotation about its axis, the displacement along it. Small
+ * motions of a rotor whose section is symmetric do not couple the three. */
+enum mode_type { MODE_BENDING, MODE_TORSION, MODE_AXIAL };
 
 #define ROTOR_MOST_ELEMENTS 10000 /* with its bundles: what a deck may have, and what no mesh is refined beyond */
 
@@ -330,6 +335,9 @@ struct section {
     double mass_area, mass_inertia;   /* of the part that has mass */
     int rectangular;
     double ratio, stiff_outer; /* of a round section: inner over outer diameter of the stiff part, and that one [m] */
+    double torsion, polar;     /* m4: Saint-Venant's constant of the stiff part, polar inertia of the part that has mass. A round
+                                  section keeps its circles also where it has holes: torsion = 2 stiff_inertia then, which is an
+                                  upper bound */
 };
 
 /* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass.

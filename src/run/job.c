@@ -39,3 +39,21 @@ int job_fits_shapes(const struct job *job)
 {
     return job->measurement.shape && job_knows_shape_noise(job);
 }
+
+enum discretisation job_discretisation(const struct job *job)
+{
+    const enum discretisation in_bending = job->options.solid ? AS_SOLID : AS_BEAM;
+    return job->options.type == MODE_BENDING ? in_bending : job->options.type == MODE_TORSION ? AS_TORSION : AS_AXIAL;
+}
+
+int job_of_type(struct pool *pool, const struct job *job, enum mode_type type, struct job *other)
+{
+    *other = *job;
+    if (type == job->options.type)
+        return ROTID_OK;
+    other->options.type = type;
+    other->measurement = (struct job_measurement){0};
+    other->rotor.settled_rigid = 0;
+    other->models = models_as(pool, job_discretisation(other));
+    return other->models ? ROTID_OK : ROTID_ERROR_MEMORY;
+}

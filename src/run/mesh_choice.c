@@ -23,9 +23,11 @@ static int mesh_error(struct pool *pool, const struct job *job, int mode, double
 {
     struct spectrum s;
     struct pool scratch;
+    enum discretisation as = job->options.type == MODE_BENDING ? AS_BEAM : job_discretisation(job);
     *error = NAN;
     pool_open(&scratch, pool->allocator);
-    int status = spectrum_compute_parts(&scratch, NULL, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, mode, SPECTRUM_MESH, &s);
+    int status = spectrum_compute_parts(&scratch, models_as(&scratch, as), &job->rotor, 0, NULL, NULL, ROTID_GUYAN, mode,
+                                        SPECTRUM_MESH, &s);
     for (int j = 0; !status && j < s.count; j++)
         *error = fmax(isnan(*error) ? 0 : *error, fabs(s.mesh_error_percent[j]) / 100);
     pool_close(&scratch);

@@ -111,7 +111,8 @@ struct job_unknowns {
 struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
-    int solid; /* the rotor as a solid of revolution, not as a beam */
+    int solid;           /* the rotor as a solid of revolution, not as a beam */
+    enum mode_type type; /* of the modes; but for bending by bars, whatever `solid` says */
     struct frf_request frf;
 };
 
@@ -156,6 +157,12 @@ struct job {
  * of the deck where nobody stated parts. */
 struct job_place job_part_place(const struct job *job, int failed);
 struct job_place job_sensor_place(const struct job *job, int sensor);
+
+/* How its modes are computed. */
+enum discretisation job_discretisation(const struct job *job);
+/* The same job in another motion: what was measured in a motion is left out where it is another one. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int job_of_type(struct pool *pool, const struct job *job, enum mode_type type, struct job *other);
 
 /* Whether the noise of every measured frequency, and of every shape component, is known. */
 int job_knows_frequency_noise(const struct job *job);
@@ -332,6 +339,10 @@ int states_copy(struct pool *pool, const struct states *from, struct states *to)
 
 /* Says, as an error, that somebody who works on one state has been given several. */
 void states_refuse(const struct states *states, const char *deck, struct message_list *notes);
+
+/* An error in the list, and ROTID_ERROR_ARGUMENT, where a state is not of bending and `what` ("a diagnosis") is of bending alone.
+ */
+int states_refuse_types(const struct states *states, const char *what, struct message_list *notes);
 
 /* -------------------------------------------------------------------------------------------------------------- identify */
 

@@ -51,3 +51,17 @@ void states_refuse(const struct states *states, const char *deck, struct message
                 "the deck has %d states and this works on one, expected one of %s as FIT.STATE: --set FIT.STATE=%s",
                 states->nstate, list, states->state[0].name);
 }
+
+int states_refuse_types(const struct states *states, const char *what, struct message_list *notes)
+{
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        if (job->options.type == MODE_BENDING)
+            continue;
+        message_add(notes, SEVERITY_ERROR, job->measured.file, job->measured.line, job->measured.column,
+                    "%s is of bending, expected no *MODES, TYPE=%s, or another state by --set FIT.STATE=NAME", what,
+                    mode_type_words[job->options.type]);
+        return ROTID_ERROR_ARGUMENT;
+    }
+    return ROTID_OK;
+}

@@ -24,7 +24,7 @@ static struct member member_of(const struct solid *solid, int i)
         .number = rod ? rod->number : bars->number, .material = rod ? &rod->material : &bars->material, .young = 1};
     double area, own;
     section_rods(member.number, rod ? rod->diameter : bars->diameter, rod ? rod->pitch : bars->pitch, &area, &own, &member.pitch);
-    member.section = (struct section){area, own, area, own, 0, 0, 0};
+    member.section = (struct section){.stiff_area = area, .stiff_inertia = own, .mass_area = area, .mass_inertia = own};
     if (rod) {
         struct effect_bundle factor = effects_on_tierod(rotor, i);
         member.young = factor.young;
