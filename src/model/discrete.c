@@ -103,7 +103,7 @@ void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
     if (discrete->as == AS_SOLID)
         solid_spring_motion(&discrete->solid, i, v);
     else
-        v[2 * discrete->beam.mesh.spring_node[i]] = 1;
+        v[2 * (ptrdiff_t)discrete->beam.mesh.spring_node[i]] = 1;
 }
 
 void discrete_rigid_motions(const struct discrete *discrete, double *u)

@@ -153,7 +153,8 @@ static int is_tied(const struct rotor *rotor, const struct solid_mesh *mesh, int
  * it; numbered before the nodes right of a tie and behind them left of one, they stay within the band. */
 static int nodes_before_member(const struct rotor *rotor, const struct solid_mesh *mesh, int i, int line, int from, int to)
 {
-    int nodes = mesh->line[2 * line + 1] - mesh->line[2 * line];
+    const int *of = mesh->line + 2 * (ptrdiff_t)line;
+    int nodes = of[1] - of[0];
     if (i < rotor->ntierod)
         return (int)((double)nodes * (line - from) / (to - from));
     return line < solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center) ? nodes : 0;
@@ -180,7 +181,8 @@ static void widen(struct solid_mesh *mesh, int low, int high)
 /* first and last degree of freedom of the nodes of a line */
 static void line_dofs(const struct solid_mesh *mesh, int line, int *low, int *high)
 {
-    const struct solid_node *first = &mesh->node[mesh->line[2 * line]], *last = &mesh->node[mesh->line[2 * line + 1] - 1];
+    const int *of = mesh->line + 2 * (ptrdiff_t)line;
+    const struct solid_node *first = &mesh->node[of[0]], *last = &mesh->node[of[1] - 1];
     *low = first->dof[0];
     *high = last->dof[2] < 0 ? last->dof[0] : last->dof[2];
 }
@@ -255,7 +257,7 @@ static int place_sensors(struct pool *pool, const struct rotor *rotor, struct so
         int line = solid_mesh_line(mesh, z), slice = solid_mesh_slice(mesh, z);
         struct solid_element *element = &mesh->element[solid_mesh_outermost(mesh, slice)];
         if (element->sensor >= 0 || fabs(mesh->z[line] - z) <= AT_LINE * (mesh->z[slice + 1] - mesh->z[slice])) {
-            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * line]].dof[0];
+            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * (ptrdiff_t)line]].dof[0];
             continue;
         }
         const double edge[3] = {mesh->node[element->node[1]].z, mesh->node[element->node[5]].z, mesh->node[element->node[2]].z};
