@@ -105,6 +105,29 @@ static void beams_have_their_beta_l(void **state)
     }
 }
 
+/* A free beam of as many elements as rounding bears: it leaves 1e-4 of the vectors by the shift, and lambda_3 has 3e-4. */
+static void a_free_beam_of_many_elements_has_its_pairs(void **state)
+{
+    for (int count = 1; count <= 5; count += 2) {
+        enum { elements = 1499 };
+        int n = 2 * (elements + 1);
+        rotid_matrix k = new_matrix(*state, n, 3), m = new_matrix(*state, n, 3);
+        double ke[16], me[16];
+        rotid_element_stiffness(1, 1e12, 1, ke);
+        rotid_element_mass(1, 0, 0, 1, me);
+        for (int e = 0; e < elements; e++) {
+            int dof[4] = {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3};
+            assert_status(rotid_matrix_add_element(&k, 4, dof, ke, NULL), ROTID_OK);
+            assert_status(rotid_matrix_add_element(&m, 4, dof, me, NULL), ROTID_OK);
+        }
+        const double *lambda = lambda_of(*state, &k, &m, count, NULL);
+        for (int j = 0; j < count; j++) {
+            double beta = j < 2 ? 0 : (j - 0.5) * pi + (j == 2 ? 0.0176517 : -0.0007770), expected = pow(beta / elements, 4);
+            assert_close(lambda[j], expected, j == 2 ? 5e-3 : 1e-3, 1e-12);
+        }
+    }
+}
+
 /* Free in all directions, unconnected, or nothing but masses: as many zeros as there are motions without strain. */
 static void rigid_modes_are_pairs_like_others(void **state)
 {
@@ -286,6 +309,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_POOL(chains_of_masses_have_their_eigenvalues),
         WITH_POOL(beams_have_their_beta_l),
+        WITH_POOL(a_free_beam_of_many_elements_has_its_pairs),
         WITH_POOL(rigid_modes_are_pairs_like_others),
         WITH_POOL(repeated_eigenvalues_come_as_often_as_they_are),
         WITH_POOL(a_support_by_a_penalty_leaves_the_others_their_digits),

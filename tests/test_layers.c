@@ -9,6 +9,7 @@
 #include "effect_bench.h"
 #include "folder.h"
 #include "model/model.h"
+#include "solid/solid.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -101,9 +102,22 @@ static double layered_shear(int count, const struct section *section, const stru
     for (int i = 0; i < count; i++)
         layer[i] = (struct shear_layer){.material = shear_material_of(&material[i]), .section = &section[i]};
     double shear = shear_stiffness(count, layer);
-    struct shear_material v = shear_material_derivative(&material[which], kind), by = layer[which].by;
-    *derivative = by.e * v.e + by.g * v.g + by.x * v.x;
+    struct shear_material v = shear_material_derivative(&material[which], kind);
+    *derivative = shear_material_product(&layer[which].by, &v);
     return shear;
+}
+
+/* what contraction adds to EI, likewise */
+static double contraction_of(int count, const struct section *section, const struct material *material, int which,
+                             enum parameter_kind kind, double *derivative)
+{
+    struct shear_layer layer[5];
+    for (int i = 0; i < count; i++)
+        layer[i] = (struct shear_layer){.material = shear_material_of(&material[i]), .section = &section[i]};
+    double sum = contraction_stiffness(count, layer);
+    struct shear_material v = shear_material_derivative(&material[which], kind);
+    *derivative = shear_material_product(&layer[which].contraction, &v);
+    return sum;
 }
 
 static void derivatives_of_the_shear_of_any_materials_are_right(void **state)
@@ -128,15 +142,21 @@ static void derivatives_of_the_shear_of_any_materials_are_right(void **state)
                 enum parameter_kind kind = p == 0 ? PARAMETER_E : p == 1 ? PARAMETER_G : PARAMETER_NU;
                 if (p == 1 && m[i].isotropic)
                     continue;
-                double shear = layered_shear(count, section + first, m + first, i - first, kind, &by);
-                for (int k = 0; k < 2; k++) {
-                    double step = 1e-3 * (k + 1);
-                    *value = was * (1 + step);
-                    double up = layered_shear(count, section + first, m + first, i - first, kind, &unused);
-                    *value = was * (1 - step);
-                    d[k] = (up - layered_shear(count, section + first, m + first, i - first, kind, &unused)) / (2 * step * was);
+                static double (*const of[])(int, const struct section *, const struct material *, int, enum parameter_kind,
+                                            double *) = {layered_shear, contraction_of};
+                for (int f = 0; f < 2; f++) {
+                    double here = of[f](count, section + first, m + first, i - first, kind, &by);
+                    for (int k = 0; k < 2; k++) {
+                        double step = 1e-3 * (k + 1);
+                        *value = was * (1 + step);
+                        double up = of[f](count, section + first, m + first, i - first, kind, &unused);
+                        *value = was * (1 - step);
+                        d[k] = (up - of[f](count, section + first, m + first, i - first, kind, &unused)) / (2 * step * was);
+                        *value = was;
+                    }
+                    assert_close((4 * d[0] - d[1]) / 3, by, 1e-9, 1e-11 * here / was);
+                    assert_true(f == 0 || all == 0 || p == 1 || fabs(by) > 1e-4 * here / was);
                 }
-                assert_close((4 * d[0] - d[1]) / 3, by, 1e-9, 1e-11 * shear / was);
             }
     double unused; /* what is said of x = nu_sheet G/E_sheet: in one material E along the axis plays no part */
     struct material m = materials[0], stiffer = m;
@@ -203,6 +223,72 @@ static void shear_of_two_layers_is_that_of_the_flexure_function(void **state)
     }
 }
 
+/* EI of layers by linear elements of the motion in the plane, U cos t and V sin t, for the axial strain r cos t: pi times the
+ * energy of the strains U', (U + V)/r, r and V' - (U + V)/r with the constants of the solid. The bore is free. */
+static double bending_by_elements(int count, const double *radius, const struct material *material, int n)
+{
+    static double band[6][12004], right[12004];
+    int size = 2 * (count * n + 1);
+    double energy = 0;
+    memset(band, 0, sizeof band);
+    memset(right, 0, sizeof right);
+    for (int e = 0; e < count * n; e++) {
+        struct elasticity c = elasticity_of(&material[e / n], &(struct elasticity_factors){1, 1, 1});
+        double h = (radius[e / n + 1] - radius[e / n]) / n, from = radius[e / n] + e % n * h;
+        for (int q = -1; q <= 1; q += 2) {
+            double t = 0.5 + q / sqrt(12), r = from + h * t, w = r * h / 2;
+            const double turn[2] = {(1 - t) / r, t / r}, slope[2] = {-1 / h, 1 / h};
+            double strain[4][3]; /* of U and V at both ends: rr, tt, rt */
+            for (int i = 0; i < 4; i++) {
+                double s = i % 2 ? 0 : slope[i / 2], g = i % 2 ? slope[i / 2] : 0;
+                strain[i][0] = s;
+                strain[i][1] = turn[i / 2];
+                strain[i][2] = g - turn[i / 2];
+            }
+            energy += w * c.c33 * r * r;
+            for (int i = 0; i < 4; i++) {
+                right[2 * e + i] -= w * c.c13 * r * (strain[i][0] + strain[i][1]);
+                for (int j = 0; j <= i; j++)
+                    band[i - j][2 * e + j] += w * (c.c11 * (strain[i][0] * strain[j][0] + strain[i][1] * strain[j][1]) +
+                                                   c.c12 * (strain[i][0] * strain[j][1] + strain[i][1] * strain[j][0]) +
+                                                   c.c66 * strain[i][2] * strain[j][2]);
+            }
+        }
+    }
+    band[0][0] *= 1e12;            /* a translation is left */
+    for (int j = 0; j < size; j++) /* L D L' */
+        for (int i = 1; i <= 3 && i + j < size; i++) {
+            double factor = band[i][j] / band[0][j];
+            for (int k = i; k <= 3 && k + j < size; k++)
+                band[k - i][j + i] -= factor * band[k][j];
+            right[j + i] -= factor * right[j];
+        }
+    for (int j = 0; j < size; j++)
+        energy -= right[j] * right[j] / band[0][j];
+    return pi * energy;
+}
+
+static void bending_of_layers_is_that_of_their_plane_strains(void **state)
+{
+    (void)state;
+    const struct material material[3] = {
+        {.e = 2.1e11, .nu = 0.3, .isotropic = 1}, stack(2e10, 0.5e10, 0.29), {.e = 1.2e11, .g = 3e10, .nu = 0.36}};
+    const double radius[] = {0.1, 0.4, 0.7, 0.8};
+    for (int count = 2; count <= 3; count++) {
+        struct section section[3];
+        double sum = 0, unused;
+        for (int i = 0; i < count; i++) {
+            section_round(2 * radius[i + 1], 2 * radius[i], 2 * radius[i + 1], &section[i]);
+            sum += material[i].e * section[i].stiff_inertia;
+        }
+        double coarse = bending_by_elements(count, radius, material, 1000),
+               fine = bending_by_elements(count, radius, material, 2000);
+        double more = contraction_of(count, section, material, 0, PARAMETER_E, &unused);
+        assert_close(sum + more, fine + (fine - coarse) / 3, 1e-9, 0);
+        assert_true(more > 0.01 * sum);
+    }
+}
+
 /* Whatever its moduli: G of 1e-3 of E and a wall of 1e-4 of the diameter too. */
 static void a_cut_in_one_material_changes_nothing(void **state)
 {
@@ -220,6 +306,8 @@ static void a_cut_in_one_material_changes_nothing(void **state)
             section_round(1, diameter[from], 1, &whole);
             assert_close(layered_shear(4 - from, section + from, m, 0, PARAMETER_E, &unused),
                          shear_stiffness_plain(&whole, &materials[i]), 1e-11, 0); /* rounding over the wall */
+            assert_close(contraction_of(4 - from, section + from, m, 0, PARAMETER_E, &unused), 0, 0,
+                         1e-20 * materials[i].e * whole.stiff_inertia);
         }
 }
 
@@ -259,15 +347,20 @@ static void two_layers_by_hand(void **state)
     axis_quantities(&beam, 3, &bare);
     axis_quantities(&beam, 12, &element);
     assert_close(bare.ei, 2e11 * pi * 1e-4 / 64, 1e-14, 0);
-    assert_close(element.ei, 2e11 * pi * 1e-4 / 64 + 1.4e10 * pi * (16e-4 - 1e-4) / 64, 1e-14, 0);
+    /* one surface at 0.05: the contractions 0.3 and 0.02 meet; a = 1/ep - na^2/e, b = np/ep + na^2/e of both parts */
+    double a1 = 0.91 / 2e11, b1 = 0.39 / 2e11, a2 = 1 / 0.97 / 2.1e11 - 4e-4 / 1.4e10, b2 = 0.3 / 0.97 / 2.1e11 + 4e-4 / 1.4e10;
+    double flexible = 3 * a1 - b1 + ((3 * a2 - b2) * 1 + (a2 + b2) * 16) / 15, load = (0.3 - 0.02) * 0.0025;
+    double parts = 2e11 * pi * 1e-4 / 64 + 1.4e10 * pi * (16e-4 - 1e-4) / 64;
+    assert_close(element.ei, parts + pi * load * load / flexible, 1e-14, 0);
     /* by hand from l and b of src/beam/shear_coefficient.c, radii 0.05 and 0.1, x = 0.3/2.6 and 0.01: one unknown each surface */
     double e1 = 2e11, g1 = e1 / 2.6, x1 = 0.3 / 2.6, e2 = 1.4e10, g2 = 0.7e10, x2 = 0.01, p = 0.05, q = 0.1;
     double d = q * q - p * p, c = g2 * (q * q + p * p) / d, off = -2 * g2 * p * q / d;
-    double b1 = e1 * p * p * p / 4 + e2 * p * d / 4, b2 = e2 * q * d / 4;
+    b1 = e1 * p * p * p / 4 + e2 * p * d / 4;
+    b2 = e2 * q * d / 4;
     double l1 = b1 - x2 * e2 * q * q * p / 2, l2 = b2 + x2 * e2 * p * p * q / 2, det = (g1 + c) * c - off * off;
     double mean = b1 * (c * l1 - off * l2) / det + b2 * ((g1 + c) * l2 - off * l1) / det +
                   (1 - 2 * x1) * e1 * e1 * pow(p, 6) / (96 * g1) + (1 - 2 * x2) * e2 * e2 * d * d * d / (96 * g2);
-    assert_close(element.kgs, element.ei * element.ei / (pi * mean), 1e-13, 0);
+    assert_close(element.kgs, parts * parts / (pi * mean), 1e-13, 0);
     assert_close(element.rhos, 7800 * pi * 0.01 / 4 + 7600 * pi * 0.03 / 4, 1e-14, 0);
     assert_close(element.rhoi, 7800 * pi * 1e-4 / 64 + 7600 * pi * 15e-4 / 64, 1e-14, 0);
     assert_close(element.force, 5e5, 0, 0); /* of the section, not of each part */
@@ -596,6 +689,7 @@ int main(void)
         TEST(shear_of_a_stack_has_its_limits),
         TEST(derivatives_of_the_shear_of_any_materials_are_right),
         TEST(shear_of_two_layers_is_that_of_the_flexure_function),
+        TEST(bending_of_layers_is_that_of_their_plane_strains),
         TEST(a_cut_in_one_material_changes_nothing),
         TEST(two_layers_by_hand),
         TEST(a_shaft_cut_into_core_and_rings_bends_alike),

@@ -388,6 +388,10 @@ static void decks_that_ask_for_much_are_refused_soon(void **state)
     assert_int_equal(shell_code(&test_pool, &output, "cd %s && " LIMITED "check deck", folder), 2);
     assert_non_null(strstr(output, "deck:11:1: warning: outer diameter [m] is 2e5, 2e+05 m, outside of what rotors have"));
     assert_non_null(strstr(output, "deck:6:1: a solid of this rotor has too many unknowns"));
+    (void)shell(&test_pool, /* few elements, and a band of most of them: its coarse mesh alone takes minutes */
+                "cd %s && printf '" STEEL "*SHAFT, NAME=disc, MATERIAL=steel\n0.0006, 4, 0\n*FIT, MODEL=SOLID\n' > deck", folder);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && timeout 5 " ROTID_PROGRAM " modes deck", folder), 2);
+    assert_non_null(strstr(output, "deck:6:1: a solid of this rotor has too many unknowns"));
     (void)shell(&test_pool, "cd %s && rm -r *", folder);
 }
 

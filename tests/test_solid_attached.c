@@ -113,6 +113,36 @@ static void a_spring_that_did_not_move_is_that_of_the_deck(void **state)
         assert_close(with[j], plain[j], 1e-10, 0);
 }
 
+/* Beside a line too: of a motion of the whole rotor, v = a - b z, it takes up k v^2 where it is, and k_rot b^2. */
+static void a_spring_holds_its_point(void **state)
+{
+    const double at = 0.4123 + 0.0171, motion[3][2] = {{1, 0}, {0, 1}, {at, 1}};
+    struct rig b;
+    struct solid solid;
+    rotid_matrix k, m;
+    int failed;
+    (void)state;
+    slender(&b, 1);
+    rig_springs(&b, 4e6, 0);
+    b.spring[0].position = 0.4123;
+    b.spring[0].rotational = 3e5;
+    b.rotor.neffect = 1;
+    b.effect[0] = (struct effect){.name = "c", .kind = rig_kind("support_position"), .target = 0, .value = {0.0171}};
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, NULL, 1, &solid, &failed), ROTID_OK);
+    int n = solid.mesh.ndof;
+    assert_status(matrix_new(&test_pool, n, solid.mesh.kd, solid.nfar, solid.far, &k), ROTID_OK);
+    assert_status(matrix_new(&test_pool, n, solid.mesh.kd, solid.nfar, solid.far, &m), ROTID_OK);
+    solid_assemble(&solid, NULL, &k, &m);
+    double *u = POOL_ARRAY(&test_pool, double, 4 * n), *whole = u + 2 * (ptrdiff_t)n;
+    solid_rigid_motions(&solid, u);
+    for (int i = 0; i < 3; i++) {
+        for (int d = 0; d < n; d++)
+            whole[d] = motion[i][0] * u[d] + motion[i][1] * u[n + d];
+        double v = motion[i][0] - motion[i][1] * at;
+        assert_close(matrix_product(&k, whole, whole, whole + n), 4e6 * v * v + 3e5 * motion[i][1] * motion[i][1], 1e-7, 0);
+    }
+}
+
 static void rods(struct rig *b, int elements, double tension)
 {
     b->rotor.ntierod = 1;
@@ -349,6 +379,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(disks_and_springs_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(springs_anywhere_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_spring_that_did_not_move_is_that_of_the_deck, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_spring_holds_its_point, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(masses_and_joints_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tie_rods_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(axial_force_acts_as_in_a_beam, open_test_pool, close_test_pool),

@@ -739,6 +739,21 @@ static void modes_that_are_held_out_stay_with_their_state(void **state)
     assert_memory_equal(states.state[1].job.measurement.holdout, held, 2 * sizeof *held);
 }
 
+/* A rival with a parameter that no datum feels, of a lap whose bending and shear are sought apart: it has a prior of 100 %. */
+static void a_parameter_that_nothing_feels_ends_no_suggestion(void **state)
+{
+    rotid_deck *deck;
+    rotid_suggestion *suggestion;
+    char failure[ROTID_FAILURE_LENGTH];
+    (void)state;
+    assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp", 0, NULL, NULL, failure, &deck), ROTID_OK);
+    rotid_suggest_options options = {.size = sizeof options, .replicates = 200, .threads = 1};
+    assert_status(rotid_suggest(deck, &options, NULL, failure, &suggestion), ROTID_OK);
+    assert_true(suggestion->nplans > 0 && suggestion->sentence);
+    rotid_suggestion_free(suggestion);
+    rotid_deck_free(deck);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
@@ -755,6 +770,7 @@ int main(void)
         TEST(the_deck_of_a_test_like_a_state_has_its_cards),
         TEST(what_is_proposed_reads_as_it_is_meant),
         TEST(modes_that_are_held_out_stay_with_their_state),
+        TEST(a_parameter_that_nothing_feels_ends_no_suggestion),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -358,6 +358,34 @@ static void numbers_too_far_apart_are_refused_with_their_place(void **state)
     }
 }
 
+/* Each number alone is possible: the problem fails, and the softest section is named beside the stiffest element. */
+static void sections_too_far_apart_are_named_where_the_problem_fails(void **state)
+{
+    static const char *const sections[][2] = {{"0.5, 0.002, 0, 4", "0.0001, 0.19, 0, 8"},
+                                              {"5, 0.0005, 0, 4", "0.002, 1.9, 0, 8"},
+                                              {"0.732632, 0.00381895, 0.00114569, 8\n0.122539, 0.000467971, 0.000463292, 2\n"
+                                               "0.0586624, 0.00440842, 0, 2\n0.106905, 0.0895228, 0, 8",
+                                               "0.000671582, 0.0134166, 0.0132825, 8\n0.000156797, 0.242305, 0.239882, 2\n"
+                                               "0.00042614, 0.0344631, 0, 2\n0.170224, 0.0518854, 0, 1\n"
+                                               "0.0876256, 0.0623385, 0.0187015, 1\n0.0942644, 0.00406253, 0.0040219, 8\n"
+                                               "0.000147997, 0.00382556, 0, 2\n0.000750908, 0.116142, 0, 8"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        char text[800], failure[ROTID_FAILURE_LENGTH];
+        rotid_deck *deck;
+        rotid_check *check;
+        (void)snprintf(text, sizeof text,
+                       "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.49\n*DENSITY\n7850\n*SHAFT, NAME=thin, MATERIAL=steel\n%s\n"
+                       "*SHAFT, NAME=disc, MATERIAL=steel\n%s\n",
+                       sections[i][0], sections[i][1]);
+        assert_status(rotid_deck_read_text(strlen(text), text, "thin.inp", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+        assert_true(rotid_deck_check(deck, NULL, failure, &check) < 0);
+        assert_non_null(strstr(failure, "thin.inp:6:1: "));
+        assert_non_null(strstr(failure, "a section of thin has EI/L^3 = "));
+        rotid_deck_free(deck);
+    }
+}
+
 /* ---- frequencies beside the model's */
 
 static void a_common_factor_of_all_frequencies_is_named(void **state)
@@ -402,6 +430,7 @@ int main(void)
         cmocka_unit_test(a_deck_in_other_units_is_the_same_rotor),
         cmocka_unit_test(units_that_cannot_be_are_refused),
         cmocka_unit_test(numbers_too_far_apart_are_refused_with_their_place),
+        cmocka_unit_test(sections_too_far_apart_are_named_where_the_problem_fails),
         cmocka_unit_test(a_common_factor_of_all_frequencies_is_named),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -37,6 +37,7 @@ struct call {
     atomic_int cancelled;
     rotid_environment environment; /* of the run: once the host has said stop it is not asked, and told of nothing, again */
     struct message_list notes;     /* on the scratch */
+    const struct job *job;         /* of the deck, its first state; NULL where no deck was asked for */
     struct host_locale locale;     /* as it was, while `entered` */
     int entered;
 };

@@ -29,6 +29,7 @@ int call_open(struct call *call, const rotid_environment *given, char *failure, 
                                             .progress = taken->progress ? progress : NULL,
                                             .context = call};
     message_open(&call->notes, &call->entry.scratch);
+    call->job = NULL;
     if (!status && !result)
         status = refuse(failure, "%s is NULL, expected the address of a pointer", name);
     if (!status)
@@ -57,6 +58,8 @@ static void explain(const struct call *call, char *failure)
 int call_close(struct call *call, int status)
 {
     char *failure = call->entry.failure;
+    if (call->job && status < 0)
+        doubt_sections(call->job, status, &call->notes);
     if (failure && !*failure && status < 0)
         explain(call, failure);
     if (call->entered)

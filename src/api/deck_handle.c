@@ -225,8 +225,10 @@ const struct states *deck_states(const rotid_deck *deck, struct call *call)
 {
     const struct deck_handle *handle = deck ? deck->memory : NULL;
     const struct states *states = deck_states_of(deck);
-    if (states)
+    if (states) {
+        call->job = &states->state[0].job;
         return states;
+    }
     for (int i = 0; handle && i < deck->nmessage; i++)
         if (deck->message[i].severity == ROTID_ERROR) {
             const rotid_message *m = &deck->message[i];

@@ -65,27 +65,42 @@ int chain_node(const struct chain *chain, int i);
 /* ----------------------------------------------------------------------------------------------------- shear coefficient */
 
 /* The shear stiffness kGS of a section in the averages of Cowper (1966): of one material by its coefficient k, of concentric
- * layers by the flexure function over the radius. */
+ * layers by the flexure function over the radius; and what such layers add to EI. */
 
-/* What a material resists shear with. x = nu_a G/E, nu_a being the contraction of the plane by axial stress: nu/(2 (1 + nu)) of
- * an isotropic material, and of one that states E, G and nu, whose k is that of the isotropic material of this nu; nu G/E_sheet
- * of a stack of sheets, which axial stress strains as it strains a sheet. As a direction: their derivatives. */
+/* What a material resists shear and contraction with. x = nu_a G/E, nu_a being the contraction of the plane by axial stress:
+ * nu/(2 (1 + nu)) of an isotropic material, and of one that states E, G and nu, whose k is that of the isotropic material of this
+ * nu; nu G/E_sheet of a stack of sheets, which axial stress strains as it strains a sheet. ep and np: E and nu in the plane; na:
+ * nu_a as in src/solid. As a direction: their derivatives. */
 struct shear_material {
-    double e, g, x; /* Pa, Pa, - */
+    double e, g, x;    /* Pa, Pa, - */
+    double ep, np, na; /* Pa, -, - */
 };
 struct shear_material shear_material_of(const struct material *material);
 struct shear_material shear_material_derivative(const struct material *material, enum parameter_kind kind);
 
+/* Values or a direction with the factors of causes on E and G. */
+void shear_material_scale(const struct material *material, double e, double g, struct shear_material *values);
+
+/* The direction of relative rates of E and G as causes have them. */
+struct shear_material shear_material_rate(const struct material *material, double e, double g);
+
+/* The derivative `by` in the direction v. */
+double shear_material_product(const struct shear_material *by, const struct shear_material *v);
+
 struct shear_layer {
     struct shear_material material; /* with the factors of causes */
     const struct section *section;
-    struct shear_material by; /* out: derivatives of kGS by the values of the material */
-    double pivot, off, w, z;  /* workspace */
+    struct shear_material by;          /* out: derivatives of kGS by the values of the material */
+    struct shear_material contraction; /* out: those of contraction_stiffness */
+    double pivot, off, w, z;           /* workspace */
 };
 
 /* kGS [N] of a section of `count` >= 1 parts that touch, layer [count + 1] from the axis outwards, the last one workspace. One
  * part may have any section, several are round. At fixed x, kGS is of degree 1 in all G together and of degree 0 in all E. */
 double shear_stiffness(int count, struct shear_layer *layer);
+
+/* What bonded parts of different contraction add to the sum of their EI [N.m2]: 0 of one part, and of parts of one nu_a. */
+double contraction_stiffness(int count, struct shear_layer *layer);
 
 /* The same of one section of one material, without derivatives. */
 double shear_stiffness_plain(const struct section *section, const struct material *material);
@@ -98,8 +113,8 @@ struct hinge { /* of a joint: see hinge_place */
     int effect, element, end;
 };
 
-struct section_part { /* of a segment: its own section, or a ring of a layer. In bending all of them turn alike, so EI and mass
-                         add; kGS: shear_stiffness */
+struct section_part { /* of a segment: its own section, or a ring of a layer. In bending all of them turn alike, so mass adds, and
+                         EI but for contraction_stiffness; kGS: shear_stiffness */
     int group;
     struct section section;
 };

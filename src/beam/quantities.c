@@ -7,7 +7,7 @@ static double middle_of(const struct mesh *mesh, int e)
     return (mesh->z[e] + mesh->z[e + 1]) / 2;
 }
 
-/* EI and mass of a part, with the factors of e, g and rho where there are any; kGS is not a sum */
+/* EI and mass of a part, with the factors of e, g and rho where there are any; kGS is not a sum, nor is all of EI */
 static void add_part(const struct material *material, const struct section *section, const struct effect_field *factor,
                      struct element *sum)
 {
@@ -16,19 +16,20 @@ static void add_part(const struct material *material, const struct section *sect
     sum->rhoi += material->rho * section->mass_inertia * (factor ? factor->rho : 1);
 }
 
-/* kGS of element e, whose derivatives stand in beam->layer then */
-static double axis_shear(const struct beam *beam, int e)
+/* kGS of element e, and what contraction adds to EI; the derivatives of both stand in beam->layer then */
+static double axis_shear(const struct beam *beam, int e, double *contraction)
 {
     const struct section_part *part;
     struct effect_field *factor;
     int count = factors_parts(beam, e, &part, &factor);
     for (int i = 0; i < count; i++) {
+        const struct material *material = &beam->rotor.group[part[i].group].material;
         struct shear_layer *layer = &beam->layer[i];
-        *layer = (struct shear_layer){.material = shear_material_of(&beam->rotor.group[part[i].group].material),
-                                      .section = &part[i].section};
-        layer->material.e *= factor ? factor[i].e : 1;
-        layer->material.g *= factor ? factor[i].g : 1;
+        *layer = (struct shear_layer){.material = shear_material_of(material), .section = &part[i].section};
+        if (factor)
+            shear_material_scale(material, factor[i].e, factor[i].g, &layer->material);
     }
+    *contraction = contraction_stiffness(count, beam->layer);
     return shear_stiffness(count, beam->layer);
 }
 
@@ -39,11 +40,20 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     const struct section_part *part;
     struct effect_field *factor;
     int count = factors_parts(beam, e, &part, &factor), group = rotor->segment[mesh->segment[e]].group;
-    *element = (struct element){.kgs = axis_shear(beam, e),
+    double contraction, shear = axis_shear(beam, e, &contraction);
+    *element = (struct element){.ei = contraction,
+                                .kgs = shear,
                                 .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, group, middle_of(mesh, e)),
                                 .length = mesh->z[e + 1] - mesh->z[e]};
     for (int i = 0; i < count; i++)
         add_part(&rotor->group[part[i].group].material, &part[i].section, factor ? &factor[i] : NULL, element);
+}
+
+/* Adds what the direction v of the values of part i moves in kGS, and in EI beside the sum of the parts. */
+static void add_direction(const struct beam *beam, int i, const struct shear_material *v, struct element *d)
+{
+    d->kgs += shear_material_product(&beam->layer[i].by, v);
+    d->ei += shear_material_product(&beam->layer[i].contraction, v);
 }
 
 /* of EI and mass alone */
@@ -60,6 +70,7 @@ static int material_direction(const struct section *section, enum parameter_kind
 
 static int effect_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
+    double contraction;
     const struct section_part *part;
     struct effect_field *factor;
     int moves = 0, count = factors_parts(beam, e, &part, &factor);
@@ -69,12 +80,12 @@ static int effect_direction(const struct beam *beam, struct parameter parameter,
         if (!effects_axis_rate(&beam->rotor, parameter, &span, 1, &rate))
             continue;
         if (!moves)
-            (void)axis_shear(beam, e);
+            (void)axis_shear(beam, e, &contraction);
         if (factor)
             rate = (struct effect_field){rate.e * factor[i].e, rate.g * factor[i].g, rate.rho * factor[i].rho};
         add_part(&beam->rotor.group[part[i].group].material, &part[i].section, &rate, d);
-        struct shear_material own = shear_material_of(&beam->rotor.group[part[i].group].material), by = beam->layer[i].by;
-        d->kgs += by.e * own.e * rate.e + by.g * own.g * rate.g;
+        struct shear_material v = shear_material_rate(&beam->rotor.group[part[i].group].material, rate.e, rate.g);
+        add_direction(beam, i, &v, d);
         moves = 1;
     }
     d->force = rotor_axial_force_derivative(&beam->rotor, parameter, middle_of(&beam->mesh, e));
@@ -83,6 +94,7 @@ static int effect_direction(const struct beam *beam, struct parameter parameter,
 
 int axis_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
+    double contraction;
     const struct rotor *rotor = &beam->rotor;
     const struct section_part *part;
     struct effect_field *factor;
@@ -100,14 +112,14 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
         if (!parameter_is_of_group(&parameter, part[i].group))
             continue;
         if (!moves)
-            (void)axis_shear(beam, e);
+            (void)axis_shear(beam, e, &contraction);
         moves |= material_direction(&part[i].section, parameter.kind, &own);
-        struct shear_material v = shear_material_derivative(&rotor->group[part[i].group].material, parameter.kind),
-                              by = beam->layer[i].by;
+        struct shear_material v = shear_material_derivative(&rotor->group[part[i].group].material, parameter.kind);
+        shear_material_scale(&rotor->group[part[i].group].material, f.e, f.g, &v);
         d->ei += f.e * own.ei;
         d->rhos += f.rho * own.rhos;
         d->rhoi += f.rho * own.rhoi;
-        d->kgs += by.e * f.e * v.e + by.g * f.g * v.g + by.x * v.x;
+        add_direction(beam, i, &v, d);
     }
     return moves;
 }

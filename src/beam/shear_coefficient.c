@@ -1,5 +1,7 @@
 #include "beam/beam.h"
 
+#include <math.h>
+
 #include "base/base.h"
 #include "rotid.h"
 
@@ -36,7 +38,10 @@ static double isotropic(double nu)
 struct shear_material shear_material_of(const struct material *m)
 {
     double g = material_shear_modulus(m);
-    return (struct shear_material){m->e, g, m->laminated ? m->nu * g / m->sheet_e : isotropic(m->nu)};
+    if (m->laminated)
+        return (struct shear_material){
+            m->e, g, m->nu * g / m->sheet_e, m->stacking * m->sheet_e, m->nu, m->nu * m->e / m->sheet_e};
+    return (struct shear_material){m->e, g, isotropic(m->nu), m->e, m->nu, m->nu};
 }
 
 struct shear_material shear_material_derivative(const struct material *m, enum parameter_kind kind)
@@ -45,14 +50,38 @@ struct shear_material shear_material_derivative(const struct material *m, enum p
     switch (kind) {
     case PARAMETER_E:
     case PARAMETER_TIEROD_E:
-        return (struct shear_material){1, m->isotropic ? g / m->e : 0, 0};
+        return (struct shear_material){
+            .e = 1, .g = m->isotropic ? g / m->e : 0, .ep = !m->laminated, .na = m->laminated ? m->nu / m->sheet_e : 0};
     case PARAMETER_G:
-        return (struct shear_material){0, 1, m->laminated ? m->nu / m->sheet_e : 0};
+        return (struct shear_material){.g = 1, .x = m->laminated ? m->nu / m->sheet_e : 0};
     case PARAMETER_NU:
-        return (struct shear_material){0, m->isotropic ? -g / q : 0, m->laminated ? g / m->sheet_e : 1 / (2 * q * q)};
+        return (struct shear_material){.g = m->isotropic ? -g / q : 0,
+                                       .x = m->laminated ? g / m->sheet_e : 1 / (2 * q * q),
+                                       .np = 1,
+                                       .na = m->laminated ? m->e / m->sheet_e : 1};
     default:
-        return (struct shear_material){0, 0, 0};
+        return (struct shear_material){0};
     }
+}
+
+void shear_material_scale(const struct material *m, double e, double g, struct shear_material *values)
+{
+    values->e *= e;
+    values->g *= g;
+    *(m->laminated ? &values->na : &values->ep) *= e;
+}
+
+struct shear_material shear_material_rate(const struct material *m, double e, double g)
+{
+    struct shear_material rate = shear_material_of(m), values = rate;
+    shear_material_scale(m, e, g, &rate);
+    return (struct shear_material){
+        .e = rate.e, .g = rate.g, .ep = m->laminated ? 0 : values.ep * e, .na = m->laminated ? values.na * e : 0};
+}
+
+double shear_material_product(const struct shear_material *by, const struct shear_material *v)
+{
+    return by->e * v->e + by->g * v->g + by->x * v->x + by->ep * v->ep + by->np * v->np + by->na * v->na;
 }
 
 static double of_one(struct shear_layer *layer)
@@ -60,7 +89,7 @@ static double of_one(struct shear_layer *layer)
     const struct section *section = layer->section;
     struct coefficient c = section->rectangular ? rectangle() : annulus(section->ratio);
     double k = 1 / (c.c0 - c.c1 * layer->material.x), s = section->stiff_area, gs = layer->material.g * s;
-    layer->by = (struct shear_material){0, k * s, c.c1 * k * k * gs};
+    layer->by = (struct shear_material){.g = k * s, .x = c.c1 * k * k * gs};
     return k * gs;
 }
 
@@ -87,6 +116,23 @@ static double load(const struct annulus *a, int side)
 static double load_by_x(const struct annulus *a, int side)
 {
     return a->e / 2 * (side ? a->pp * a->q : -a->qq * a->p);
+}
+
+/* The tridiagonal systems in w and z at the surfaces 0 ... count: pivot on the diagonal, -off beside it; 0 where nothing resists
+ */
+static void solve_surfaces(int count, struct shear_layer *layer)
+{
+    for (int i = 0; i < count; i++) {
+        double ratio = layer[i].pivot > 0 ? layer[i].off / layer[i].pivot : 0;
+        layer[i + 1].pivot -= ratio * layer[i].off;
+        layer[i + 1].w += ratio * layer[i].w;
+        layer[i + 1].z += ratio * layer[i].z;
+    }
+    for (int i = count; i >= 0; i--) {
+        double above_w = i < count ? layer[i].off * layer[i + 1].w : 0, above_z = i < count ? layer[i].off * layer[i + 1].z : 0;
+        layer[i].w = layer[i].pivot > 0 ? (layer[i].w + above_w) / layer[i].pivot : 0;
+        layer[i].z = layer[i].pivot > 0 ? (layer[i].z + above_z) / layer[i].pivot : 0;
+    }
 }
 
 /* Axial displacement W(r) cos t of a section whose curvature grows as z. Contraction of each part gives it U = V = -nu_a r^2/2 in
@@ -116,17 +162,7 @@ static double of_layers(int count, struct shear_layer *layer)
             layer[i + side].z += load(&a, side);
         }
     }
-    for (int i = 0; i < count; i++) {
-        double ratio = layer[i].pivot > 0 ? layer[i].off / layer[i].pivot : 0;
-        layer[i + 1].pivot -= ratio * layer[i].off;
-        layer[i + 1].w += ratio * layer[i].w;
-        layer[i + 1].z += ratio * layer[i].z;
-    }
-    for (int i = count; i >= 0; i--) {
-        double above_w = i < count ? layer[i].off * layer[i + 1].w : 0, above_z = i < count ? layer[i].off * layer[i + 1].z : 0;
-        layer[i].w = layer[i].pivot > 0 ? (layer[i].w + above_w) / layer[i].pivot : 0;
-        layer[i].z = layer[i].pivot > 0 ? (layer[i].z + above_z) / layer[i].pivot : 0;
-    }
+    solve_surfaces(count, layer);
     for (int i = 0; i < count; i++) {
         struct annulus a = annulus_of(&layer[i]);
         mean += a.g > 0 ? load(&a, 0) * layer[i].w + load(&a, 1) * layer[i + 1].w : 0;
@@ -136,7 +172,7 @@ static double of_layers(int count, struct shear_layer *layer)
         const struct shear_layer *in = &layer[i], *out = &layer[i + 1];
         struct annulus a = annulus_of(in);
         double x = in->material.x, share = a.e * a.e * a.depth * a.depth * a.depth / (96 * a.g);
-        layer[i].by = (struct shear_material){0, 0, 0};
+        layer[i].by = (struct shear_material){0};
         if (a.g <= 0)
             continue;
         double of_x = load_by_x(&a, 0) * in->z + load_by_x(&a, 1) * out->z;
@@ -155,6 +191,60 @@ static double of_layers(int count, struct shear_layer *layer)
 double shear_stiffness(int count, struct shear_layer *layer)
 {
     return count == 1 ? of_one(layer) : of_layers(count, layer);
+}
+
+/* In bending by the curvature 1 each part alone contracts by U = V = -na r^2/2. Bonded parts press on each other with the
+ * stresses sigma_rr = tau_rt = (S/r)(cos t, sin t) at their surfaces: Airy's A r^3 and B/r, sigma_rr = 2 A r - 2 B/r^3 and
+ * sigma_tt = 6 A r
+ * + 2 B/r^3, since r ln r would carry a force. With the strains e_rr = a sigma_rr - b sigma_tt - na r, a = 1/ep - na^2/e and b =
+ * np/ep + na^2/e, U + V at the outer and inner surface of a part is
+ *   (S_q (c q^4 + (a + b) p^4) - 4 a p^2 q^2 S_p)/d - na q^2,  (4 a p^2 q^2 S_q - S_p (c p^4 + (a + b) q^4))/d - na p^2,
+ * c = 3 a - b, d = q^4 - p^4, the rest being a translation. U + V is continuous, F S = h, and the axial stress na (sigma_rr +
+ * sigma_tt) adds the moment pi h'S. Its derivative is pi (2 S'dh - S'dF S). */
+double contraction_stiffness(int count, struct shear_layer *layer)
+{
+    double sum = 0;
+    layer[0].contraction = (struct shear_material){0};
+    if (count == 1) /* of any section */
+        return 0;
+    for (int i = 0; i <= count; i++)
+        layer[i].pivot = layer[i].w = layer[i].z = layer[i].off = 0;
+    for (int i = 0; i < count; i++) {
+        const struct shear_material *m = &layer[i].material;
+        struct annulus t = annulus_of(&layer[i]);
+        double a = (1 / m->ep - m->na * m->na / m->e) / t.by_g, b = (m->np / m->ep + m->na * m->na / m->e) / t.by_g;
+        double d = t.depth * (t.qq + t.pp), c = 3 * a - b;
+        int resists = m->e > 0 && m->ep > 0;
+        if (i > 0) {
+            layer[i].pivot += resists ? (c * t.pp * t.pp + (a + b) * t.qq * t.qq) / d : INFINITY;
+            layer[i].w -= m->na * t.pp;
+        }
+        if (i + 1 < count) {
+            layer[i + 1].pivot += resists ? (c * t.qq * t.qq + (a + b) * t.pp * t.pp) / d : INFINITY;
+            layer[i + 1].w += m->na * t.qq;
+            layer[i].off = i > 0 && resists ? 4 * a * t.pp * t.qq / d : 0;
+        }
+    }
+    solve_surfaces(count, layer);
+    for (int i = 0; i < count; i++) {
+        const struct shear_material *m = &layer[i].material;
+        struct annulus t = annulus_of(&layer[i]);
+        double p = layer[i].w, q = layer[i + 1].w, d = t.depth * (t.qq + t.pp), direct = q * t.qq - p * t.pp;
+        double by_b = q * q - p * p, by_a = -(q * q * (3 * t.qq * t.qq + t.pp * t.pp) + p * p * (3 * t.pp * t.pp + t.qq * t.qq) -
+                                              8 * p * q * t.pp * t.qq) /
+                                            d;
+        layer[i].contraction = (struct shear_material){0};
+        if (!(m->e > 0 && m->ep > 0))
+            continue;
+        sum += m->na * direct;
+        layer[i].contraction = (struct shear_material){
+            .e = pi * (by_a - by_b) * m->na * m->na / (m->e * m->e * t.by_g),
+            .ep = -pi * (by_a + m->np * by_b) / (m->ep * m->ep * t.by_g),
+            .np = pi * by_b / (m->ep * t.by_g),
+            .na = pi * 2 * (direct - (by_a - by_b) * m->na / (m->e * t.by_g)),
+        };
+    }
+    return pi * sum;
 }
 
 double shear_stiffness_plain(const struct section *section, const struct material *material)

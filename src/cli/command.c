@@ -42,6 +42,8 @@ int command_fail(struct command *command, int status)
         terminal_say("rotid: interrupted\n");
         return EXIT_DOUBTFUL;
     }
+    if (command->job)
+        doubt_sections(command->job, status, &command->messages);
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));

@@ -213,13 +213,15 @@ int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_ma
 }
 
 #define SMALL 8 /* no difference in time; and any number of eigenvalues may be zero */
+#define LARGE 600
 
 /* Fitted to times of both, one cold and three warm solutions with one thread, n = 42 to 1200, of any kd and count: it takes 2.5
- * times as long as the better one at worst, where both take a millisecond. */
+ * times as long as the better one at worst, where both take a millisecond. From LARGE on few pairs take longer by the dense
+ * solution however wide the band is: twice as long at n = 948, kd = 577. */
 static int is_dense(const rotid_matrix *structure, int count)
 {
-    double n = structure->n;
-    return n <= SMALL || count == structure->n || 2.5 * structure->kd + 0.15 * count * sqrt(n) >= n;
+    double n = structure->n, by_count = 0.15 * count * sqrt(n);
+    return n <= SMALL || count == structure->n || (n < LARGE ? 2.5 * structure->kd : 0) + by_count >= n;
 }
 
 int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e)

@@ -1,5 +1,6 @@
 #include "model/model.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "beam/beam.h"
@@ -121,7 +122,7 @@ void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
     if (discrete->as == AS_SOLID)
         solid_spring_motion(&discrete->solid, i, v);
     else
-        v[2 * discrete->beam.mesh.spring_node[i]] = 1;
+        v[2 * (ptrdiff_t)discrete->beam.mesh.spring_node[i]] = 1;
 }
 
 int discrete_rigid_motions(const struct discrete *discrete, double *u)
@@ -160,6 +161,8 @@ static void take_rigid_part(int n, int count, const double *r, const double *mr,
         elastic[i] = shape[i] - a * r[i] - b * r[n + i];
 }
 
+#define ROUNDING 1e-2 /* of the first elastic eigenvalue: half of a per cent of its frequency */
+
 /* The elastic energy of a motion is that of what is left of it without the rigid motions, which are known exactly: those in K
  * lose it in the rounding of its entries, where elements are small beside the rotor. */
 static int count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
@@ -192,6 +195,11 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     *elastic_only = 1;
     discrete_assemble(discrete, x, &k, &m);
     *elastic_only = 0;
+    for (int j = 0; j < 2; j++) { /* a rigid motion bends nothing: what it has is the rounding of K */
+        const double *r = rigid + (ptrdiff_t)j * n;
+        if (fabs(matrix_product(&k, r, r, work)) > ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
+            return ROTID_ERROR_STIFFNESS;
+    }
     *nrigid = 0;
     for (int j = 0; j < free && j < wanted; j++) {
         take_rigid_part(n, free, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);

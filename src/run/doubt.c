@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-#define ALIKE 1.45 /* so much may wrong moduli move one mode against another */
+#define CONTRAST 1e12 /* of stiffnesses: rounding of the higher one is a thousandth of the lower one */
+#define ALIKE    1.45 /* so much may wrong moduli move one mode against another */
 
 static const struct {
     double ratio;
@@ -44,4 +45,36 @@ double doubt_units(const struct job *job, const struct spectrum *spectrum, doubl
             return mistake[i].ratio;
         }
     return 0;
+}
+
+/* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other */
+void doubt_sections(const struct job *job, int status, struct message_list *notes)
+{
+    const struct rotor *rotor = &job->rotor;
+    double least = INFINITY, most = 0;
+    int soft = 0, hard = 0;
+    if (notes->errors || (status != ROTID_ERROR_EIGEN && status != ROTID_ERROR_STIFFNESS && status != ROTID_ERROR_MASS &&
+                          status != ROTID_ERROR_SLAVE))
+        return;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        const struct segment *segment = &rotor->segment[s];
+        struct section section;
+        if (section_of_segment(rotor, s, &section))
+            continue;
+        double ei = rotor->group[segment->group].material.e * section.stiff_inertia, length = segment->length;
+        double element = length / (segment->elements > 0 ? segment->elements : 1);
+        double of_section = ei / (length * length * length), of_element = ei / (element * element * element);
+        soft = of_section < least ? segment->group : soft;
+        hard = of_element > most ? segment->group : hard;
+        least = fmin(least, of_section);
+        most = fmax(most, of_element);
+    }
+    struct job_place place = job_part_place(job, soft);
+    if (most > CONTRAST * least)
+        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column,
+                    "%s: a section of %s has EI/L^3 = %.2g N/m beside %.2g N/m of an element of %s, expected at most %.0e times "
+                    "as much: lengths and diameters nearer to each other, or fewer elements",
+                    rotid_status_text(status), rotor->group[soft].name, least, most, rotor->group[hard].name, CONTRAST);
+    else
+        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s", rotid_status_text(status));
 }

@@ -265,6 +265,10 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
  */
 double doubt_units(const struct job *job, const struct spectrum *spectrum, double refused, struct message_list *notes);
 
+/* Where the eigenvalue problem of the job failed (ROTID_ERROR_EIGEN, _STIFFNESS, _MASS, _SLAVE) and no error says why: an error
+ * with the place of the softest section, and the stiffest element where the two are far apart. Nothing for other statuses. */
+void doubt_sections(const struct job *job, int status, struct message_list *notes);
+
 /* --------------------------------------------------------------------------------------------------------- frf agreement */
 
 /* How far synthesised transfer functions are from measured ones. */

@@ -12,6 +12,7 @@
 #define APART        0.02  /* of a frequency: two meshes that differ by more lead nowhere */
 #define ALIKE        0.8   /* MAC of a mode on two meshes, weighted by the mass: of those of a crossing each has 0.5 */
 #define MOST_FINE    50000 /* unknowns of a mesh that may be refined once more */
+#define MOST_ENTRIES 2e7   /* of its K, which has eight times as many then */
 #define MOST_MASTERS 1000  /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
 /* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
@@ -242,6 +243,11 @@ static int lead(double hz, const struct solution *other, int partner, double sha
     return 1;
 }
 
+static int can_be_refined(const struct solution *solution)
+{
+    return solution->size <= MOST_FINE && (double)solution->size * (solution->model->equations.kd + 1) <= MOST_ENTRIES;
+}
+
 /* Leads the modes whose meshes are apart by finer and finer ones, until two of these agree or the unknowns are too many. */
 static int refine_apart(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                         const struct parameter *parameter, const double *x, struct manner manner, const struct mesh_limit *limit,
@@ -253,7 +259,7 @@ static int refine_apart(struct pool *pool, struct models *models, const struct r
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->count; j++)
         at[j] = j;
-    for (int refine = limit->finer; apart && !status && before.size <= MOST_FINE; refine *= limit->finer) {
+    for (int refine = limit->finer; apart && !status && can_be_refined(&before); refine *= limit->finer) {
         struct solution finer = {0};
         int count = s->count;
         status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, &before, &count, &finer);

@@ -4,7 +4,9 @@
 
 #define AT_LINE  0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
 #define UNKNOWNS 9     /* of three nodes that an element has of its own */
-#define QUARTER  0.25  /* of its length from the corner: r^(1/2), the strains of a crack */
+#define BAND                                                                                                                     \
+    15 /* of five nodes: the band for each element of a slice, whose outer lines have two nodes each, the half-way line one */
+#define QUARTER 0.25 /* of its length from the corner: r^(1/2), the strains of a crack */
 
 struct grid {              /* nodes by line 0 ... 2 nslice and place 0 ... 2 nr, even ones at the ends of elements */
     int nr, places, *node; /* nr: elements from the axis to the surface */
@@ -19,12 +21,17 @@ static int *at(const struct grid *grid, int line, int place)
 /* line and place of the eight nodes from those of the first */
 static const int along[SOLID_NODES] = {0, 0, 2, 2, 0, 1, 2, 1}, outwards[SOLID_NODES] = {0, 2, 2, 0, 1, 2, 1, 0};
 
-static int count_elements(const struct rotor *rotor, const struct solid_mesh *mesh, const struct grid *grid)
+/* *widest: the largest number of elements of a slice */
+static int count_elements(const struct rotor *rotor, const struct solid_mesh *mesh, const struct grid *grid, int *widest)
 {
     int count = 0;
-    for (int i = 0; i < mesh->nslice; i++)
+    *widest = 0;
+    for (int i = 0; i < mesh->nslice; i++) {
+        int before = count;
         for (int j = 0; j < grid->nr; j++)
             count += outline_group(rotor, mesh->segment[i], (grid->r[j] + grid->r[j + 1]) / 2) >= 0;
+        *widest = count - before > *widest ? count - before : *widest;
+    }
     return count;
 }
 
@@ -60,7 +67,8 @@ static void place_nodes(const struct rotor *rotor, const struct solid_rule *rule
 static int lay_elements(struct pool *pool, const struct rotor *rotor, const struct grid *grid, struct solid_mesh *mesh,
                         int *failed)
 {
-    mesh->nelement = count_elements(rotor, mesh, grid);
+    int widest;
+    mesh->nelement = count_elements(rotor, mesh, grid, &widest);
     mesh->element = POOL_ARRAY(pool, struct solid_element, mesh->nelement);
     mesh->first = POOL_ARRAY(pool, int, mesh->nslice + 1);
     if (!mesh->element || !mesh->first)
@@ -145,7 +153,8 @@ static int is_tied(const struct rotor *rotor, const struct solid_mesh *mesh, int
  * it; numbered before the nodes right of a tie and behind them left of one, they stay within the band. */
 static int nodes_before_member(const struct rotor *rotor, const struct solid_mesh *mesh, int i, int line, int from, int to)
 {
-    int nodes = mesh->line[2 * line + 1] - mesh->line[2 * line];
+    const int *of = mesh->line + 2 * (ptrdiff_t)line;
+    int nodes = of[1] - of[0];
     if (i < rotor->ntierod)
         return (int)((double)nodes * (line - from) / (to - from));
     return line < solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center) ? nodes : 0;
@@ -172,7 +181,8 @@ static void widen(struct solid_mesh *mesh, int low, int high)
 /* first and last degree of freedom of the nodes of a line */
 static void line_dofs(const struct solid_mesh *mesh, int line, int *low, int *high)
 {
-    const struct solid_node *first = &mesh->node[mesh->line[2 * line]], *last = &mesh->node[mesh->line[2 * line + 1] - 1];
+    const int *of = mesh->line + 2 * (ptrdiff_t)line;
+    const struct solid_node *first = &mesh->node[of[0]], *last = &mesh->node[of[1] - 1];
     *low = first->dof[0];
     *high = last->dof[2] < 0 ? last->dof[0] : last->dof[2];
 }
@@ -247,7 +257,7 @@ static int place_sensors(struct pool *pool, const struct rotor *rotor, struct so
         int line = solid_mesh_line(mesh, z), slice = solid_mesh_slice(mesh, z);
         struct solid_element *element = &mesh->element[solid_mesh_outermost(mesh, slice)];
         if (element->sensor >= 0 || fabs(mesh->z[line] - z) <= AT_LINE * (mesh->z[slice + 1] - mesh->z[slice])) {
-            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * line]].dof[0];
+            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * (ptrdiff_t)line]].dof[0];
             continue;
         }
         const double edge[3] = {mesh->node[element->node[1]].z, mesh->node[element->node[5]].z, mesh->node[element->node[2]].z};
@@ -259,11 +269,35 @@ static int place_sensors(struct pool *pool, const struct rotor *rotor, struct so
     return ROTID_OK;
 }
 
+/* The lines of the mesh, of which slices, z and segment are set */
+static int lay_lines(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
+                     struct solid_mesh *mesh, struct grid *grid)
+{
+    int nz, nr, status = outline_lines(pool, rotor, rule, refine, &nr, &grid->r, &nz, &mesh->z, &mesh->segment);
+    if (status)
+        return status;
+    mesh->nslice = nz - 1;
+    grid->nr = nr - 1;
+    grid->places = 2 * nr - 1;
+    return ROTID_OK;
+}
+
+/* ROTID_ERROR_SECTION where the mesh that is not refined costs more than SOLID_MOST_UNKNOWNS and SOLID_MOST_ENTRIES */
+static int check_size(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule)
+{
+    struct solid_mesh mesh = {0};
+    struct grid grid;
+    int widest, status = lay_lines(pool, rotor, rule, 1, &mesh, &grid);
+    if (status)
+        return status;
+    double unknowns = UNKNOWNS * (double)count_elements(rotor, &mesh, &grid, &widest);
+    return unknowns > SOLID_MOST_UNKNOWNS || unknowns * BAND * widest > SOLID_MOST_ENTRIES ? ROTID_ERROR_SECTION : ROTID_OK;
+}
+
 int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
                      struct solid_mesh *mesh, int *failed)
 {
     struct grid grid;
-    int nz, nr;
     *mesh = (struct solid_mesh){0};
     for (int s = 0; s < rotor->nsegment; s++) {
         *failed = rotor->segment[s].group;
@@ -273,15 +307,12 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
     *failed = rotor->ngroup + rotor->ntierod + rotor->nbars;
     if (outline_slenderness(rotor) > SOLID_MOST_SLENDER)
         return ROTID_ERROR_SECTION;
-    int status = outline_lines(pool, rotor, rule, refine, &nr, &grid.r, &nz, &mesh->z, &mesh->segment);
+    int status = refine > 1 ? ROTID_OK : check_size(pool, rotor, rule); /* the coarse mesh is the way to that one */
+    if (!status)
+        status = lay_lines(pool, rotor, rule, refine, mesh, &grid);
     if (status)
         return status;
-    mesh->nslice = nz - 1;
-    grid.nr = nr - 1;
-    if (refine == 1 && UNKNOWNS * (double)count_elements(rotor, mesh, &grid) > SOLID_MOST_UNKNOWNS)
-        return ROTID_ERROR_SECTION;
-    grid.places = 2 * nr - 1;
-    grid.node = POOL_ARRAY(pool, int, (size_t)(2 * nz - 1) * (size_t)grid.places);
+    grid.node = POOL_ARRAY(pool, int, (size_t)(2 * mesh->nslice + 1) * (size_t)grid.places);
     status = grid.node ? lay_elements(pool, rotor, &grid, mesh, failed) : ROTID_ERROR_MEMORY;
     if (!status)
         status = number_nodes(pool, rotor, rule, &grid, mesh);

@@ -527,7 +527,9 @@ const char *solid_refusal(const struct rotor *rotor, int failed)
         return "the rotor is more than 1000 times as long as its largest diameter, which a solid loses in rounding, expected a "
                "thicker one, or *FIT, MODEL=BEAM";
     if (bars >= rotor->nbars)
-        return "a solid of this rotor has too many unknowns, expected fewer steps of the diameter, or *FIT, MODEL=BEAM";
+        return "a solid of this rotor has too many unknowns, expected fewer steps of the diameter, sections that are less wide "
+               "and "
+               "thin, or *FIT, MODEL=BEAM";
     if (bars >= 0 || (rod >= 0 && rotor->tierod[rod].model == BUNDLE_TUBE))
         return "an equivalent tube has no counterpart in a solid, whose sections need not stay plane, expected MODEL=RODS, or "
                "*FIT, "

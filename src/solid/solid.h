@@ -110,12 +110,13 @@ struct solid_mesh {
 
 #define SOLID_MOST_SLENDER                                                                                                       \
     (1000 * (1 + 1e-9))            /* length over largest diameter: rounding of K leaves 1e-4 of the first frequency */
-#define SOLID_MOST_UNKNOWNS 200000 /* of the mesh that is not refined: some gigabytes of K and M */
+#define SOLID_MOST_UNKNOWNS 200000 /* of the mesh that is not refined */
+#define SOLID_MOST_ENTRIES  1e8    /* of its K, unknowns times band: 0.8 GB, 20 s of a disc 2000 times as wide as thick */
 
 /* ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group in *failed where holes leave nothing, a group is
  * rectangular or its first section does not touch the one before; groups, tie rods and bars together where the mesh has too many
- * unknowns or the rotor is too slender. refine >= 1 divides the size of the elements at corners, and by its root the largest; 0:
- * the coarse mesh, with corners six times as large and across the largest twice. */
+ * unknowns or entries or the rotor is too slender. refine >= 1 divides the size of the elements at corners, and by its root the
+ * largest; 0: the coarse mesh, with corners six times as large and across the largest twice. */
 int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
                      struct solid_mesh *mesh, int *failed);
 

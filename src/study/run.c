@@ -505,6 +505,14 @@ static int own_states(struct pool *pool, const struct plan *plan, const struct s
     return status;
 }
 
+static void repeat(const struct message_list *from, struct message_list *to)
+{
+    for (size_t i = 0; i < from->count; i++) {
+        const rotid_message *m = &from->item[i];
+        message_add(to, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
+    }
+}
+
 static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                       struct experiment *out)
 {
@@ -512,8 +520,7 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
     struct truth *truth;
     int status = jobs_truth(jobs, &point->cell, &truth);
     if (status) {
-        for (size_t i = 0; i < jobs->truth_messages.count; i++)
-            message_add(messages, jobs->truth_messages.item[i].severity, NULL, 0, 0, "%s", jobs->truth_messages.item[i].text);
+        repeat(&jobs->truth_messages, messages);
         return status;
     }
     out->made_by = truth;
@@ -569,8 +576,7 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
     *out = (struct experiment){0};
     int status = jobs_fitted(jobs, &point->cell, &fitted);
     if (status) {
-        for (size_t i = 0; i < jobs->fitted_messages.count; i++)
-            message_add(messages, jobs->fitted_messages.item[i].severity, NULL, 0, 0, "%s", jobs->fitted_messages.item[i].text);
+        repeat(&jobs->fitted_messages, messages);
         return status;
     }
     status = own_states(pool, study->plan, fitted, &out->states);
@@ -604,9 +610,11 @@ static const char *reason(struct pool *pool, int status, const struct message_li
 {
     const char *text = NULL;
     for (size_t i = 0; i < notes->count; i++) {
-        if (notes->item[i].severity != SEVERITY_ERROR)
+        const rotid_message *m = &notes->item[i];
+        if (m->severity != SEVERITY_ERROR)
             continue;
-        const char *longer = text ? pool_format(pool, "%s; %s", text, notes->item[i].text) : notes->item[i].text;
+        const char *placed = m->file ? pool_format(pool, "%s:%d:%d: %s", m->file, m->line, m->column, m->text) : m->text;
+        const char *longer = text && placed ? pool_format(pool, "%s; %s", text, placed) : placed;
         text = longer ? longer : text;
     }
     return text ? text : rotid_status_text(status);

@@ -131,7 +131,8 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
             status = columns_parameter(c, own, column);
         for (int i = 0; i < c->nrow && own >= 0; i++)
             column[i] *= b->x[own];
-        d->prior[q + (ptrdiff_t)q * used] *= 1 + 1e-9; /* a direction that the data leave open */
+        double *own_prior = &d->prior[q + (ptrdiff_t)q * used];
+        *own_prior = *own_prior > 0 ? *own_prior * (1 + 1e-9) : 1; /* a direction that the data leave open; a parameter, 100 % */
         q++;
     }
     memcpy(d->column + (ptrdiff_t)used * c->nrow, c->r, (size_t)c->nrow * sizeof *c->r);
