@@ -9,9 +9,9 @@
 #define BENCH_EFFECTS 3
 
 extern const struct cause_kind cause_step_stiffness, cause_stiffness_gradient, cause_stiffness_profile, cause_stiffness_local,
-    cause_joint, cause_support, cause_added_mass, cause_density, cause_diameter, cause_stiffness, cause_tie_stiffness, cause_tie_tension,
-    cause_tie_shear, cause_shear_coefficient, cause_accelerometer_mass, cause_support_position, cause_support_extra,
-    cause_support_rotation, cause_clamp, cause_hub_stiffness, cause_added_inertia, cause_layer_slip;
+    cause_joint, cause_support, cause_added_mass, cause_density, cause_diameter, cause_stiffness, cause_tie_stiffness,
+    cause_tie_tension, cause_tie_shear, cause_shear_coefficient, cause_accelerometer_mass, cause_support_position,
+    cause_support_extra, cause_support_rotation, cause_clamp, cause_hub_stiffness, cause_added_inertia, cause_layer_slip;
 
 /* A lump with an inertia as well: mass, z, inertia. */
 extern const struct effect_kind bench_lump;

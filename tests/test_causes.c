@@ -298,7 +298,7 @@ static void bounds_of_supports_follow_the_rotor(void **state)
 {
     (void)state;
     struct rotor rotor = stepped(0.2, 0);
-    struct spring spring[2] = {{"end", 0, 1e9, 1e6}, {"middle", 0.5, 1e9, 0}};
+    struct spring spring[2] = {{"end", 0, 1e9, 1e6, 0, 0}, {"middle", 0.5, 1e9, 0, 0, 0}};
     struct effect effect = {.target = 0};
     double lower, upper, ei = 2.1e11 * pi / 64 * pow(0.12, 4);
     const int identified[2] = {0, 0};

@@ -53,6 +53,7 @@ static void every_physical_cause_becomes_an_effect_of_its_kind(void **state)
         {"lump", "added_mass", -1, 0, {0.25, 0.7}},
         {"tape", "added_mass", -1, 1, {0.1, 0.6, 0.05}},
         {"blades", "added_inertia", 0, 0, {-5e-5}},
+        {"turned", "diameter", 0, 0, {1.01}},
         {"heavy", "density", 0, 0, {1.02}},
         {"stiff", "stiffness", 2, 0, {0.9}},
         {"fitted", "layer_slip", 3, 0, {0.03}},

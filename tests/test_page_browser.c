@@ -28,8 +28,8 @@ static const struct {
      {"frequencies", "frequencies-2", "intervals", "convergence"}},
     {"diagnose",
      "diagnose " INPUT "brake_reuss_lap.inp --replicates 100 --json",
-     {"motion", "frequencies", "mac", "nco", "gain", "causes-1", "causes-2", "places", "residuals", "limits"}},
-    {"suggest", "suggest " INPUT "paper_rotor.inp --json", {"rotor", "tests", "plan", "sensor-worth", "counts"}},
+     {"motion", "frequencies", "mac", "nco", "gain", "causes-1", "places", "residuals", "limits"}},
+    {"suggest", "suggest " INPUT "foam_bar.inp --json", {"rotor", "tests", "plan", "sensor-worth", "counts"}},
     {"ema", "ema " ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff --json", {"shapes", "mac", "stabilisation", "functions"}},
     {"study", "study " INPUT "paper_study.plan -o", {"starts", "functional-by-modes", "parameters-by-modes", "decks"}},
 };

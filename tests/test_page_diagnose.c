@@ -117,8 +117,8 @@ static void what_cannot_be_told_apart_has_shares(void **state)
     int listed = 0;
     cJSON_ArrayForEach(e, get(verdict, "explanations"))
     {
-        char share[32];
-        (void)snprintf(share, sizeof share, "<td class=\"n\">%.1f</td>", 100 * number_of(e, "probability"));
+        char share[64];
+        (void)snprintf(share, sizeof share, "<th scope=\"row\" class=\"n\">%.1f</th>", 100 * number_of(e, "probability"));
         page_says(html, "%s", share);
         listed++;
     }

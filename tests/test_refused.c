@@ -372,6 +372,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_deck_check(good, environment, failure, &check), text);
     assert_refused(rotid_spectrum_compute(good, NULL, 2, environment, failure, &spectrum), text);
     assert_refused(rotid_spectrum_beside(good, NULL, 2, environment, failure, &spectrum), text);
+    assert_refused(rotid_spectrum_of_type(good, ROTID_TORSION, NULL, 2, environment, failure, &spectrum), text);
     assert_refused(rotid_identify(good, 0, environment, failure, &identification), text);
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
     assert_refused(rotid_suggest(good, NULL, environment, failure, &suggestion), text);
@@ -388,7 +389,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 16;
+    return 17;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)

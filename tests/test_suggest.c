@@ -525,7 +525,7 @@ static void states_that_share_out_the_modes_say_the_same(void **state)
             const struct rival *rival = &one.rivals.rival[b];
             if (other < 0 || b == a || (rival->ncause && rival->cause->cause->place >= 0)) /* in a flat valley of places */
                 continue;
-            assert_close(second[other], first[b], 0.02, 0.02);
+            assert_close(second[other], first[b], 0.04, 0.02); /* fits end where a step gains less than REFIT_OBJECTIVE */
             compared++;
         }
     }

@@ -38,7 +38,7 @@ static rotid_identification *make_result(struct call *call, const struct states 
 {
     struct pool *pool = &call->entry.scratch;
     const struct job *job = &states->state[0].job;
-    rotid_identification *made = result_identification(pool, job, states->bounds, found);
+    rotid_identification *made = result_identification(pool, job, states->more ? states->bounds : job->unknowns.bounds, found);
     if (!made)
         return NULL;
     made->noise = result_noise(pool, job, found->fit);
@@ -66,13 +66,19 @@ static int identify(struct call *call, const struct states *given, const struct 
     struct pool *pool = &call->entry.scratch;
     struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
     rotid_fit_result *fit = NULL;
-    int one = states->nstate == 1,
-        status =
-            found ? identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit) : ROTID_ERROR_MEMORY;
+    int one = states->nstate == 1, status = ROTID_ERROR_MEMORY;
+    if (found && one && !states->more) {
+        status = identify_run(pool, &states->state[0].job, baseline, &call->environment, &call->notes, found);
+        fit = found->fit;
+    } else if (found) {
+        status = identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit);
+    }
     if (status)
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
+    if (one) /* a state with a name sees but its share of the fit */
+        found->fit = fit;
     rotid_identification *made = one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);
     status = compare_runup(call, given, fit, made);
     if (!status && baseline && !states->more) /* the scan behind it knows modes alone */

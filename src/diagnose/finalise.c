@@ -266,7 +266,7 @@ static const char *shares(struct pool *pool, const struct posterior *p)
             const char *own = describe(pool, &e->member[m]);
             one = own ? pool_format(pool, "%s%s%s", one, m ? " with " : "", own) : NULL;
         }
-        text = one ? pool_format(pool, "%s%s%s%s (%.3g %%)", text,
+        text = one ? pool_format(pool, e->probability > 0.1 ? "%s%s%s%s (%.0f %%)" : "%s%s%s%s (%.2g %%)", text,
                                  !i               ? ""
                                  : i + 1 == count ? " and "
                                                   : ", ",

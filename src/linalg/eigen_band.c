@@ -15,7 +15,7 @@
 /* Residual that rounding leaves at most. */
 static double eigen_rounding(const struct eigen_band *e)
 {
-    return fmin(1e-2, 16 * DBL_EPSILON * e->largest / -e->shift);
+    return fmin(1e-3, 16 * DBL_EPSILON * e->largest / -e->shift);
 }
 
 /* image := (K - s M)^-1 M ritz and mass_basis := M ritz for the first `columns` pairs; residual [watched] :=

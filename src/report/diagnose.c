@@ -91,7 +91,8 @@ const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const ro
 {
     if (is_among(c, d->verdict.ncauses, d->verdict.causes))
         return "named";
-    return c->probability > 0 ? or_nothing(pool_format(pool, "possible (%.3g %%)", 100 * c->probability))
+    return c->probability > 0 ? or_nothing(pool_format(pool, c->probability > 0.1 ? "possible (%.0f %%)" : "possible (%.2g %%)",
+                                                       100 * c->probability))
            : c->refitted      ? "unlikely"
                               : "not fitted";
 }

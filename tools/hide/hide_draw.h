@@ -9,8 +9,8 @@
 #include "hide_random.h"
 
 /* random: "none"; an id of the table, or the name of a kind outside; "physical", "data", "outside": one of that class; "pair":
- * two physical ones, of one id only where each has a place; "any": none, physical, data, outside or pair. Only what applies to the
- * rotor is drawn, and with no_shapes nothing that takes shapes. Adds *count texts of HIDE_SPEC characters at most. */
+ * two physical ones, of one id only where each has a place; "any": none, physical, data, outside or pair. Only what applies to
+ * the rotor is drawn, and with no_shapes nothing that takes shapes. Adds *count texts of HIDE_SPEC characters at most. */
 int hide_draw(const struct hide_rotor *rotor, int modes, int no_shapes, const char *random, struct hide_random *stream,
               char spec[2][HIDE_SPEC], int *count, const struct hide_message *message);
 

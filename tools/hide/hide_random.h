@@ -11,7 +11,14 @@ struct hide_random {
 };
 
 /* Each purpose has a stream of its own, so that one more effect leaves the noise of the same seed as it was. */
-enum hide_purpose { HIDE_FOR_PARAMETERS = 1, HIDE_FOR_EFFECTS, HIDE_FOR_FREQUENCIES, HIDE_FOR_SHAPES, HIDE_FOR_ROTOR, HIDE_FOR_CASE };
+enum hide_purpose {
+    HIDE_FOR_PARAMETERS = 1,
+    HIDE_FOR_EFFECTS,
+    HIDE_FOR_FREQUENCIES,
+    HIDE_FOR_SHAPES,
+    HIDE_FOR_ROTOR,
+    HIDE_FOR_CASE
+};
 
 void hide_random_open(uint64_t seed, enum hide_purpose purpose, struct hide_random *random);
 double hide_uniform(struct hide_random *random); /* in [0, 1) */

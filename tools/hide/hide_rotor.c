@@ -90,6 +90,7 @@ static int read_elastic(struct reader *r)
     m->e = value[0];
     m->g = shear ? value[1] : 0;
     m->sheet_e = laminated ? value[2] : 0;
+    m->stacking = laminated && value[4] > 0 ? value[4] : 1;
     m->nu = laminated ? value[3] : shear ? value[2] : value[1];
     m->isotropic = !shear;
     if (!status && !(m->e > 0 && (!shear || m->g > 0) && (!laminated || m->sheet_e > 0) && m->nu > -1 && m->nu <= 0.5))

@@ -16,8 +16,9 @@
 struct hide_material {
     char name[HIDE_NAME];
     double e, g, nu, rho;
-    int isotropic; /* G = E/2(1+nu), whatever g holds */
+    int isotropic;  /* G = E/2(1+nu), whatever g holds */
     double sheet_e; /* of a stack of sheets, nu being that of a sheet; 0: no stack */
+    double stacking;
 };
 
 struct hide_group {

@@ -108,6 +108,8 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
 
 struct wall { /* of a layered section, between two radii, with the effects on its group and thinned by holes */
     double in, out, e, g, contraction; /* contraction: of the plane by axial strain */
+    double stretch, cross,
+        free; /* in the plane, sigma = stretch eps + cross eps across; strain without stress by that of the axis */
 };
 
 /* A part of the section with the effects on its group: parts turn and deflect alike, so EI and mass are sums. */
@@ -138,7 +140,18 @@ static void add_part(const struct hide_physics *physics, int group, const struct
     section->mass += part.mass;
     section->inertia += part.inertia;
     double k = m->sheet_e > 0 ? of_sheets(m, s->inner / stiff) : oracle_cowper(m->nu, s->inner / stiff);
-    *wall = (struct wall){s->inner / 2, stiff / 2, part.bending / whole.second, part.shear / (k * whole.area), 0};
+    double axial = m->e, solid = 0; /* E with the effects; what holes leave of the plane */
+    for (int i = 0; i < physics->effects; i++)
+        axial *= factors(physics->rotor, &physics->effect[i], group, z).bending;
+    struct hide_section bare;
+    section_of(&physics->rotor->group[group], s, stiff, &bare);
+    solid = bare.shear / (k * g * whole.area);
+    *wall = (struct wall){s->inner / 2, stiff / 2, part.bending / whole.second, part.shear / (k * whole.area), 0, 0, 0, 0};
+    wall->free = m->sheet_e > 0 ? m->nu * axial / m->sheet_e : m->nu;
+    double plane = m->sheet_e > 0 ? m->stacking * m->sheet_e : axial, a = 1 / plane - wall->free * wall->free / axial,
+           b = -m->nu / plane - wall->free * wall->free / axial;
+    wall->stretch = solid * a / (a * a - b * b);
+    wall->cross = -solid * b / (a * a - b * b);
     /* x = contraction G/E of the material itself: of what states E, G and nu that of the isotropic material of this nu */
     double x = m->sheet_e > 0 ? m->nu * g / m->sheet_e : m->nu / (2 * (1 + m->nu));
     wall->contraction = wall->g > 0 ? x * wall->e / wall->g : 0;
@@ -208,6 +221,55 @@ static void thicken(const struct hide_rotor *rotor, const struct hide_segment *s
     }
 }
 
+/* Adds w (coefficient' u)^2 to the matrix and load, u the four values of an element from unknown `first` on: the strain is
+ * coefficient' u + own, beside which `other` is the second factor of a product (NULL: itself). */
+static void add_strain(double matrix[][4], double *load, int first, double weight, const double *one, double own,
+                       const double *two, double other)
+{
+    for (int i = 0; i < 4; i++) {
+        load[first + i] -= weight * (one[i] * other + two[i] * own) / 2;
+        for (int j = 0; j <= i; j++)
+            matrix[first + i][i - j] += weight * (one[i] * two[j] + one[j] * two[i]) / 2;
+    }
+}
+
+/* What bonded walls of different contraction add to EI: in bending by the curvature 1 the plane would contract by `free` r alone
+ * in each wall; twice the least energy of the displacements U cos t and V sin t by `each` linear elements a wall. */
+static double restraint(int walls, const struct wall *wall, int each)
+{
+    static double matrix[2 * ((1 + HIDE_MOST_RINGS) * MOST_ELEMENTS + 1)][4], load[sizeof matrix / sizeof *matrix];
+    double energy = 0;
+    int n = walls * each, unknowns = 2 * (n + 1);
+    for (int i = 0; i < unknowns; i++)
+        load[i] = matrix[i][0] = matrix[i][1] = matrix[i][2] = matrix[i][3] = 0;
+    for (int i = 0; i < n; i++) {
+        const struct wall *w = &wall[i / each];
+        double h = (w->out - w->in) / each, from = w->in + h * (i % each);
+        for (int side = -1; side <= 1; side += 2) {
+            double t = 0.5 + side / sqrt(12), r = from + h * t, wide = pi * r * h / 2, own = w->free * r;
+            const double radial[4] = {-1 / h, 0, 1 / h, 0}, around[4] = {(1 - t) / r, (1 - t) / r, t / r, t / r},
+                         shear[4] = {-(1 - t) / r, -1 / h - (1 - t) / r, -t / r, 1 / h - t / r};
+            add_strain(matrix, load, 2 * i, w->stretch * wide, radial, own, radial, own);
+            add_strain(matrix, load, 2 * i, w->stretch * wide, around, own, around, own);
+            add_strain(matrix, load, 2 * i, 2 * w->cross * wide, radial, own, around, own);
+            add_strain(matrix, load, 2 * i, (w->stretch - w->cross) / 2 * wide, shear, 0, shear, 0);
+            energy += 2 * (w->stretch + w->cross) * own * own * wide;
+        }
+    }
+    matrix[0][0] *= 1e12; /* no translation, and none of the axis */
+    matrix[1][0] *= wall[0].in > 0 ? 1 : 1e12;
+    for (int i = 0; i < unknowns; i++) /* L D L', band of three beside the diagonal */
+        for (int j = i + 1; j < unknowns && j <= i + 3; j++) {
+            double ratio = matrix[j][j - i] / matrix[i][0];
+            for (int k = j; k < unknowns && k <= i + 3; k++)
+                matrix[k][k - j] -= ratio * matrix[k][k - i];
+            load[j] -= ratio * load[i];
+        }
+    for (int i = 0; i < unknowns; i++) /* least energy: less load' K^-1 load */
+        energy -= load[i] * load[i] / matrix[i][0];
+    return energy;
+}
+
 /* A mass spread over a width; its turning is that of its parts moving, as of a sleeve without thickness. */
 static double spread(const struct hide_effect *e, double z)
 {
@@ -232,8 +294,11 @@ void hide_section_at(const struct hide_physics *physics, int segment, double z, 
         struct hide_segment ring = {.outer = s->ring[i].outer, .inner = s->ring[i].inner};
         add_part(physics, s->ring[i].group, &ring, ring.outer, z, section, &wall[1 + i]);
     }
-    if (s->rings)
+    if (s->rings) {
         section->shear = layered_shear(1 + s->rings, wall);
+        double coarse = restraint(1 + s->rings, wall, MOST_ELEMENTS / 4), fine = restraint(1 + s->rings, wall, MOST_ELEMENTS / 2);
+        section->bending += fine + (fine - coarse) / 3;
+    }
     for (int i = 0; i < physics->effects; i++) {
         const struct hide_effect *e = &physics->effect[i];
         if (hide_is(e, "hub_stiffness"))
