@@ -30,4 +30,5 @@ program critical
   end do
   call rotid_free(found)
   call rotid_free(deck)
+  deallocate (failure) ! gfortran keeps what the main program has
 end program critical
