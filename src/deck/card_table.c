@@ -138,7 +138,8 @@ static const struct deck_row spring[] = {
     {FROM_0(struct spring, axial, "axial stiffness [N/m]"), OPTIONAL},
     LAST};
 
-static const struct deck_row modes[] = {OTHER("TYPE", .words = mode_type_words), OTHER("FILE", .what = ""), LAST};
+const char *const deck_counts[] = {"ELASTIC", "ALL", NULL};
+static const struct deck_row modes[] = {OTHER("TYPE", .words = mode_type_words), OTHER("COUNT", .words = deck_counts, .standard = -1), OTHER("FILE", .what = ""), LAST};
 static const struct deck_row mode[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), LAST},
     frequencies[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
 static const struct deck_row measured[] = {
@@ -148,6 +149,7 @@ static const struct deck_row measured[] = {
     OTHER("ORIGIN", .what = "[m]"),
     OTHER("FLIP", .words = deck_answers),
     OTHER("SCALE", .what = "(1)"),
+    OTHER("COUNT", .words = deck_counts, .standard = -1),
     OTHER("HAMMER", .what = ""),
     LAST};
 static const struct deck_row state[] = {OTHER("NAME", .what = ""), OTHER("MODES", .what = ""), OTHER("HOLDOUT", .what = ""), LAST};

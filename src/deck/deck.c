@@ -278,6 +278,30 @@ static void note_assumptions(struct deck_reader *reader)
             rotor->group[holes].name);
 }
 
+/* Whether modes on the supports were counted, from COUNT or from the data. */
+static void count_modes(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    const struct numbering *n = &job->measurement.numbering;
+    const struct card *card = reader->modes_card ? reader->modes_card : reader->measured_card;
+    const struct card_option *option = card ? card_option(card, "COUNT") : NULL;
+    job->measurement.numbering.stated = option != NULL;
+    job->rotor.count_all = option && deck_option_word(reader, option, deck_counts) == 1;
+    reader->out_of_memory |= numbering_choose(reader->pool, job) != ROTID_OK;
+    if (n->stated || !n->nsupport || reader->out_of_memory)
+        return;
+    if (job->rotor.count_all)
+        deck_note(reader, card->place,
+                  "modes are counted from the lowest vibration on the supports (COUNT=ALL): so they lie %.2g %% from the model as "
+                  "it stands, counted from the first bending mode (COUNT=ELASTIC) %.2g %%",
+                  100 * n->all, 100 * n->elastic);
+    else if (!(n->elastic < NUMBERING_CLEAR * n->all))
+        deck_note(reader, card->place,
+                  "modes are counted from the first bending mode (COUNT=ELASTIC, %.2g %% from the model as it stands), but counted "
+                  "from the lowest vibration on the supports (COUNT=ALL) they lie %.2g %% from it: state COUNT=ELASTIC or ALL",
+                  100 * n->elastic, 100 * n->all);
+}
+
 static void check_elements(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
@@ -352,6 +376,8 @@ void deck_read_cards(struct deck_reader *reader)
     choose_mesh(reader);
     if (!reader->out_of_memory)
         check_model(reader);
+    if (!reader->messages->errors && !reader->out_of_memory)
+        count_modes(reader);
     deck_doubt_rotor(reader);
     note_assumptions(reader);
 }

@@ -263,6 +263,7 @@ int deck_option_number(struct deck_reader *reader, const struct card_option *opt
                        double *value);
 int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
 extern const char *const deck_answers[]; /* NO, YES */
+extern const char *const deck_counts[];  /* ELASTIC, ALL */
 
 /* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);

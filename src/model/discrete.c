@@ -161,20 +161,23 @@ static void take_rigid_part(int n, int count, const double *r, const double *mr,
         elastic[i] = shape[i] - a * r[i] - b * r[n + i];
 }
 
-#define ROUNDING 1e-2 /* of the first elastic eigenvalue: half of a per cent of its frequency */
+#define ROUNDING   1e-2 /* of the first elastic eigenvalue: half of a per cent of its frequency */
+#define NO_SUPPORT 1e-9 /* of the same, in the energy of a rigid motion: 3e-5 of its frequency is at rest */
 
 /* The elastic energy of a motion is that of what is left of it without the rigid motions, which are known exactly: those in K
  * lose it in the rounding of its entries, where elements are small beside the rotor. */
 static int count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes,
                        int *nrigid)
 {
-    rotid_matrix structure, k, m;
+    rotid_matrix structure, k, elastic_k, m;
     discrete_structure(discrete, &structure);
-    int n = structure.n, wanted = n < 4 ? n : 4;
+    int n = structure.n, wanted = n < 4 ? n : 4, all = discrete_rotor(discrete)->count_all;
     int *elastic_only = discrete->as == AS_SOLID ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
     struct eigen_full eigen;
     double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, 6 * (size_t)n);
     int status = phi && work ? new_matrix(pool, &structure, &k) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = new_matrix(pool, &structure, &elastic_k);
     if (!status)
         status = new_matrix(pool, &structure, &m);
     if (!status)
@@ -190,21 +193,25 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     double *rigid = work + n, *mass_rigid = work + 3 * (ptrdiff_t)n, *elastic = work + 5 * (ptrdiff_t)n;
     int free = discrete_rigid_motions(discrete, rigid); /* the mode behind as many is always elastic */
     matrix_multiply(&m, 2, rigid, mass_rigid);
-    matrix_zero(&k);
+    matrix_zero(&elastic_k);
     matrix_zero(&m);
     *elastic_only = 1;
-    discrete_assemble(discrete, x, &k, &m);
+    discrete_assemble(discrete, x, &elastic_k, &m);
     *elastic_only = 0;
     for (int j = 0; j < 2; j++) { /* a rigid motion bends nothing: what it has is the rounding of K */
         const double *r = rigid + (ptrdiff_t)j * n;
-        if (fabs(matrix_product(&k, r, r, work)) > ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
+        if (fabs(matrix_product(&elastic_k, r, r, work)) > ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
             return ROTID_ERROR_STIFFNESS;
     }
     *nrigid = 0;
     for (int j = 0; j < free && j < wanted; j++) {
         take_rigid_part(n, free, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
-        double energy = matrix_product(&k, elastic, elastic, work);
-        if (energy > 1e-6 * lambda[free < wanted ? free : wanted - 1] && energy > 0.5 * lambda[j])
+        double first = lambda[free < wanted ? free : wanted - 1], energy = matrix_product(&elastic_k, elastic, elastic, work);
+        if (energy > 1e-6 * first && energy > 0.5 * lambda[j])
+            break;
+        for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one */
+            elastic[i] = phi[i + (ptrdiff_t)j * n] - elastic[i];
+        if (all && matrix_product(&k, elastic, elastic, work) - matrix_product(&elastic_k, elastic, elastic, work) > NO_SUPPORT * first)
             break;
         (*nrigid)++;
     }

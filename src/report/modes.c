@@ -105,6 +105,10 @@ static void print_check(const struct screen *to, const rotid_check *check, const
     for (int i = 0; i < check->nrigid_hz; i++)
         (void)fprintf(out, "%s%.3f", i ? ", " : " (modes on the supports at ", check->rigid_hz[i]);
     (void)fprintf(out, "%s\n", check->nrigid_hz ? " Hz)" : "");
+    if (job->measurement.numbering.nsupport)
+        (void)fprintf(out, "modes counted   %12s, from the lowest %s%s\n", job->rotor.count_all ? "ALL" : "ELASTIC",
+                      job->rotor.count_all ? "vibration on the supports" : "mode that bends the rotor",
+                      job->measurement.numbering.stated ? "" : ", as the measured ones fit best");
     (void)fprintf(out, "fit             %12s, reduction %s, %d %s\n", check->functional, check->reduction, check->nparameters,
                   human_plural(check->nparameters, "parameter", "parameters"));
     screen_table(to, table_of_groups(to->pool, check->geometry));

@@ -145,7 +145,7 @@ int rotor_same_shape(const struct rotor *a, const struct rotor *b)
 
 int rotor_same_values(const struct rotor *a, const struct rotor *b)
 {
-    int same = 1;
+    int same = a->count_all == b->count_all;
     for (int i = 0; i < a->ngroup; i++)
         same &= same_material(&a->group[i].material, &b->group[i].material);
     for (int i = 0; i < a->ntierod; i++)

@@ -53,7 +53,7 @@ int job_of_type(struct pool *pool, const struct job *job, enum mode_type type, s
         return ROTID_OK;
     other->options.type = type;
     other->measurement = (struct job_measurement){0};
-    other->rotor.settled_rigid = 0;
+    other->rotor.settled_rigid = other->rotor.count_all = 0;
     other->models = models_as(pool, job_discretisation(other));
     return other->models ? ROTID_OK : ROTID_ERROR_MEMORY;
 }

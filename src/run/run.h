@@ -6,6 +6,7 @@
  * In: job or states. Out: plain structs (spectrum, comparison, identification, ...), which src/api makes the results of rotid.h.
  *
  *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
+ *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted
  *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
  *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
  *   mesh             held_mesh.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
@@ -75,6 +76,14 @@ struct frf_request {
     struct frf_pair *pair;
 };
 
+/* From which mode of the model the measured ones are counted, and how well that fits at the values of the deck. */
+struct numbering {
+    int nsupport; /* vibrations of the rotor on its supports, above 0 Hz, that ELASTIC does not count; 0: nothing to choose */
+    int stated;   /* by COUNT */
+    /* root mean square over the measured modes of ln(f~/f) and 1 - MAC with the partner by number; NaN where COUNT is stated */
+    double elastic, all;
+};
+
 /* What was measured, as it is judged: the corrections are applied already. */
 struct job_measurement {
     int nmode;
@@ -88,6 +97,7 @@ struct job_measurement {
     double stated_frequency_noise, stated_shape_noise; /* of the NOISE card for all modes, relative; 0: not stated */
     int has_noise_floor; /* the user allows for more than the scatter of the test: that is not taken for overstated noise */
     int *holdout;        /* [nmode] */
+    struct numbering numbering;
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
      * none. frequency_hz of a mode that has any is then their mean over all sensors: see point_mean. */
     double *point_frequency_hz, *point_frequency_std;
@@ -241,6 +251,13 @@ struct comparison {
 /* Highest mode number of the measured modes, and the modes of the model that a comparison looks through. */
 int comparison_highest(const struct job *job);
 int comparison_candidates(const struct job *job);
+
+#define NUMBERING_CLEAR 0.5 /* the better numbering has less than this share of the misfit of the other */
+
+/* Chooses job->rotor.count_all where the deck does not state it (numbering.stated), from its measured modes at the values of the
+ * rotor: ALL where that has less than NUMBERING_CLEAR of the misfit of ELASTIC, else ELASTIC. A rotor whose vibrations on its
+ * supports are none, or bend it, has one numbering. By beams, whatever the job says. ROTID_OK or ROTID_ERROR_MEMORY. */
+int numbering_choose(struct pool *pool, struct job *job);
 
 /* Pairs by the shapes where they can tell, else by number. Notes say which modes look like no mode of the model, which modes of
  * the model nobody measured, and which pairings the shapes changed. ROTID_OK, MEMORY or UNPAIRED (two modes claim one partner;
