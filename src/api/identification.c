@@ -77,6 +77,11 @@ static int identify(struct call *call, const struct states *given, const struct 
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
+    status = numbering_warn(pool, states, found, fit, &call->environment, &call->notes);
+    if (status && status != ROTID_STOP_CANCELLED) {
+        rotid_fit_free(fit);
+        return status;
+    }
     if (one) /* a state with a name sees but its share of the fit */
         found->fit = fit;
     rotid_identification *made = one ? make_result(call, states, found) : result_identification_states(pool, states, found, fit);

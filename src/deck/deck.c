@@ -291,15 +291,17 @@ static void count_modes(struct deck_reader *reader)
     if (n->stated || !n->nsupport || reader->out_of_memory)
         return;
     if (job->rotor.count_all)
-        deck_note(reader, card->place,
-                  "modes are counted from the lowest vibration on the supports (COUNT=ALL): so they lie %.2g %% from the model as "
-                  "it stands, counted from the first bending mode (COUNT=ELASTIC) %.2g %%",
-                  100 * n->all, 100 * n->elastic);
+        deck_note(
+            reader, card->place,
+            "modes are counted from the lowest vibration on the supports (COUNT=ALL): so they lie %.2g %% from the model as "
+            "it stands, counted from the first bending mode (COUNT=ELASTIC) %.2g %%",
+            100 * n->all, 100 * n->elastic);
     else if (!(n->elastic < NUMBERING_CLEAR * n->all))
-        deck_note(reader, card->place,
-                  "modes are counted from the first bending mode (COUNT=ELASTIC, %.2g %% from the model as it stands), but counted "
-                  "from the lowest vibration on the supports (COUNT=ALL) they lie %.2g %% from it: state COUNT=ELASTIC or ALL",
-                  100 * n->elastic, 100 * n->all);
+        deck_note(
+            reader, card->place,
+            "modes are counted from the first bending mode (COUNT=ELASTIC, %.2g %% from the model as it stands), but counted "
+            "from the lowest vibration on the supports (COUNT=ALL) they lie %.2g %% from it: state COUNT=ELASTIC or ALL",
+            100 * n->elastic, 100 * n->all);
 }
 
 static void check_elements(struct deck_reader *reader)

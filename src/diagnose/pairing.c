@@ -6,7 +6,6 @@
 #include "base/base.h"
 #include "fit/fit.h"
 
-#define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */
 #define EXPLAINED   0.01
 #define AS_WELL     2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
@@ -121,75 +120,35 @@ int pairing_adopt(struct engine *engine, const struct job_measurement *measured,
     return pairing_note(engine, measured->number);
 }
 
-/* Mode k of a numbering: all numbers `shift` higher from mode `from` on. 0 where that is none: numbers count from 1. */
-static int renumbered(const struct job_measurement *measured, int from, int shift, int k)
-{
-    int number = measured->number[k] + (k >= from ? shift : 0);
-    return number < 1 || (k == from && k > 0 && number <= measured->number[k - 1]) ? 0 : number;
-}
-
-/* The model without a cause beside the data with the numbering; *chi2 INFINITY where there is none. */
-static int fit_renumbered(struct engine *engine, int from, int shift, int *number, double *chi2)
-{
-    const struct job_measurement *measured = &engine->job->measurement;
-    struct job job;
-    rotid_fit_result *fit = NULL;
-    *chi2 = INFINITY;
-    for (int k = 0; k < measured->nmode; k++)
-        if (!(number[k] = renumbered(measured, from, shift, k)))
-            return ROTID_OK;
-    int status = job_started_at(engine->pool, engine->job, engine->deck_start, &job);
-    if (!status)
-        status = refit_job(engine->pool, &job, number, measured->holdout, engine->environment, &fit);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    if (fit)
-        *chi2 = fit->chi2;
-    rotid_fit_free(fit);
-    return ROTID_OK;
-}
-
 /* Without shapes the numbers are the user's: rigid-body modes may have been counted, or modes missed. Another numbering counts
  * where with it the model needs no cause, and none explains the data as well without. */
 static int renumber(struct engine *engine, const struct round_result *result, int *changed)
 {
-    const struct job_measurement now = engine->job->measurement;
-    double best = INFINITY, rival = engine->fit->chi2, chi2;
-    int from = 0, shift = 0, *number = POOL_ARRAY(engine->pool, int, now.nmode), status = number ? ROTID_OK : ROTID_ERROR_MEMORY;
-    if (now.paired || engine->fit->dof < 1 || chi_square_tail(engine->fit->chi2, engine->fit->dof) > UNEXPLAINED)
-        return status;
+    struct renumbering best;
+    struct states states;
+    double rival = engine->fit->chi2;
+    *changed = 0;
+    if (engine->fit->dof < 1 || chi_square_tail(engine->fit->chi2, engine->fit->dof) > UNEXPLAINED)
+        return ROTID_OK;
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit)
-            rival = fmin(rival, result->refit[i].chi2 +
-                                    PARAMETER_PENALTY * (result->refit[i].fit->n - engine->job->unknowns.nparameter));
-    for (int k = 0; k < now.nmode && !status; k++)
-        for (int s = k ? 1 : -MOST_SHIFT; s <= MOST_SHIFT && !status; s++) {
-            status = s ? fit_renumbered(engine, k, s, number, &chi2) : ROTID_OK;
-            if (status || !s || chi2 >= best)
-                continue;
-            best = chi2;
-            from = k;
-            shift = s;
-        }
-    if (status || chi_square_tail(best, engine->fit->dof) < EXPLAINED || best + PARAMETER_PENALTY + LEAST_MARGIN > rival)
+            rival =
+                fmin(rival, result->refit[i].chi2 + PARAMETER_PENALTY * (result->refit[i].fit->n - engine->states.nparameter));
+    int status = states_started_at(engine->pool, &engine->states, engine->deck_start, &states);
+    if (!status)
+        status = numbering_search(engine->pool, &states, engine->number, engine->holdout, engine->environment, &best);
+    if (status || !best.shift || chi_square_tail(best.chi2, engine->fit->dof) < EXPLAINED ||
+        best.chi2 + PARAMETER_PENALTY + LEAST_MARGIN > rival)
         return status;
-    for (int k = 0; k < now.nmode; k++)
-        number[k] = renumbered(&now, from, shift, k);
-    engine->job->measurement.number = engine->number = number;
-    engine->job->measurement.paired = *changed = 1;
-    const char *text =
-        from ? pool_format(
-                   engine->pool,
-                   "from measured mode %d (%.6g Hz) on the numbers are %d too low: modes were missed below it; they are raised",
-                   now.number[from], now.frequency_hz[from], shift)
-        : shift < 0
-            ? pool_format(engine->pool,
-                          "the numbers of all modes are %d too high, as where modes of the rigid body are counted; they are "
-                          "lowered",
-                          -shift)
-            : pool_format(engine->pool, "the numbers of all modes are %d too low: the lowest modes were missed; they are raised",
-                          shift);
-    return data_add_pairing(engine, now.number[from], number[from], text);
+    struct job_measurement *measured = &engine->states.state[best.state].job.measurement;
+    int at = states_modes(&engine->states, best.state), was = measured->number[best.from];
+    const char *text = numbering_text(engine->pool, &engine->states, &best);
+    measured->number = best.number + at;
+    measured->paired = *changed = 1;
+    engine->number = best.number;
+    return text ? data_add_pairing(engine, was, best.number[at + best.from],
+                                   pool_format(engine->pool, "%s; they are %s", text, best.shift < 0 ? "lowered" : "raised"))
+                : ROTID_ERROR_MEMORY;
 }
 
 /* Modes k and k + 1 of [nsensor * nmode] change places. */
@@ -283,8 +242,8 @@ int pairing_settle(struct engine *engine, const struct round_result *result, int
     struct pairing best = {.rate = INFINITY};
     double rate = INFINITY, chi2 = INFINITY;
     *changed = 0;
-    if (!now.shape)
-        return renumber(engine, result, changed);
+    if (!now.shape || engine->states.nstate > 1)
+        return now.paired && engine->states.nstate == 1 ? ROTID_OK : renumber(engine, result, changed);
     if (now.ncorrection != measured->ncorrection)
         return ROTID_OK;
     int exchanged = exchange(engine, result, measured, changed);

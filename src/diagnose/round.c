@@ -211,15 +211,15 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
 }
 
 /* The data judged by the best refits: pairing, channels, noise; the round is to be repeated where something was at fault. */
-static int settle_data(struct engine *engine, struct round_result *result, int *changed)
+static int settle_data(struct engine *engine, struct round_result *result, int channels, int *changed)
 {
     int best = -1, status = pairing_settle(engine, result, changed);
-    if (!status && !*changed)
+    if (!status && !*changed && channels)
         status = faults_settle(engine, result, changed);
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
             best = i;
-    if (!status && !*changed)
+    if (!status && !*changed && channels)
         status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
     if (!status && *changed)
         status = base_again(engine);
@@ -299,8 +299,8 @@ int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, s
         if (!status)
             status = posterior_run(engine, result, posterior);
         engine_step(engine, "posterior");
-        if (!status && doubt && pass < MOST_PASSES)
-            status = settle_data(engine, result, &again);
+        if (!status && pass < MOST_PASSES)
+            status = settle_data(engine, result, doubt, &again);
         engine_step(engine, "data");
     }
     return status || !result->fault ? status : posterior_add_fault(engine, result->fault, posterior);

@@ -200,7 +200,8 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     *elastic_only = 0;
     for (int j = 0; j < 2; j++) { /* a rigid motion bends nothing: what it has is the rounding of K */
         const double *r = rigid + (ptrdiff_t)j * n;
-        if (fabs(matrix_product(&elastic_k, r, r, work)) > ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
+        if (fabs(matrix_product(&elastic_k, r, r, work)) >
+            ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
             return ROTID_ERROR_STIFFNESS;
     }
     *nrigid = 0;
@@ -211,7 +212,8 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
             break;
         for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one */
             elastic[i] = phi[i + (ptrdiff_t)j * n] - elastic[i];
-        if (all && matrix_product(&k, elastic, elastic, work) - matrix_product(&elastic_k, elastic, elastic, work) > NO_SUPPORT * first)
+        if (all &&
+            matrix_product(&k, elastic, elastic, work) - matrix_product(&elastic_k, elastic, elastic, work) > NO_SUPPORT * first)
             break;
         (*nrigid)++;
     }

@@ -116,8 +116,8 @@ struct rotor {
     struct sensor *sensor; /* by increasing position */
     struct effect *effect; /* causes that are part of the model */
     double sling;          /* length, 0 where there is none */
-    int count_all;         /* modes are numbered from the lowest vibration, those on the supports among them; 0: from the lowest one
-                              that bends the rotor */
+    int count_all;     /* modes are numbered from the lowest vibration, those on the supports among them; 0: from the lowest one
+                          that bends the rotor */
     int settled_rigid; /* one more than the rigid-body and suspension modes below mode 1, where measured modes were numbered above
                           so many, whatever becomes of the springs since; 0: they are counted at the values of the rotor */
 };

@@ -1,8 +1,14 @@
-/* From which mode measured ones are counted. A rotor on soft supports vibrates on them first, as a rigid body: whoever counts what
- * was measured calls that mode 1, whoever counts bending modes does not. Both are usual, and the data tell them apart. */
+/* From which mode measured ones are counted. A rotor on soft supports vibrates on them first, as a rigid body: whoever counts
+ * what was measured calls that mode 1, whoever counts bending modes does not. Both are usual, and the data tell them apart. */
 #include "run/run.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "fit/fit.h"
+
+#define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
+#define UNEXPLAINED 1e-3 /* p-value of a misfit that makes other numbers worth a try */
 
 /* root mean square over the measured modes: the partner of mode n is mode n + above of the spectrum */
 static double misfit(const struct job *job, const struct spectrum *spectrum, int above)
@@ -54,10 +60,109 @@ int numbering_choose(struct pool *pool, struct job *job)
     struct pool scratch;
     int status;
     job->measurement.numbering.elastic = job->measurement.numbering.all = NAN;
-    if (!job->measurement.nmode || job->options.type != MODE_BENDING || (!rotor->nspring && !(rotor->sling > 0) && !rotor->neffect))
+    if (!job->measurement.nmode || job->options.type != MODE_BENDING ||
+        (!rotor->nspring && !(rotor->sling > 0) && !rotor->neffect))
         return ROTID_OK;
     pool_open(&scratch, pool->allocator);
     status = choose(&scratch, job);
     pool_close(&scratch);
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* what cannot be computed is told where it is asked for */
+}
+
+/* Mode k of a numbering: all numbers `shift` higher from mode `from` on. 0 where that is none: numbers count from 1. */
+static int renumbered(int from, int shift, int k, const int *was)
+{
+    int number = was[k] + (k >= from ? shift : 0);
+    return number < 1 || (k == from && k > 0 && number <= was[k - 1]) ? 0 : number;
+}
+
+static int attempt(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                   const rotid_environment *environment, double *chi2)
+{
+    rotid_fit_options options = states->state->job.options.fit;
+    const rotid_environment quiet = {.size = sizeof quiet,
+                                     .cancelled = environment ? environment->cancelled : NULL,
+                                     .context = environment ? environment->context : NULL,
+                                     .allocator = environment ? environment->allocator : NULL};
+    struct pool scratch;
+    rotid_fit_result *fit = NULL;
+    options.baseline = 0;
+    options.max_iterations = 40;
+    pool_open(&scratch, pool->allocator);
+    int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, &fit);
+    pool_close(&scratch);
+    int cancelled = fit && fit->status == ROTID_STOP_CANCELLED;
+    *chi2 = fit && !cancelled ? 2 * fit->objective : INFINITY;
+    rotid_fit_free(fit);
+    return cancelled ? ROTID_STOP_CANCELLED : status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+}
+
+int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                     const rotid_environment *environment, struct renumbering *best)
+{
+    int all = states_modes(states, states->nstate), status = ROTID_OK, *trial = POOL_ARRAY(pool, int, all);
+    double chi2;
+    *best = (struct renumbering){.chi2 = INFINITY, .number = POOL_ARRAY(pool, int, all)};
+    if (!trial || !best->number)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, at = 0; s < states->nstate; at += states->state[s].job.measurement.nmode, s++) {
+        const struct job_measurement *measured = &states->state[s].job.measurement;
+        if (measured->shape || measured->paired)
+            continue;
+        for (int from = 0; from < measured->nmode; from++)
+            for (int shift = from ? 1 : -MOST_SHIFT; shift <= MOST_SHIFT && !status; shift++) {
+                int whole = shift != 0;
+                memcpy(trial, number, (size_t)all * sizeof *trial);
+                for (int k = 0; k < measured->nmode; k++)
+                    whole &= (trial[at + k] = renumbered(from, shift, k, number + at)) > 0;
+                if (!whole)
+                    continue;
+                status = attempt(pool, states, trial, holdout, environment, &chi2);
+                if (status || chi2 >= best->chi2)
+                    continue;
+                *best = (struct renumbering){s, from, shift, best->number, chi2};
+                memcpy(best->number, trial, (size_t)all * sizeof *trial);
+            }
+    }
+    return status;
+}
+
+const char *numbering_text(struct pool *pool, const struct states *states, const struct renumbering *r)
+{
+    const struct state *state = &states->state[r->state];
+    const struct job_measurement *measured = &state->job.measurement;
+    const char *of = state->name ? pool_format(pool, " of state %s", state->name) : "";
+    return r->from
+               ? pool_format(pool, "from measured mode %d (%.6g Hz)%s on the numbers are %d too low: modes were missed below it",
+                             measured->number[r->from], measured->frequency_hz[r->from], of, r->shift)
+           : r->shift < 0
+               ? pool_format(pool, "the numbers of all modes%s are %d too high, as where modes of the rigid body are counted", of,
+                             -r->shift)
+               : pool_format(pool, "the numbers of all modes%s are %d too low: the lowest modes were missed", of, r->shift);
+}
+
+int numbering_warn(struct pool *pool, const struct states *states, const struct identification *found,
+                   const rotid_fit_result *fit, const rotid_environment *environment, struct message_list *notes)
+{
+    int all = states_modes(states, states->nstate), *number = POOL_ARRAY(pool, int, 2 * all), *holdout = number + all;
+    struct renumbering best;
+    if (!number)
+        return ROTID_ERROR_MEMORY;
+    if (states->state->job.options.solid || states->more || !fit->n || fit->dof < 1 ||
+        (isfinite(fit->chi2) && chi_square_tail(fit->chi2, fit->dof) > UNEXPLAINED))
+        return ROTID_OK;
+    for (int s = 0, at = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
+            number[at] = found[s].compared.number[k];
+            holdout[at] = states->state[s].job.measurement.holdout[k];
+        }
+    int status = numbering_search(pool, states, number, holdout, environment, &best);
+    if (status || !(best.chi2 < NUMBERING_CLEAR * NUMBERING_CLEAR * 2 * fit->objective))
+        return status;
+    const char *text = numbering_text(pool, states, &best);
+    if (!text)
+        return ROTID_ERROR_MEMORY;
+    message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "%s? With such numbers the errors of the fit fall to %.2g of what they are",
+                text, sqrt(best.chi2 / (2 * fit->objective)));
+    return ROTID_OK;
 }

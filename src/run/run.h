@@ -6,7 +6,7 @@
  * In: job or states. Out: plain structs (spectrum, comparison, identification, ...), which src/api makes the results of rotid.h.
  *
  *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
- *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted
+ *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted; numbering_search: modes missed
  *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
  *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
  *   mesh             held_mesh.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
@@ -415,6 +415,27 @@ int identify_own_unknowns(struct pool *pool, const struct state *state, struct i
 /* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
                                 struct message_list *notes);
+
+/* Another numbering of the modes of a state without shapes: those from `from` on have numbers that are `shift` higher, all of
+ * them ones that are lower. */
+struct renumbering {
+    int state, from, shift; /* shift 0: there is none */
+    int *number;            /* of all states, one behind the other */
+    double chi2;            /* twice the objective with it, fitted */
+};
+
+/* The one of least chi2 among shifts by up to 3 of the modes of each state without shapes, `number` being those of all states,
+ * and the states started where the fits are to begin. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
+int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                     const rotid_environment *environment, struct renumbering *best);
+
+/* "from measured mode 5 (2350 Hz) on the numbers are 1 too low: modes were missed below it" [, of state b] */
+const char *numbering_text(struct pool *pool, const struct states *states, const struct renumbering *renumbering);
+
+/* Warns where the fit, of these states without shapes, leaves a misfit that a renumbering takes to less than NUMBERING_CLEAR^2 of
+ * it; of beams alone, whose fits cost little. ROTID_OK, or as numbering_search. */
+int numbering_warn(struct pool *pool, const struct states *states, const struct identification *found,
+                   const rotid_fit_result *fit, const rotid_environment *environment, struct message_list *notes);
 
 /* ------------------------------------------------------------------------------------------------------------- synthesis */
 

@@ -1,0 +1,189 @@
+/* From which mode measured ones are counted, and numbers that are wrong. */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "fit/fit.h"
+#include "folder.h"
+#include "reading.h"
+#include "run/run.h"
+
+#define PI      3.14159265358979323846
+#define BAR     "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 40\n"
+#define ON(K)   "*SPRING, NAME=a\n0.1, " K "\n*SPRING, NAME=b\n0.9, " K "\n"
+#define AS_SEEN "1, 88.59\n2, 136.92\n3, 256.07\n4, 624.60\n"
+#define FIND    "*NOISE, FREQUENCY=0.002\n*IDENTIFY\nbar.E, 1e11, 4e11, 1.8e11\na.k, 1e5, 1e8, 2e6\n"
+
+static struct job job_of(const char *text, struct message_list *messages)
+{
+    struct job job;
+    read_job(text, messages, &job);
+    return job;
+}
+
+static struct identification fitted(const struct job *job)
+{
+    struct identification found;
+    struct message_list notes;
+    message_open(&notes, &test_pool);
+    assert_status(identify_run(&test_pool, job, 0, NULL, &notes, &found), ROTID_OK);
+    return found;
+}
+
+/* Springs of 3e6 N/m at 0.1 and 0.9 m: the first two are the rotor on its bearings, and tell their stiffness. */
+static void modes_of_bearings_are_counted_where_they_were_measured(void **state)
+{
+    struct message_list messages;
+    (void)state;
+    struct job job = job_of(BAR ON("3e6") "*MODES\n" AS_SEEN FIND, &messages);
+    assert_true(job.rotor.count_all);
+    assert_non_null(find_message(&messages, "modes are counted from the lowest vibration on the supports (COUNT=ALL)"));
+    struct identification found = fitted(&job);
+    assert_close(found.fit->x[0], 2.1e11, 2e-3, 0);
+    assert_close(found.fit->x[1], 3e6, 5e-3, 0);
+    rotid_fit_free(found.fit);
+}
+
+static void what_the_deck_states_is_not_doubted(void **state)
+{
+    struct message_list messages;
+    (void)state;
+    struct job job = job_of(BAR ON("3e6") "*MODES, COUNT=ELASTIC\n" AS_SEEN, &messages);
+    assert_false(job.rotor.count_all);
+    assert_int_equal(job.measurement.numbering.nsupport, 2);
+    assert_int_equal(messages.count, 0);
+    job = job_of(BAR ON("3e6") "*MODES, COUNT=ALL\n1, 256\n2, 624\n", &messages);
+    assert_true(job.rotor.count_all);
+}
+
+/* Modes above those of the supports, numbered as bending modes: as ever, without a word. */
+static void bending_modes_are_counted_as_such(void **state)
+{
+    struct message_list messages;
+    (void)state;
+    struct job job =
+        job_of(BAR ON("3e6") "*MODES\n1, 256.07\n2, 624.60\n*FIT, HOLDOUT=2\n*IDENTIFY\nbar.E, 1e11, 4e11, 2e11\n", &messages);
+    assert_false(job.rotor.count_all);
+    assert_int_equal(messages.count, 0);
+    struct identification found = fitted(&job);
+    assert_close(found.fit->predicted_hz[1], 624.6, 2e-3, 0); /* left out, by the same numbers */
+    rotid_fit_free(found.fit);
+}
+
+/* One frequency between two: both numberings are as far off, and the user is asked. */
+static void where_both_fit_the_user_is_asked(void **state)
+{
+    struct message_list messages;
+    (void)state;
+    struct job job = job_of(BAR ON("3e6") "*MODES\n1, 150\n", &messages);
+    assert_false(job.rotor.count_all);
+    assert_non_null(find_message(&messages, "state COUNT=ELASTIC or ALL"));
+}
+
+/* A rigid mass on two springs has sqrt(2 k/m) as its first mode; one that is free has no frequency to count. */
+static void modes_at_rest_are_never_counted(void **state)
+{
+    struct message_list messages;
+    struct spectrum s;
+    (void)state;
+    struct job job = job_of(BAR ON("1000") "*MODES, COUNT=ALL\n1, 1.8\n", &messages);
+    assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &s), ROTID_OK);
+    assert_int_equal(s.nrigid, 0);
+    assert_close(s.full_hz[0], sqrt(2000 / (7850 * PI * 0.05 * 0.05 / 4)) / (2 * PI), 1e-4, 0);
+    job = job_of(BAR "*MODES, COUNT=ALL\n1, 228.7\n", &messages);
+    assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
+    assert_int_equal(s.nrigid, 2);
+    assert_close(s.full_hz[0], 228.7, 1e-3, 0);
+    job = job_of(BAR "*SPRING\n0.5, 1000\n*MODES, COUNT=ALL\n1, 1.3\n", &messages); /* it may still turn */
+    assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
+    assert_int_equal(s.nrigid, 1);
+    assert_close(s.full_hz[0], sqrt(1000 / (7850 * PI * 0.05 * 0.05 / 4)) / (2 * PI), 1e-4, 0);
+}
+
+/* A state on bearings and a free one, each with its own count. */
+static void states_count_for_themselves(void **state)
+{
+    (void)state;
+    struct states s =
+        read_states(BAR "*STATE, NAME=free\n*MODES\n1, 228.7\n2, 622.9\n*STATE, NAME=seated\n" ON("3e6") "*MODES\n" AS_SEEN);
+    assert_false(s.state[0].job.rotor.count_all);
+    assert_true(s.state[1].job.rotor.count_all);
+}
+
+#define DISKS                                                                                                                    \
+    BAR "*DISK, NAME=d\n0.3, 4, 0.02\n*DISK, NAME=e\n0.75, 6, 0.03\n*NOISE, FREQUENCY=0.002\n*IDENTIFY\nbar.E, 1e11, 4e11, "     \
+        "1.8e11\n"
+#define MISSED 5
+
+/* The frequencies of the model without its fifth are numbered from 1 on; in one deck, and in a state beside another one. */
+static void a_mode_that_was_missed_is_told(void **state)
+{
+    char text[2000], modes[400];
+    struct message_list messages, notes;
+    struct spectrum s;
+    size_t used = 0;
+    (void)state;
+    struct job job = job_of(DISKS "*MODES\n1, 190\n", &messages);
+    assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 6, &s), ROTID_OK);
+    for (int j = 1, k = 1; j <= 6; j++)
+        if (j != MISSED)
+            used += (size_t)snprintf(modes + used, sizeof modes - used, "%d, %.6f\n", k++, s.full_hz[j - 1]);
+    for (int with_state = 0; with_state < 2; with_state++) {
+        if (with_state)
+            (void)snprintf(text, sizeof text, DISKS "*STATE, NAME=b\n*MODES\n1, %.6f\n*STATE, NAME=a\n*MODES\n%s", s.full_hz[0],
+                           modes);
+        else
+            (void)snprintf(text, sizeof text, DISKS "*MODES\n%s", modes);
+        struct states states = read_states(text);
+        struct identification found[2];
+        rotid_fit_result *fit;
+        struct renumbering best;
+        int number[] = {1, 1, 2, 3, 4, 5}, holdout[6] = {0}, *first = number + !with_state;
+        message_open(&notes, &test_pool);
+        assert_status(numbering_search(&test_pool, &states, first, holdout, NULL, &best), ROTID_OK);
+        assert_int_equal(best.state, with_state);
+        assert_int_equal(best.from, MISSED - 1);
+        assert_int_equal(best.shift, 1);
+        assert_int_equal(best.number[with_state + 4], 6);
+        assert_true(best.chi2 < 1e-3);
+        assert_status(identify_states(&test_pool, &states, 0, NULL, &notes, found, &fit), ROTID_OK);
+        assert_status(numbering_warn(&test_pool, &states, found, fit, NULL, &notes), ROTID_OK);
+        assert_non_null(find_message(&notes, with_state ? "of state a on the numbers are 1 too low: modes were missed below it"
+                                                        : "on the numbers are 1 too low: modes were missed below it"));
+        rotid_fit_free(fit);
+    }
+}
+
+/* Numbers that are right are not doubted, nor errors that no numbering mends. */
+static void right_numbers_are_not_doubted(void **state)
+{
+    struct message_list messages, notes;
+    struct state one;
+    (void)state;
+    struct job job =
+        job_of(BAR "*MODES\n1, 228.7\n2, 640\n3, 1170\n4, 1943\n*NOISE, FREQUENCY=0.002\n*IDENTIFY\nbar.E, 1e11, 4e11, 1.8e11\n",
+               &messages);
+    struct identification found = fitted(&job);
+    const struct states states = states_of(&job, &one);
+    message_open(&notes, &test_pool);
+    assert_true(chi_square_tail(found.fit->chi2, found.fit->dof) < 1e-3);
+    assert_status(numbering_warn(&test_pool, &states, &found, found.fit, NULL, &notes), ROTID_OK);
+    assert_int_equal(notes.count, 0);
+    rotid_fit_free(found.fit);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(modes_of_bearings_are_counted_where_they_were_measured),
+        cmocka_unit_test(what_the_deck_states_is_not_doubted),
+        cmocka_unit_test(bending_modes_are_counted_as_such),
+        cmocka_unit_test(where_both_fit_the_user_is_asked),
+        cmocka_unit_test(modes_at_rest_are_never_counted),
+        cmocka_unit_test(states_count_for_themselves),
+        cmocka_unit_test(a_mode_that_was_missed_is_told),
+        cmocka_unit_test(right_numbers_are_not_doubted),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
