@@ -277,7 +277,7 @@ void fuzz_one_plan(const uint8_t *bytes, size_t count)
 static char *stamp_all(struct pool *pool, const uint8_t *bytes, size_t count)
 {
     char *text = calloc(1, count + 1), *all = NULL, study[DIGEST_LETTERS + 1];
-    struct header header;
+    struct study_header header;
     size_t length;
     require(text != NULL);
     memcpy(text, bytes, count);
@@ -307,7 +307,7 @@ static void read_results(const uint8_t *bytes, size_t count)
     struct pool pool;
     struct message_list messages;
     struct study_result summary;
-    struct header header;
+    struct study_header header;
     char path[32];
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);

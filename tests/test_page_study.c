@@ -152,7 +152,7 @@ static void many_decks_stand_beside_each_other(void **state)
 static char *stamp_second(const char *text)
 {
     struct pool pool;
-    struct header header;
+    struct study_header header;
     char study[DIGEST_LETTERS + 1];
     const char *line = strchr(text, '\n') + 1, *end = strchr(line, '\n') + 1, *stamp = strstr(line, ",\"study\":\"");
     cJSON *json = cJSON_ParseWithLength(text, (size_t)(line - text));

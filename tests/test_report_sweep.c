@@ -101,7 +101,7 @@ static void write_line(FILE *out, const cJSON *item, int is_header, char study[D
 {
     cJSON *copy = cJSON_Duplicate(item, 1);
     if (is_header) {
-        struct header header;
+        struct study_header header;
         if (!results_header_read(&test_pool, copy, &header)) /* else nobody reads the file */
             stamp_study(&header, study);
     } else {

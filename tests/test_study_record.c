@@ -19,7 +19,7 @@
 #define RUNS 6
 
 static struct study study;
-static struct header header;
+static struct study_header header;
 
 static int setup(void **state)
 {
@@ -28,7 +28,7 @@ static int setup(void **state)
     if (bench_study(&test_pool, "*STUDY, REPLICATES=6\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001\n", &messages,
                     &study))
         return 1;
-    header = header_of(&study, "1.2.3", "abc", 1, 1);
+    header = header_of(&test_pool, &study, "1.2.3", "abc", 1, 1);
     bench_delete("r.jsonl");
     return 0;
 }
@@ -67,7 +67,7 @@ static const char *stamped(const char *line)
 static int open_record(int retry, struct message_list *messages, struct study_record *record)
 {
     message_open(messages, &test_pool);
-    return record_open(&test_pool, bench_path("r.jsonl"), &header, retry, messages, record);
+    return record_open(&test_pool, bench_path("r.jsonl"), &header, NULL, retry, messages, record);
 }
 
 static struct study_record opened(int retry)
@@ -183,33 +183,31 @@ static void a_cut_line_is_removed(void **state)
 static void other_files_are_left_alone(void **state)
 {
     (void)state;
-    struct header other = header;
+    struct study_header other = header;
     struct study_record record = opened(0);
     append(&record, 0, "converged");
     record_close(&record);
     const struct {
-        struct header header;
+        const char *rotid, *plan, *decks, *data, *options, *shard; /* NULL: as it was */
+        double seed;
         const char *words;
     } table[] = {
-        {{"1.2.4", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
-          RUNS, 1, 1, NULL},
-         "begun by rotid 1.2.3 (abc), this is 1.2.4 (abc)"},
-        {{"1.2.3", "abc", NULL, "identify", "x", study.decks_digest, study.data_digest, study.options_digest, 1, RUNS, 1, 1,
-          NULL},
-         "the plan has changed"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, "x", "y", study.options_digest, 1, RUNS, 1, 1, NULL},
-         "a deck and the measured data have changed"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, "x", 1, RUNS, 1, 1, NULL},
-         "--set has changed"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 7,
-          RUNS, 1, 1, NULL},
-         "its seed is 1, not 7"},
-        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
-          RUNS, 2, 3, NULL},
-         "is of shard 1/1 and not of 2/3"},
+        {.rotid = "1.2.4", .words = "begun by rotid 1.2.3 (abc), this is 1.2.4 (abc)"},
+        {.plan = "x", .words = "the plan has changed"},
+        {.decks = "x", .data = "y", .words = "a deck and the measured data have changed"},
+        {.options = "x", .words = "--set has changed"},
+        {.seed = 7, .words = "its seed is 1, not 7"},
+        {.shard = "2/3", .words = "is of shard 1/1 and not of 2/3"},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        header = table[i].header;
+        header = other;
+        header.rotid = table[i].rotid ? table[i].rotid : header.rotid;
+        header.digest.plan = table[i].plan ? table[i].plan : header.digest.plan;
+        header.digest.decks = table[i].decks ? table[i].decks : header.digest.decks;
+        header.digest.data = table[i].data ? table[i].data : header.digest.data;
+        header.digest.options = table[i].options ? table[i].options : header.digest.options;
+        header.seed = table[i].seed > 0 ? table[i].seed : header.seed;
+        header.shard = table[i].shard;
         refuses(NULL, ROTID_ERROR_ARGUMENT, table[i].words);
     }
     header = other;
@@ -232,13 +230,13 @@ static void what_is_no_file_is_refused(void **state)
     static const char *const paths[] = {"/dev/full", "/dev/null", "/tmp", "/nowhere/at/all"};
     for (size_t i = 0; i < 4; i++) {
         message_open(&messages, &test_pool);
-        int status = record_open(&test_pool, paths[i], &header, 0, &messages, &record);
+        int status = record_open(&test_pool, paths[i], &header, NULL, 0, &messages, &record);
         assert_true(status == ROTID_ERROR_ARGUMENT || status == ROTID_ERROR_IO);
         assert_int_equal(messages.errors, 1);
     }
     assert_int_equal(mkfifo(bench_path("pipe"), 0600), 0);
     message_open(&messages, &test_pool);
-    assert_status(record_open(&test_pool, bench_path("pipe"), &header, 0, &messages, &record), ROTID_ERROR_ARGUMENT);
+    assert_status(record_open(&test_pool, bench_path("pipe"), &header, NULL, 0, &messages, &record), ROTID_ERROR_ARGUMENT);
 }
 
 /* A second process is kept out while the first one lives, and no longer. */
@@ -340,12 +338,11 @@ static void shards_share_the_runs(void **state)
     bench_delete("all.jsonl");
     for (int shard = 1; shard <= 3; shard++) {
         struct study_record record;
-        struct header part = header;
-        part.shard = shard;
-        part.shards = 3;
+        struct study_header part = header;
+        part.shard = pool_format(&test_pool, "%d/3", shard);
         (void)unlink(paths[shard - 1]);
         message_open(&messages, &test_pool);
-        assert_status(record_open(&test_pool, paths[shard - 1], &part, 0, &messages, &record), ROTID_OK);
+        assert_status(record_open(&test_pool, paths[shard - 1], &part, NULL, 0, &messages, &record), ROTID_OK);
         assert_int_equal(record.wanted, 2);
         for (long run; (run = record_take(&record)) >= 0;) {
             assert_int_equal(run % 3, shard - 1);
@@ -375,7 +372,7 @@ static void shards_share_the_runs(void **state)
     assert_int_equal(merge.missing, 2);
     assert_string_equal(merge.list, "1, 4");
     message_open(&messages, &test_pool);
-    assert_status(record_open(&test_pool, all, &header, 0, &messages, &record), ROTID_OK);
+    assert_status(record_open(&test_pool, all, &header, NULL, 0, &messages, &record), ROTID_OK);
     assert_true(record_take(&record) == 1 && record_take(&record) == 4 && record_take(&record) == -1);
     record_close(&record);
 }
@@ -432,14 +429,14 @@ static void assert_all_refuse(const char *text, int line, const char *words)
     struct message_list messages;
     struct study_record record;
     struct study_result summary;
-    struct header found;
+    struct study_header found;
     struct merge merge;
     char *part = pool_copy_text(&test_pool, bench_path("r.jsonl"));
     const char *all = bench_path("all.jsonl");
     (void)bench_write("r.jsonl", text);
     for (int reader = 0; reader < 3; reader++) {
         message_open(&messages, &test_pool);
-        int status = reader == 0   ? record_open(&test_pool, part, &header, 0, &messages, &record)
+        int status = reader == 0   ? record_open(&test_pool, part, &header, NULL, 0, &messages, &record)
                      : reader == 1 ? summary_read(&test_pool, part, &messages, &found, NULL, &summary)
                                    : merge_results(&test_pool, 1, &part, all, &messages, &merge);
         if (status >= 0 || messages.errors != 1 || messages.item[0].line != line || !strstr(messages.item[0].text, words) ||
@@ -485,7 +482,7 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
                       "does not end in its digest");
     assert_all_refuse(pool_format(&test_pool, "%s%s", first, line), 2, "does not end in its digest");
     /* of another study: its digest is right */
-    const unsigned long seed = header.seed;
+    const double seed = header.seed;
     header.seed = 7;
     const char *foreign = stamped(line);
     header.seed = seed;
@@ -528,7 +525,7 @@ static void summaries_add_up(void **state)
     (void)state;
     struct message_list messages;
     struct study_result s;
-    struct header found;
+    struct study_header found;
     struct study_record record = opened(0);
     static const double value[] = {2, 3, 5, 6}; /* truth 3, interval 0 to 4, std 2 */
     for (long run = 3; run >= 0; run--)

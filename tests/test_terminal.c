@@ -314,7 +314,7 @@ static void results_of_studies(void **state)
     (void)state;
     static char text[1 << 20];
     char study[DIGEST_LETTERS + 1], *deck = HOSTILE ".inp", *results = HOSTILE ".jsonl";
-    struct header header;
+    struct study_header header;
     write_file(deck, DECK);
     write_file("wrong.inp", "*SHAFT, NAME=" RAW "\n");
     assert_run(RUN("study", deck, "wrong.inp", "-o", results, "--json", "-"), 1);

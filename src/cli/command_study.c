@@ -54,7 +54,7 @@ static int refuse_study(struct command *command, int status)
 static int report(struct command *command, const char *path, int code)
 {
     struct study_result summary;
-    struct header header;
+    struct study_header header;
     const struct screen to = command_screen(command);
     struct table *runs = command->csv ? table_open(&command->pool, "") : NULL;
     int status = summary_read(&command->pool, path, &command->messages, &header, runs, &summary);
@@ -66,7 +66,7 @@ static int report(struct command *command, const char *path, int code)
     int written = command_write_csv(command, csv_study_parts, &tables, code);
     if (written == EXIT_INTERNAL)
         return written;
-    command->head.seed = (double)header.seed;
+    command->head.seed = header.seed;
     if (summary.failed || summary.missing)
         code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
     struct result result = {.head = command->head, .study = &summary};
@@ -120,12 +120,13 @@ static int finish(struct command *command, struct study_record *record, int code
 int study_conduct(struct command *command, const struct study *study, study_compute *compute, void *context)
 {
     const struct study_arguments *arguments = &command->study;
-    const struct header header = header_of(study, command->head.rotid, command->head.commit,
-                                           arguments->shards ? arguments->shard : 1, arguments->shards ? arguments->shards : 1);
+    const struct study_header header =
+        header_of(&command->pool, study, command->head.rotid, command->head.commit, arguments->shard, arguments->shards);
     struct study_record record;
     int code = EXIT_DONE;
     command_watch_signals();
-    int status = record_open(&command->pool, command->output, &header, arguments->retry_failed, &command->messages, &record);
+    int status =
+        record_open(&command->pool, command->output, &header, study->input, arguments->retry_failed, &command->messages, &record);
     if (status)
         return refuse_study(command, status);
     command_print_messages(command);

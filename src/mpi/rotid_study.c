@@ -203,9 +203,9 @@ static void follow(const struct study *study)
 /* ---- all */
 
 /* Whether every rank has read the same study: each reads the files itself. */
-static int is_one_study(const struct command *command, const struct study *study, int rank)
+static int is_one_study(struct command *command, const struct study *study, int rank)
 {
-    const struct header header = header_of(study, command->head.rotid, command->head.commit, 1, 1);
+    const struct study_header header = header_of(&command->pool, study, command->head.rotid, command->head.commit, 1, 1);
     char *text = header_text(&header), first[4096] = "";
     int same, all = 0;
     if (text && !rank)

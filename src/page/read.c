@@ -36,7 +36,7 @@ static void read_lines(const struct json_place *lines, struct result *result)
     struct reader *reader = lines->reader;
     struct json_place head = place_first(lines, PLACE_OBJECT);
     struct study_result *study = POOL_NEW(reader->pool, struct study_result);
-    struct header header;
+    struct study_header header;
     if (!head.json || !place_has(&head, "rotid") || !place_has(&head, "studies")) {
         place_wrong(lines, "has a value a line and is no file of results, expected one of rotid study, or one result");
         return;

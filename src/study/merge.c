@@ -22,7 +22,7 @@ struct merger {
     struct pool *pool;
     struct message_list *messages;
     char *const *path;
-    struct header header; /* of the first part */
+    struct study_header header; /* of the first part */
     int nentry;
     size_t entry_room, most; /* most: bytes of the longest line */
     struct part_line *entry;
@@ -43,33 +43,31 @@ static int add_part(struct merger *m, int part, int *descriptor)
 {
     const char *path = m->path[part], *difference = NULL;
     struct stat about;
-    struct header header;
-    struct result_place *place;
-    size_t most;
+    struct results file;
     *descriptor = file_descriptor(path, &about);
     if (*descriptor < 0) {
         message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
     }
-    int status = results_index(m->pool, *descriptor, path, m->messages, &header, &place, &most);
-    m->header = part ? m->header : header;
+    int status = results_read(m->pool, *descriptor, path, m->messages, &file);
+    m->header = part ? m->header : file.header;
     if (!status)
-        status = header_difference(m->pool, &header, &m->header, &difference);
+        status = header_difference(m->pool, &file.header, &m->header, 0, &difference);
     if (!status && difference) {
         message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "this file is not of the same study as %s: %s", m->path[0],
                     difference);
         status = ROTID_ERROR_ARGUMENT;
     }
-    for (long run = 0; !status && run < header.runs; run++) {
-        if (!place[run].length)
+    for (long run = 0; !status && run < file.header.runs; run++) {
+        if (!file.place[run].length)
             continue;
         struct part_line *grown = pool_grow(m->pool, m->entry, (size_t)m->nentry, &m->entry_room, sizeof *grown);
         if (!grown)
             return ROTID_ERROR_MEMORY;
         m->entry = grown;
-        grown[m->nentry++] = (struct part_line){run, part, place[run]};
+        grown[m->nentry++] = (struct part_line){run, part, file.place[run]};
     }
-    m->most = !status && most > m->most ? most : m->most;
+    m->most = !status && file.most > m->most ? file.most : m->most;
     return status;
 }
 
@@ -167,7 +165,7 @@ int merge_results(struct pool *pool, int count, char *const *path, const char *t
     if (!status)
         status = list_missing(&m, merge);
     if (!status) {
-        m.header.shard = m.header.shards = 1;
+        m.header.shard = NULL;
         merge->runs = m.header.runs;
         status = results_write(to, &m.header, m.place, m.most);
         if (status == ROTID_ERROR_IO)

@@ -125,83 +125,76 @@ static int begin_file(struct study_record *record, const char *header, struct me
     return ROTID_OK;
 }
 
-static int compare(struct pool *pool, struct study_record *record, const struct header *file, struct message_list *messages)
+static int compare(struct pool *pool, struct study_record *record, const struct results *file, struct message_list *messages)
 {
-    const struct header *here = &record->header;
     const char *difference;
-    int status = header_difference(pool, file, here, &difference);
+    int status = header_difference(pool, &file->header, &record->header, record->input != NULL, &difference);
     if (status)
         return status;
     if (difference)
         message_add(messages, SEVERITY_ERROR, record->path, 1, 1,
                     "this file is of another study: %s; expected a new name, or things as they were", difference);
-    else if (file->shard != here->shard || file->shards != here->shards)
+    else if (file->shard != record->shard || file->shards != record->shards)
         message_add(messages, SEVERITY_ERROR, record->path, 1, 1,
                     "this file is of shard %d/%d and not of %d/%d, expected a file for each shard", file->shard, file->shards,
-                    here->shard, here->shards);
+                    record->shard, record->shards);
     else
         return ROTID_OK;
     return ROTID_ERROR_ARGUMENT;
 }
 
-/* Which runs are there. The last line of a run counts. */
+/* A last line that was cut goes. */
+static int cut(struct study_record *record, const struct results *file, struct message_list *messages)
+{
+    record->length = file->end;
+    if (file->size <= file->end)
+        return ROTID_OK;
+    if (ftruncate(record->descriptor, file->end)) {
+        message_add(messages, SEVERITY_ERROR, record->path, file->lines + 1, 1, "the cut line cannot be removed: %s",
+                    strerror(errno));
+        return ROTID_ERROR_IO;
+    }
+    message_add(messages, SEVERITY_NOTE, record->path, file->lines + 1, 1, "a line that was cut has been removed");
+    return ROTID_OK;
+}
+
+/* Which runs are there. */
 static int read_lines(struct pool *pool, struct study_record *record, int retry_failed, struct message_list *messages)
 {
-    struct results results;
-    struct result_line line = {0};
+    struct results file;
     long changed = 0;
-    int status = results_open(pool, record->descriptor, record->path, messages, &results);
+    int status = results_read(pool, record->descriptor, record->path, messages, &file);
     if (!status)
-        status = compare(pool, record, &results.header, messages);
-    while (!status && !(status = results_next(&results, &line))) {
-        const char *const *input = record->header.input;
-        int other = input && line.said->input && strcmp(line.said->input, input[line.run]) != 0; /* deck of another time */
-        record->state[line.run] = other ? RUN_MISSING : line.failed ? RUN_FAILED : RUN_DONE;
-        changed += other;
-        record->in_order &= line.run > record->last;
-        record->last = line.run;
-    }
-    if (status == 1) {
-        status = ROTID_OK;
-        record->length = results.next;
-        if (results.size > results.next && ftruncate(record->descriptor, results.next)) {
-            message_add(messages, SEVERITY_ERROR, record->path, results.number + 1, 1, "the cut line cannot be removed: %s",
-                        strerror(errno));
-            status = ROTID_ERROR_IO;
-        } else if (results.size > results.next) {
-            message_add(messages, SEVERITY_NOTE, record->path, results.number + 1, 1, "a line that was cut has been removed");
-        }
-    }
-    results_close(&results);
-    if (changed)
-        message_add(messages, SEVERITY_WARNING, record->path, 1, 1,
-                    "lines of decks that have changed since: %ld; their runs are computed again", changed);
+        status = compare(pool, record, &file, messages);
+    if (!status)
+        status = cut(record, &file, messages);
+    record->in_order = file.in_order;
+    record->last = file.last;
     for (long run = 0; run < record->header.runs && !status; run++) {
-        if (record->state[run] == RUN_FAILED && retry_failed)
-            record->state[run] = RUN_MISSING;
+        const struct result_place *at = &file.place[run];
+        int other = record->input && at->input && at->input != digest_name(record->input[run]), /* deck of another time */
+            again = at->failed && retry_failed;
+        changed += other;
+        record->state[run] = !at->length || other || again ? RUN_MISSING : at->failed ? RUN_FAILED : RUN_DONE;
         record->done += record->state[run] != RUN_MISSING;
         record->failed += record->state[run] == RUN_FAILED;
     }
+    if (changed)
+        message_add(messages, SEVERITY_WARNING, record->path, 1, 1,
+                    "lines of decks that have changed since: %ld; their runs are computed again", changed);
     return status == ROTID_ERROR_SYNTAX ? ROTID_ERROR_ARGUMENT : status;
 }
 
-static long share(const struct header *header)
-{
-    return (header->runs + header->shards - header->shard) / header->shards;
-}
-
-int record_open(struct pool *pool, const char *path, const struct header *header, int retry_failed, struct message_list *messages,
-                struct study_record *record)
+int record_open(struct pool *pool, const char *path, const struct study_header *header, const char *const *input,
+                int retry_failed, struct message_list *messages, struct study_record *record)
 {
     struct stat information;
     char *first = header_text(header);
-    *record = (struct study_record){.descriptor = -1,
-                                    .header = *header,
-                                    .wanted = share(header),
-                                    .next = header->shard - 1,
-                                    .last = -1,
-                                    .in_order = 1,
-                                    .synced = clock_seconds()};
+    *record = (struct study_record){
+        .descriptor = -1, .header = *header, .input = input, .last = -1, .in_order = 1, .synced = clock_seconds()};
+    (void)header_shard(header, &record->shard, &record->shards);
+    record->wanted = (header->runs + record->shards - record->shard) / record->shards;
+    record->next = record->shard - 1;
     record->state = POOL_ARRAY(pool, char, header->runs);
     stamp_study(header, record->study);
     int status = first && record->state ? open_locked(path, messages, &record->descriptor) : ROTID_ERROR_MEMORY;
@@ -226,10 +219,10 @@ int record_open(struct pool *pool, const char *path, const struct header *header
 
 long record_take(struct study_record *record)
 {
-    for (; record->next < record->header.runs; record->next += record->header.shards)
+    for (; record->next < record->header.runs; record->next += record->shards)
         if (record->state[record->next] == RUN_MISSING) {
             long run = record->next;
-            record->next += record->header.shards;
+            record->next += record->shards;
             return run;
         }
     return -1;
@@ -266,12 +259,10 @@ int record_finish(struct pool *pool, struct study_record *record)
     if (record->in_order)
         return record_sync(record, INFINITY);
     struct message_list unheard; /* it has been read before */
-    struct result_place *place;
-    struct header header;
-    size_t most;
+    struct results file;
     message_open(&unheard, pool);
-    int status = results_index(pool, record->descriptor, record->path, &unheard, &header, &place, &most);
-    return status ? status : results_write(record->path, &record->header, place, most);
+    int status = results_read(pool, record->descriptor, record->path, &unheard, &file);
+    return status ? status : results_write(record->path, &record->header, file.place, file.most);
 }
 
 void record_close(struct study_record *record)

@@ -1,30 +1,245 @@
+/* A file of results: the header, which tells the study; the stamp at the end of each line, which tells a line that was changed or
+ * belongs elsewhere; reading line by line; the file as a whole, in order of the runs. */
 #include "study/study.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "report/report.h"
 #include "result/result.h"
 
 #define BLOCK     ((size_t)1 << 18)
 #define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
 
-static int cannot_read(struct results *r)
+/* ---- digests */
+
+/* FNV-1a (Fowler, Noll, Vo) */
+#define BASIS 0xcbf29ce484222325u
+#define PRIME 0x100000001b3u
+
+static void digest_bytes(struct digest *digest, size_t count, const void *bytes)
+{
+    const unsigned char *byte = bytes;
+    for (size_t i = 0; i < count; i++)
+        digest->state = (digest->state ^ byte[i]) * PRIME;
+}
+
+void digest_open(struct digest *digest)
+{
+    digest->state = BASIS;
+}
+
+void digest_integer(struct digest *digest, long long value)
+{
+    unsigned char byte[8]; /* by value: the same on every machine */
+    for (int i = 0; i < 8; i++)
+        byte[i] = (unsigned char)((unsigned long long)value >> (8 * i));
+    digest_bytes(digest, sizeof byte, byte);
+}
+
+void digest_text(struct digest *digest, const char *text)
+{
+    digest_integer(digest, text ? (long long)strlen(text) : -1);
+    digest_bytes(digest, text ? strlen(text) : 0, text);
+}
+
+void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1])
+{
+    (void)snprintf(letters, DIGEST_LETTERS + 1, "%016llx", (unsigned long long)digest->state);
+}
+
+uint64_t digest_name(const char *name)
+{
+    struct digest digest;
+    digest_open(&digest);
+    digest_text(&digest, name);
+    return digest.state;
+}
+
+/* ---- the header */
+
+struct study_header header_of(struct pool *pool, const struct study *study, const char *version, const char *commit, int shard,
+                              int shards)
+{
+    return (struct study_header){.schema = RESULT_SCHEMA,
+                                 .rotid = version,
+                                 .commit = commit,
+                                 .command = "study",
+                                 .plan = study->plan->path,
+                                 .studies = plan_commands[study->plan->command],
+                                 .digest = {study->plan_digest, study->decks_digest, study->data_digest, study->options_digest},
+                                 .seed = (double)study->seed,
+                                 .runs = (int)study->runs,
+                                 .shard = shards > 1 ? pool_format(pool, "%d/%d", shard, shards) : NULL};
+}
+
+int header_shard(const struct study_header *header, int *shard, int *shards)
+{
+    int end = 0;
+    *shard = *shards = 1;
+    return !header->shard || (sscanf(header->shard, "%9d/%9d%n", shard, shards, &end) == 2 && !header->shard[end] &&
+                              *shard >= 1 && *shard <= *shards);
+}
+
+char *header_text(const struct study_header *header)
+{
+    struct json_tree tree;
+    json_open(&tree);
+    record_write(&tree, tree.root, &study_header_record, header);
+    return json_close_line(&tree);
+}
+
+int results_header_read(struct pool *pool, const cJSON *object, struct study_header *header)
+{
+    struct message_list unheard; /* the caller says what was expected */
+    struct reader reader = {.pool = pool, .messages = &unheard, .file = ""};
+    const struct json_place place = {.reader = &reader, .json = object};
+    int shard, shards;
+    message_open(&unheard, pool);
+    *header = (struct study_header){0};
+    if (!cJSON_IsObject(object))
+        return ROTID_ERROR_SYNTAX;
+    record_read(&place, &study_header_record, header);
+    if (reader.status)
+        return reader.status;
+    const char *const needed[] = {header->rotid,        header->studies,     header->digest.plan,
+                                  header->digest.decks, header->digest.data, header->digest.options};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        if (!*needed[i]) /* null */
+            return ROTID_ERROR_SYNTAX;
+    int good = header->schema == RESULT_SCHEMA && !strcmp(header->command, "study") && header->seed <= 4294967295.0 &&
+               header->runs <= STUDY_MOST_RUNS && header_shard(header, &shard, &shards);
+    return good ? ROTID_OK : ROTID_ERROR_SYNTAX;
+}
+
+int header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here, int other_decks,
+                      const char **text)
+{
+    const char *changed = "";
+    const struct {
+        const char *file, *here, *what;
+    } parts[] = {{file->digest.plan, here->digest.plan, "the plan"},
+                 {file->digest.decks, here->digest.decks, "a deck"},
+                 {file->digest.data, here->digest.data, "the measured data"},
+                 {file->digest.options, here->digest.options, "--set"}};
+    int other_options = strcmp(file->digest.options, here->digest.options) != 0; /* they may change the data as well */
+    *text = NULL;
+    for (int i = 0; i < 4 && changed; i++)
+        if (strcmp(parts[i].file, parts[i].here) != 0 && !(other_decks && (i == 1 || i == 2)) && !(other_options && i == 2))
+            changed = pool_format(pool, "%s%s%s", changed, *changed ? " and " : "", parts[i].what);
+    if (!changed)
+        return ROTID_ERROR_MEMORY;
+    if (strcmp(file->rotid, here->rotid) != 0 || strcmp(file->commit, here->commit) != 0)
+        *text = pool_format(pool, "it was begun by rotid %s (%s), this is %s (%s)", file->rotid, file->commit, here->rotid,
+                            here->commit);
+    else if (file->seed != here->seed)
+        *text = pool_format(pool, "its seed is %.0f, not %.0f", file->seed, here->seed);
+    else if (*changed)
+        *text = pool_format(pool, "%s %s changed since it was begun", changed, strstr(changed, " and ") ? "have" : "has");
+    else if (file->runs != here->runs || strcmp(file->studies, here->studies) != 0)
+        *text = pool_format(pool, "it has %d runs of %s, not %d of %s", file->runs, file->studies, here->runs, here->studies);
+    else
+        return ROTID_OK;
+    return *text ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* ---- stamps */
+
+/* ..., "study": "0123456789abcdef", "digest": "0123456789abcdef"}: the digest is of all bytes before its comma but the quote */
+#define STUDY  ",\"study\":\""
+#define DIGEST "\",\"digest\":\""
+#define END    "\"}\n"
+#define LENGTH (sizeof STUDY + sizeof DIGEST + sizeof END - 3 + 2 * (size_t)DIGEST_LETTERS)
+
+void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 1])
+{
+    struct digest digest;
+    digest_open(&digest);
+    digest_text(&digest, header->rotid);
+    digest_text(&digest, header->commit);
+    digest_text(&digest, header->studies);
+    digest_text(&digest, header->digest.plan);
+    if (header->plan) {
+        digest_text(&digest, header->digest.decks);
+        digest_text(&digest, header->digest.data);
+    }
+    digest_text(&digest, header->digest.options);
+    digest_integer(&digest, (long long)header->seed);
+    digest_integer(&digest, header->runs);
+    digest_letters(&digest, study);
+}
+
+static void digest_of(size_t length, const char *bytes, char letters[DIGEST_LETTERS + 1])
+{
+    struct digest digest;
+    digest_open(&digest);
+    digest_bytes(&digest, length, bytes);
+    digest_letters(&digest, letters);
+}
+
+char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line)
+{
+    size_t body = strlen(line) - strlen("}\n"), length = body + strlen(STUDY) + DIGEST_LETTERS;
+    char *stamped = malloc(body + LENGTH + 1), digest[DIGEST_LETTERS + 1];
+    if (!stamped)
+        return NULL;
+    memcpy(stamped, line, body);
+    (void)snprintf(stamped + body, LENGTH + 1, STUDY "%s", study);
+    digest_of(length, stamped, digest);
+    (void)snprintf(stamped + length, LENGTH + 1 + body - length, DIGEST "%s" END, digest);
+    return stamped;
+}
+
+enum stamp_fault { STAMP_GOOD, STAMP_NONE, STAMP_CHANGED, STAMP_OTHER_STUDY };
+
+/* line [length] with its line feed */
+static enum stamp_fault stamp_check(const char study[DIGEST_LETTERS + 1], const char *line, size_t length)
+{
+    char digest[DIGEST_LETTERS + 1];
+    if (length < LENGTH)
+        return STAMP_NONE;
+    const char *stamp = line + length - LENGTH, *behind = stamp + strlen(STUDY) + DIGEST_LETTERS;
+    if (memcmp(stamp, STUDY, strlen(STUDY)) != 0 || memcmp(behind, DIGEST, strlen(DIGEST)) != 0 ||
+        memcmp(line + length - strlen(END), END, strlen(END)) != 0)
+        return STAMP_NONE;
+    digest_of((size_t)(behind - line), line, digest);
+    if (memcmp(behind + strlen(DIGEST), digest, DIGEST_LETTERS) != 0)
+        return STAMP_CHANGED;
+    return memcmp(stamp + strlen(STUDY), study, DIGEST_LETTERS) != 0 ? STAMP_OTHER_STUDY : STAMP_GOOD;
+}
+
+/* ---- reading */
+
+/* The file from its beginning, a line in memory at a time. */
+struct reading {
+    int descriptor; /* the caller's: where it stands does not matter */
+    const char *path;
+    struct message_list *messages;
+    int number;       /* of the line read last, from 1 */
+    off_t next;       /* where the next line begins; at the end: where the last whole one ends */
+    struct pool line; /* of the line read last */
+    char *buffer;
+    size_t capacity, first, count; /* bytes of the buffer not yet given out */
+};
+
+static int cannot_read(struct reading *r)
 {
     message_add(r->messages, SEVERITY_ERROR, r->path, r->number + 1, 1, "reading failed: %s", strerror(errno));
     return ROTID_ERROR_IO;
 }
 
-static int malformed(struct results *r, int line, const char *what)
+static int malformed(struct reading *r, int line, const char *what)
 {
     message_add(r->messages, SEVERITY_ERROR, r->path, line, 1, "%s", what);
     return ROTID_ERROR_SYNTAX;
 }
 
 /* More of the file behind what the buffer holds. ROTID_OK, 1 at the end. */
-static int fill(struct results *r)
+static int fill(struct reading *r)
 {
     if (r->first && r->buffer) {
         memmove(r->buffer, r->buffer + r->first, r->count);
@@ -49,7 +264,7 @@ static int fill(struct results *r)
 }
 
 /* A whole line, with its line feed. ROTID_OK, 1 where there is none any more. */
-static int take_line(struct results *r, const char **text, size_t *length)
+static int take_line(struct reading *r, const char **text, size_t *length)
 {
     size_t looked = 0;
     for (;;) {
@@ -71,35 +286,33 @@ static int take_line(struct results *r, const char **text, size_t *length)
     }
 }
 
-int results_open(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *r)
+/* The first line. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else. */
+static int read_header(struct reading *r, struct pool *pool, struct results *results)
 {
     static const char expected[] = "this is no file of results of rotid study, expected one or a new name";
     struct stat information;
     const char *text;
     size_t length;
-    *r = (struct results){.descriptor = descriptor, .path = path, .messages = messages};
-    pool_open(&r->line, NULL);
-    if (fstat(descriptor, &information))
+    if (fstat(r->descriptor, &information))
         return cannot_read(r);
-    r->size = information.st_size;
-    if (!S_ISREG(information.st_mode) || (r->size && pread(descriptor, &(char){0}, 1, 0) != 1))
+    results->size = information.st_size;
+    if (!S_ISREG(information.st_mode) || (results->size && pread(r->descriptor, &(char){0}, 1, 0) != 1))
         return malformed(r, 1, expected);
     int status = take_line(r, &text, &length);
     if (status)
         return status > 0 ? malformed(r, 1, expected) : status;
     cJSON *json = json_text_too_dense(text, length) ? NULL : cJSON_ParseWithLength(text, length);
-    status = results_header_read(pool, json, &r->header);
+    status = results_header_read(pool, json, &results->header);
     cJSON_Delete(json);
     if (status)
         return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
-    stamp_study(&r->header, r->study);
-    r->there = POOL_ARRAY(pool, char, r->header.runs);
-    r->input = POOL_ARRAY(pool, uint64_t, r->header.runs);
-    return r->there && r->input ? ROTID_OK : ROTID_ERROR_MEMORY;
+    (void)header_shard(&results->header, &results->shard, &results->shards);
+    results->place = POOL_ARRAY(pool, struct result_place, results->header.runs);
+    return results->place ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* Nonzero after a message. */
-static int refuse_stamp(struct results *r, const struct result_line *line)
+static int refuse_stamp(struct reading *r, const char *study, const char *text, size_t length)
 {
     static const char *const texts[] = {
         [STAMP_NONE] =
@@ -112,24 +325,10 @@ static int refuse_stamp(struct results *r, const struct result_line *line)
             "this line is of another study than the first line of the file, expected lines of that one: without "
             "it the run is computed again",
     };
-    enum stamp_fault fault = stamp_check(r->study, line->text, line->length);
+    enum stamp_fault fault = stamp_check(study, text, length);
     if (fault)
         (void)malformed(r, r->number, texts[fault]);
     return fault != STAMP_GOOD;
-}
-
-static int refuse_twice(struct results *r, const struct result_line *line)
-{
-    uint64_t input = line->said->input ? digest_name(line->said->input) : 0;
-    int again = r->there[line->run] && r->input[line->run] != input; /* its deck was mended in between */
-    r->input[line->run] = input;
-    if (r->there[line->run] > 1 && !again) {
-        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1,
-                    "run %ld stands in a line above already, expected one line of each run that did not fail", line->run);
-        return ROTID_ERROR_SYNTAX;
-    }
-    r->there[line->run] = (char)(line->failed ? 1 : 2);
-    return ROTID_OK;
 }
 
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run)
@@ -152,51 +351,56 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
     return !reader.status ? NULL : messages.count ? messages.item[0].text : "";
 }
 
-int results_next(struct results *r, struct result_line *line)
+/* ROTID_OK with the next line, 1 behind the last whole one, ROTID_ERROR_SYNTAX where a line was changed, is of another study or
+ * of a run that stands there already, unless that had failed or its deck was mended in between: which of the two counts, or what
+ * the line said, nobody knows here. */
+static int read_run(struct reading *r, const char *study, struct results *results)
 {
-    struct study_run *said;
+    const char *text, *wrong;
+    struct study_run said;
+    struct result_place at = {.descriptor = r->descriptor, .offset = r->next};
     pool_close(&r->line);
     pool_open(&r->line, NULL);
-    *line = (struct result_line){.offset = r->next};
-    int status = take_line(r, &line->text, &line->length);
+    int status = take_line(r, &text, &at.length);
     if (status)
         return status;
-    if (refuse_stamp(r, line))
+    if (refuse_stamp(r, study, text, at.length))
         return ROTID_ERROR_SYNTAX;
-    line->said = said = POOL_NEW(&r->line, struct study_run);
-    const char *wrong = said ? results_line_read(&r->line, line->text, line->length, said) : "";
-    if (wrong)
+    if ((wrong = results_line_read(&r->line, text, at.length, &said)))
         return *wrong ? malformed(r, r->number, wrong) : ROTID_ERROR_MEMORY;
-    if (said->run >= r->header.runs || said->run % r->header.shards != r->header.shard - 1)
+    if (said.run >= results->header.runs || said.run % results->shards != results->shard - 1)
         return malformed(r, r->number,
                          "this line is of a run that the study, or this shard of it, does not have, expected one of its runs");
-    line->run = said->run;
-    line->failed = said->status == STUDY_FAILED;
-    return refuse_twice(r, line);
-}
-
-void results_close(struct results *r)
-{
-    pool_close(&r->line);
-    free(r->buffer);
-    r->buffer = NULL;
-}
-
-int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
-                  struct result_place **place, size_t *most)
-{
-    struct results results;
-    struct result_line line = {0};
-    int status = results_open(pool, descriptor, path, messages, &results);
-    *most = 0;
-    *header = results.header;
-    if (!status && !(*place = POOL_ARRAY(pool, struct result_place, header->runs)))
-        status = ROTID_ERROR_MEMORY;
-    while (!status && !(status = results_next(&results, &line))) {
-        (*place)[line.run] = (struct result_place){descriptor, line.failed, line.offset, line.length};
-        *most = line.length > *most ? line.length : *most;
+    struct result_place *place = &results->place[said.run];
+    at.failed = said.status == STUDY_FAILED;
+    at.input = said.input ? digest_name(said.input) : 0;
+    if (place->length && !place->failed && place->input == at.input) {
+        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1,
+                    "run %d stands in a line above already, expected one line of each run that did not fail", said.run);
+        return ROTID_ERROR_SYNTAX;
     }
-    results_close(&results);
+    *place = at;
+    results->most = at.length > results->most ? at.length : results->most;
+    results->in_order &= said.run > results->last;
+    results->last = said.run;
+    return ROTID_OK;
+}
+
+int results_read(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results)
+{
+    struct reading r = {.descriptor = descriptor, .path = path, .messages = messages};
+    char study[DIGEST_LETTERS + 1];
+    *results = (struct results){.last = -1, .in_order = 1};
+    pool_open(&r.line, NULL);
+    int status = read_header(&r, pool, results);
+    if (!status)
+        stamp_study(&results->header, study);
+    while (!status)
+        status = read_run(&r, study, results);
+    results->end = r.next;
+    results->lines = r.number;
+    pool_close(&r.line);
+    free(r.buffer);
     return status == 1 ? ROTID_OK : status;
 }
 
@@ -224,7 +428,7 @@ int results_fetch(struct result_place place, char *text)
     return ROTID_OK;
 }
 
-int results_write(const char *path, const struct header *header, const struct result_place *place, size_t most)
+int results_write(const char *path, const struct study_header *header, const struct result_place *place, size_t most)
 {
     char *first = header_text(header), *text = malloc(most + 1);
     struct output output;

@@ -1,604 +1,299 @@
+/* One run of a study: the experiment, the fit, the diagnosis or the critical speeds of it, and the line that says so. */
 #include "study/study.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "api/api.h"
 #include "base/base.h"
-#include "diagnose/causes/causes.h"
 #include "diagnose/diagnose.h"
-#include "modal/modal.h"
-#include "model/model.h"
 #include "result/result.h"
+#include "running/running.h"
 
-/* The output function of splitmix64 on state and key: a change of one bit changes half of the bits. */
-static uint64_t mix(uint64_t state, uint64_t key)
+#define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
+
+/* ---- the score: the verdict beside what was hidden */
+
+/* Where a mass is that stays in one place; NaN for other effects, and where an accelerometer moves. */
+static double place_of_mass(const struct rotor *rotor, const struct cause_kind *cause, const struct effect *effect)
 {
-    uint64_t z = state + 0x9E3779B97F4A7C15u + key;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
+    if (!strcmp(cause->id, "added_mass"))
+        return effect->value[cause->place];
+    if (!strcmp(cause->id, "accelerometer_mass") && effect->target >= 0 && effect->target < rotor->nsensor)
+        return rotor->sensor[effect->target].position;
+    return NAN;
 }
 
-/* a, b: what it is drawn for, such as the number of the mode and the id of the sensor. */
-static struct random_stream draw_stream(unsigned long seed, enum draw_purpose purpose, long long replicate, uint64_t a,
-                                        uint64_t b)
+/* Whether a candidate is the hidden cause by those rules. */
+static int score_is_hidden(const struct experiment *e, const struct diagnosis *d, const struct candidate *c)
 {
-    uint64_t state = mix(0, seed);
-    state = mix(state, (uint64_t)purpose);
-    state = mix(state, (uint64_t)replicate);
-    state = mix(state, a);
-    return (struct random_stream){mix(state, b)};
+    const struct truth *truth = e->made_by;
+    if (!truth->effect || c->state >= 0) /* it acts in all states */
+        return 0;
+    double mass = place_of_mass(&truth->job.rotor, truth->cause, truth->effect),
+           found = place_of_mass(&d->job.rotor, c->cause, &c->effect);
+    if (isfinite(mass) || isfinite(found))
+        return fabs(mass - found) <= PLACE_TOLERANCE * e->length;
+    if (c->cause != truth->cause)
+        return 0;
+    if (c->cause->target != TARGET_NONE && c->cause->target != TARGET_SENSOR && c->effect.target != truth->effect->target)
+        return 0;
+    if (c->cause->place < 0)
+        return 1;
+    double width = c->cause->width >= 0 ? truth->effect->value[c->cause->width] : 0;
+    return fabs(c->effect.value[c->cause->place] - truth->effect->value[c->cause->place]) <=
+           fmax(width, PLACE_TOLERANCE * e->length);
 }
 
-/* What happens to data on their way: faults of the measurement chain, noise, sensors that are not there. */
-
-static int is_fault(const struct truth *truth, const char *id)
+static int has_sensor(const rotid_data_finding *f, int id)
 {
-    return truth && truth->cause && !truth->effect && !strcmp(truth->cause->id, id);
-}
-
-/* A fault of the measurement chain put into shapes or, with behind nonzero, what has to wait until their noise is there. */
-static void experiment_fault(const struct truth *truth, int behind, struct job *job)
-{
-    if (!truth->cause || truth->effect || !job->measurement.shape || !truth->fault.nsensor)
-        return;
-    int a = sensor_find(job, truth->fault.sensor[0]),
-        b = truth->fault.nsensor > 1 ? sensor_find(job, truth->fault.sensor[1]) : -1;
-    for (int k = 0; k < job->measurement.nmode && a >= 0; k++) {
-        double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor, kept = shape[a];
-        if (is_fault(truth, "sensor_gain") && !behind) {
-            shape[a] *= truth->fault.value;
-        } else if (is_fault(truth, "sensor_sign") && !behind) {
-            shape[a] = -shape[a];
-        } else if (is_fault(truth, "sensor_swap") && !behind && b >= 0) {
-            shape[a] = shape[b];
-            shape[b] = kept;
-        } else if (is_fault(truth, "duplicate_channel") && behind && b >= 0) { /* it repeats the noise as well */
-            shape[a] = shape[b];
-        }
-    }
-}
-
-/* What noise_level hides: the factor on the noise that is stated. */
-static double factor(const struct truth *truth, const char *block)
-{
-    return is_fault(truth, "noise_level") && truth->fault.block && !strcmp(truth->fault.block, block) ? truth->fault.value : 1;
-}
-
-#define STATE_NOISE 1000003u /* more than modes have numbers */
-
-static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int s, int mode, int sensor)
-{
-    struct random_stream stream =
-        draw_stream(study->seed, purpose, replicate, (uint64_t)mode + STATE_NOISE * (uint64_t)s, (uint64_t)sensor);
-    return random_normal(&stream);
-}
-
-/* Measured data have a noise already, to which this one is added. */
-static double stated(int from_model, double std, double level)
-{
-    return from_model || !isfinite(std) ? level : hypot(std, level);
-}
-
-/* Adds noise to the data of state s, which has draws of its own, and states it. */
-static void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, int s,
-                             struct job *job)
-{
-    const struct plan_noise *noise = &study->plan->noise[point->cell.noise];
-    int from_model = truth != NULL, nsensor = job->rotor.nsensor;
-    if (noise->frequency > 0 || noise->shape > 0) /* frequencies at single sensors would contradict the rest */
-        job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
-    for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
-        double level = noise->frequency * factor(truth, "FREQUENCY");
-        job->measurement.frequency_hz[k] *=
-            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, s, job->measurement.number[k], 0);
-        job->measurement.frequency_std[k] = stated(from_model, job->measurement.frequency_std[k], noise->frequency);
-    }
-    for (int k = 0; k < job->measurement.nmode && job->measurement.shape && noise->shape > 0; k++) {
-        double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
-               *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor, largest = 0;
-        double level = noise->shape * factor(truth, "SHAPE");
-        for (int i = 0; i < nsensor; i++)
-            largest = isfinite(shape[i]) ? fmax(largest, fabs(shape[i])) : largest;
-        for (int i = 0; i < nsensor; i++) {
-            if (!isfinite(shape[i]))
-                continue;
-            shape[i] += level * largest *
-                        normal(study, DRAW_SHAPE, point->replicate, s, job->measurement.number[k], job->rotor.sensor[i].id);
-            std[i] = stated(from_model, std[i], noise->shape);
-        }
-    }
-    if (truth)
-        experiment_fault(truth, 1, job);
-}
-
-struct choice { /* a sensor with its lot */
-    double lot;
-    int sensor;
-};
-
-static int compare(const void *left, const void *right)
-{
-    const struct choice *a = left, *b = right;
-    return (a->lot > b->lot) - (a->lot < b->lot);
-}
-
-/* A sensor that an effect or the hidden fault is about stays. */
-static int must_stay(const struct job *job, const struct truth *truth, int s)
-{
-    for (int i = 0; i < job->rotor.neffect + job->unknowns.nsuspect; i++) {
-        const struct effect *effect =
-            i < job->rotor.neffect ? &job->rotor.effect[i] : &job->unknowns.suspect[i - job->rotor.neffect].effect;
-        const struct cause_kind *cause = catalogue_of(effect);
-        if (cause && cause->target == TARGET_SENSOR && effect->target == s)
-            return 1;
-    }
-    if (truth && truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target >= 0)
-        return truth->job.rotor.sensor[truth->effect->target].id == job->rotor.sensor[s].id;
-    for (int i = 0; truth && truth->cause && !truth->effect && i < truth->fault.nsensor; i++)
-        if (truth->fault.sensor[i] == job->rotor.sensor[s].id)
+    for (int i = 0; i < f->nsensors; i++)
+        if (f->sensors[i] == id)
             return 1;
     return 0;
 }
 
-/* keep [nsensor]: which stay. The lots of a replicate do not depend on how many are kept: fewer sensors are some of more. */
-static int choose(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
-                  const struct job *job, char *keep)
+static int finding_is_hidden(const struct experiment *e, const rotid_data_finding *f)
 {
-    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
-    int nsensor = job->rotor.nsensor;
-    struct choice *choice = POOL_ARRAY(pool, struct choice, nsensor);
-    if (!choice)
-        return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < nsensor; s++) {
-        struct random_stream stream =
-            draw_stream(study->seed, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0);
-        double lot = random_uniform(&stream);
-        choice[s] = (struct choice){must_stay(job, truth, s) ? lot - 1 : lot, s};
-        keep[s] = sensors->every && (s % sensors->every == 0 || choice[s].lot < 0);
-    }
-    if (sensors->keep) {
-        qsort(choice, (size_t)nsensor, sizeof *choice, compare);
-        for (int i = 0; i < sensors->keep && i < nsensor; i++)
-            keep[choice[i].sensor] = 1;
-    }
-    return ROTID_OK;
+    const struct truth *truth = e->made_by;
+    if (!truth->cause || truth->effect || strcmp(f->id, truth->cause->id) != 0)
+        return 0;
+    if (truth->fault.block)
+        return f->block && !strcmp(f->block, truth->fault.block);
+    for (int i = 0; i < truth->fault.nsensor; i++)
+        if (!has_sensor(f, truth->fault.sensor[i]) && (i == 0 || !strcmp(truth->cause->id, "sensor_swap")))
+            return 0;
+    return 1;
 }
 
-static void follow(struct effect *effect, const int *new_index)
+/* Faults of the data that were found and not hidden. */
+static int score_false_findings(const struct experiment *e, const struct diagnosis *d)
 {
-    const struct cause_kind *cause = catalogue_of(effect);
-    if (cause && cause->target == TARGET_SENSOR && effect->target >= 0)
-        effect->target = new_index[effect->target];
+    int count = 0;
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        count += !finding_is_hidden(e, &d->result.data_findings[i]);
+    return count;
 }
 
-static int own_effects(struct pool *pool, struct job *job, const int *new_index)
+static int is_in_set(const struct experiment *e, const struct diagnosis *d)
 {
-    struct effect *effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
-    struct suspect *suspect = POOL_ARRAY(pool, struct suspect, job->unknowns.nsuspect);
-    if (!effect || !suspect)
-        return ROTID_ERROR_MEMORY;
-    if (job->rotor.neffect)
-        memcpy(effect, job->rotor.effect, (size_t)job->rotor.neffect * sizeof *effect);
-    if (job->unknowns.nsuspect)
-        memcpy(suspect, job->unknowns.suspect, (size_t)job->unknowns.nsuspect * sizeof *suspect);
-    job->rotor.effect = effect;
-    job->unknowns.suspect = suspect;
-    for (int i = 0; i < job->rotor.neffect; i++)
-        follow(&effect[i], new_index);
-    for (int i = 0; i < job->unknowns.nsuspect; i++)
-        follow(&suspect[i].effect, new_index);
-    return ROTID_OK;
+    for (int i = 0; i < d->nalternative; i++)
+        if (score_is_hidden(e, d, &d->alternative[i]))
+            return 1;
+    return 0;
 }
 
-/* Rows of a matrix [n * nmode] that stay, in its place. */
-static void leave_rows(int n, int nmode, const char *keep, double *matrix)
+enum score score_make(const struct experiment *e, const struct diagnosis *d)
 {
-    ptrdiff_t next = 0;
-    for (int k = 0; k < nmode && matrix; k++)
-        for (int s = 0; s < n; s++)
-            if (keep[s])
-                matrix[next++] = matrix[s + (ptrdiff_t)k * n];
+    const struct truth *truth = e->made_by;
+    int wrong = 0, faults = score_false_findings(e, d), found = d->result.ndata_findings > faults;
+    if (!truth->cause)
+        return d->result.verdict.kind == ROTID_ADEQUATE && !d->ncause && !d->result.ndata_findings ? SCORE_QUIET
+                                                                                                   : SCORE_FALSE_ALARM;
+    for (int i = 0; i < d->ncause; i++)
+        wrong |= !score_is_hidden(e, d, &d->cause[i]);
+    if (wrong)
+        return SCORE_WRONG;
+    if (!truth->effect)
+        return found                                      ? SCORE_RIGHT
+               : faults                                   ? SCORE_WRONG
+               : d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT
+                                                          : SCORE_UNEXPLAINED;
+    if (d->ncause)
+        return SCORE_RIGHT;
+    if (d->result.verdict.kind == ROTID_AMBIGUOUS)
+        return is_in_set(e, d) ? SCORE_IN_SET : SCORE_OTHER_SET;
+    return d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
 }
 
-/* Leaves the sensors of this run. */
-static int experiment_sensors(struct pool *pool, const struct study *study, const struct study_point *point,
-                              const struct truth *truth, struct job *job)
-{
-    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
-    int n = job->rotor.nsensor, left = 0;
-    if (!n || !(sensors->keep || sensors->every))
-        return ROTID_OK;
-    char *keep = POOL_ARRAY(pool, char, n);
-    int *new_index = POOL_ARRAY(pool, int, n);
-    int status = keep && new_index ? choose(pool, study, point, truth, job, keep) : ROTID_ERROR_MEMORY;
-    for (int s = 0; s < n && !status; s++)
-        new_index[s] = keep[s] ? left++ : -1;
-    if (!status)
-        status = own_effects(pool, job, new_index);
-    if (status)
-        return status;
-    /* noise is relative to the largest component, which may be one of those that go: it stays what it is in absolute terms */
-    if (job->measurement.shape)
-        shapes_scale(job);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape_std);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_hz);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_std);
-    for (int s = 0; s < n; s++)
-        if (keep[s])
-            job->rotor.sensor[new_index[s]] = job->rotor.sensor[s];
-    job->rotor.nsensor = left;
-    if (job->measurement.shape)
-        shapes_rescale(job);
-    if (sensor_find(job, job->measurement.hammer) < 0)
-        job->measurement.hammer = 0;
-    job->measurement.ncorrection = 0; /* they are in the data already, and what the deck read is of all sensors */
-    job->measurement.raw = NULL;
-    return ROTID_OK;
-}
+/* ---- the line */
 
-/* Data that a model makes: its parameters and the hidden effect drawn, its modes at the sensors. */
-
-#define FINER 4 /* cuts of each element: leaves a sixteenth of the error of the mesh */
-
-static double draw(const struct study *study, enum draw_purpose purpose, long replicate, const char *name, double lower,
-                   double upper)
-{
-    struct random_stream stream = draw_stream(study->seed, purpose, replicate, digest_name(name), 0);
-    double along = random_uniform(&stream);
-    return upper > lower ? lower + along * (upper - lower) : lower;
-}
-
-static void set_parameter(struct rotor *rotor, struct parameter parameter, double value)
-{
-    if (parameter.kind == PARAMETER_G)
-        rotor->group[parameter.index].material.isotropic = 0;
-    *parameter_value(rotor, parameter) = value;
-}
-
-static void set(struct rotor *rotor, const char *names, double value)
-{
-    char name[PARAMETER_NAME];
-    for (const char *next = names; next;) {
-        struct parameter parameter;
-        const char *unit;
-        next = parameter_next_name(next, name);
-        if (!parameter_find(rotor, name, &parameter, &unit))
-            set_parameter(rotor, parameter, value);
-    }
-}
-
-/* Every value is set in every run: the truth keeps nothing of the run before. */
-static void draw_values(const struct study *study, long replicate, struct truth *truth)
-{
-    const struct plan *plan = study->plan;
-    struct job *job = &truth->job;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        set_parameter(&job->rotor, job->unknowns.parameter[p], job->unknowns.bounds[p].start);
-    for (int t = 0; t < plan->ntruth; t++)
-        set(&job->rotor, plan->truth[t].name,
-            draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
-    const struct effect_parameter_name *parameter;
-    for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
-        double value = draw(study, DRAW_HIDDEN, replicate, parameter->name, truth->lower[p], truth->upper[p]);
-        if (truth->effect)
-            truth->effect->value[p] = value;
-        else
-            *correction_value(&truth->fault, p) = value;
-    }
-}
-
-/* Where the sensors really are. Own arrays: a correction changes the order of the sensors and what refers to them. */
-static int place_sensors(struct pool *pool, const struct truth *truth, struct job *job)
-{
-    *job = truth->job;
-    job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
-        job->measurement.point_frequency_std = NULL;
-    if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
-        return ROTID_OK;
-    job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
-    job->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
-    if (!job->rotor.sensor || !job->rotor.effect)
-        return ROTID_ERROR_MEMORY;
-    memcpy(job->rotor.sensor, truth->job.rotor.sensor, (size_t)job->rotor.nsensor * sizeof *job->rotor.sensor);
-    if (job->rotor.neffect)
-        memcpy(job->rotor.effect, truth->job.rotor.effect, (size_t)job->rotor.neffect * sizeof *job->rotor.effect);
-    job->unknowns.nsuspect = 0;
-    return correction_apply(pool, job, &truth->fault);
-}
-
-struct modes { /* elastic ones of a model at the sensors of its rotor */
-    int count, nsensor;
-    double *hz, *shape; /* [count], [nsensor * count] */
+struct line {
+    const struct study *study;
+    long run;
+    struct study_point point;
+    double begin; /* on the clock */
 };
 
-static int modes_room(struct pool *pool, int count, int nsensor, struct modes *modes)
+/* What was fitted and, of *RUNNING, computed from it. */
+struct fitted {
+    const struct states *states;  /* with the unknowns of the machine where its run-up was fitted */
+    struct identification *found; /* [states] */
+    rotid_fit_result *fit;        /* of all */
+    rotid_speeds *speeds, *truth; /* NULL without; truth: of the model that made the data */
+};
+
+/* Which run it is. */
+static struct study_run begin(const struct line *line)
 {
-    *modes =
-        (struct modes){count, nsensor, POOL_ARRAY(pool, double, count), POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)count)};
-    return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
+    const struct plan *plan = line->study->plan;
+    const struct study_cell *cell = &line->point.cell;
+    const struct plan_noise *noise = &plan->noise[cell->noise];
+    return (struct study_run){
+        .run = (int)line->run,
+        .cell = {.deck = plan->deck[cell->deck].name,
+                 .variant = plan->variant[cell->variant].name,
+                 .modes = plan->modes[cell->modes].text,
+                 .sensors = plan->sensors[cell->sensors].text,
+                 .noise_frequency = plan->has_noise ? noise->frequency : NAN,
+                 .noise_shape = plan->has_noise ? noise->shape : NAN,
+                 .hide = plan->hide[cell->hide].name},
+        .replicate = (int)line->point.replicate,
+        .start = (int)line->point.start,
+        .sensors = ROTID_NONE,
+        .score = ROTID_NONE,
+        .false_findings = ROTID_NONE,
+        .input = plan->path ? NULL : line->study->deck[cell->deck].digest,
+    };
 }
 
-/* Of the full model, discretised as `models` are. refine: cuts of each element. */
-static int solve(struct models *models, const struct rotor *rotor, int refine, struct modes *modes)
+/* The pool, on which parts of the run hang, is closed. whole 0: memory was out. seconds stand last, before the stamp: so two
+ * lines can be compared without them. */
+static char *end(struct pool *pool, struct study_run *run, int whole, double seconds)
 {
-    const double none = 0;
-    struct pool scratch;
-    struct prediction p;
-    int failed, status = ROTID_ERROR_MEMORY;
-    pool_open(&scratch, NULL);
-    struct rotor_model *model = POOL_NEW(&scratch, struct rotor_model);
-    if (model)
-        status = model_open(&scratch, models, rotor, 0, NULL, refine, model, &failed);
-    if (!status && model->equations.nrigid + modes->count > model->equations.n)
-        status = ROTID_ERROR_ARGUMENT;
-    if (!status)
-        status = prediction_new(&scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON,
-                                model->equations.nrigid + modes->count, 0, &p);
-    if (!status)
-        status = prediction_compute(&p, &none);
-    for (int k = 0; k < modes->count && !status; k++) {
-        modes->hz[k] = prediction_hz(&p, model->equations.nrigid + k);
-        for (int s = 0; s < modes->nsensor; s++)
-            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, model->equations.nrigid + k, s);
+    struct json_tree tree;
+    run->seconds = round(seconds * 1e6) / 1e6;
+    json_open(&tree);
+    record_write(&tree, tree.root, &study_run_record, run);
+    tree.failed |= !whole;
+    pool_close(pool);
+    return json_close_line(&tree);
+}
+
+static char *line_failed(const struct line *line, const char *error, double seconds)
+{
+    struct pool pool;
+    struct study_run run = begin(line);
+    pool_open(&pool, NULL);
+    run.status = STUDY_FAILED;
+    run.error = error;
+    return end(&pool, &run, 1, seconds);
+}
+
+/* What acts in the data and not in the fitted model, with the values drawn for it. */
+static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
+{
+    const struct effect_parameter_name *parameter;
+    struct run_hidden *out = POOL_NEW(pool, struct run_hidden);
+    struct correction fault = truth->fault;
+    int n = 0;
+    while (truth_parameter(truth, n))
+        n++;
+    if (!out || !(out->parameters = POOL_ARRAY(pool, struct run_value, n)))
+        return NULL;
+    out->id = truth->cause->id;
+    for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
+        out->parameters[out->nparameters++] = (struct run_value){
+            parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
+    return out;
+}
+
+/* What a parameter of the fitted model is in truth: one of the experiment, or, in an extended model, one of the hidden effect
+ * where that was named; NaN where that is not known. d: NULL of an identification. */
+static double truth_of(const struct experiment *experiment, const struct diagnosis *d, const char *name)
+{
+    const struct truth *truth = experiment->made_by;
+    const char *dot = strrchr(name, '.');
+    for (int p = 0; p < experiment->states.nparameter; p++)
+        if (same_text(name, experiment->states.bounds[p].name))
+            return experiment->truth[p];
+    for (int i = 0; d && i < d->ncause && dot; i++) {
+        const struct candidate *c = &d->cause[i];
+        size_t length = strlen(c->effect.name);
+        if (c->cause != truth->cause || c->effect.variant != truth->effect->variant || !score_is_hidden(experiment, d, c) ||
+            (size_t)(dot - name) != length || strncmp(name, c->effect.name, length) != 0)
+            continue;
+        for (int p = 0; truth_parameter(truth, p); p++)
+            if (same_text(dot + 1, truth_parameter(truth, p)->name))
+                return truth->effect->value[p];
     }
-    pool_close(&scratch);
-    return status;
+    return NAN;
 }
 
-/* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
- * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
-static int solve_moving(struct pool *pool, struct models *models, const struct rotor *rotor, int refine, int effect,
-                        struct modes *modes)
+/* What was fitted, as `identify` and `diagnose` have it, and what made the data. 0: memory is out. */
+static int add_fit(struct pool *pool, const struct experiment *experiment, const struct diagnosis *d, const struct states *states,
+                   rotid_identification *fit, const struct message_list *notes, struct study_run *run)
 {
-    int n = modes->nsensor, status;
-    struct rotor with = *rotor;
-    struct modes bare, loaded;
-    with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
-    status = with.effect ? modes_room(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = modes_room(pool, modes->count, n, &loaded);
-    if (status)
-        return status;
-    memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
-    with.effect[effect].variant = 1; /* FIXED */
-    with.effect[effect].target = -1; /* nowhere */
-    status = solve(models, &with, refine, &bare);
-    for (int k = 0; k < modes->count; k++)
-        modes->hz[k] = 0;
-    for (int s = 0; s < n && !status; s++) {
-        with.effect[effect].target = s;
-        status = solve(models, &with, refine, &loaded);
-        for (int k = 0; k < modes->count && !status; k++) {
-            const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
-            double across = 0, square = 0;
-            for (int i = 0; i < n; i++) {
-                across += a[i] * b[i];
-                square += a[i] * a[i];
-            }
-            modes->shape[s + (ptrdiff_t)k * n] = across / square * a[s];
-            modes->hz[k] += loaded.hz[k] / n;
-        }
+    const struct truth *made_by = experiment->made_by;
+    if (!fit)
+        return 0;
+    run->fit = fit;
+    run->status = !strcmp(fit->status, "not_converged") ? STUDY_NOT_CONVERGED
+                  : !strcmp(fit->status, "at_bound")    ? STUDY_AT_BOUND
+                                                        : STUDY_CONVERGED;
+    run->sensors = 0;
+    for (int s = 0; s < states->nstate; s++)
+        run->sensors += states->state[s].job.rotor.nsensor;
+    if (made_by && !POOL_LIST(pool, run->truth, fit->nparameters) && fit->nparameters)
+        return 0;
+    for (int p = 0; p < fit->nparameters && made_by; p++) {
+        double truth = truth_of(experiment, d, fit->parameters[p].name);
+        if (isfinite(truth))
+            run->truth[run->ntruth++] = (rotid_component){fit->parameters[p].name, truth};
     }
-    return status;
+    if (made_by && made_by->cause && !(run->hidden = hidden(pool, made_by)))
+        return 0;
+    run->warnings = message_warnings(notes, pool, &run->nwarnings);
+    return run->warnings && !pool->out_of_memory;
 }
 
-static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
+/* What the machine is in truth beside the values of the parameters. */
+static int add_speeds(struct pool *pool, const struct fitted *fitted, struct study_run *run)
 {
-    const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
-    double largest = 0;
-    job->measurement.frequency_hz[k] = modes->hz[job->measurement.number[k] - 1];
-    if (!job->measurement.shape)
-        return;
-    double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
-    for (int s = 0; s < modes->nsensor; s++)
-        largest = fmax(largest, fabs(made[s]));
-    for (int s = 0; s < job->rotor.nsensor; s++) {
-        int there = 0;
-        while (there < modes->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
-            there++;
-        if (isfinite(shape[s]))
-            shape[s] = there < modes->nsensor && largest > 0 ? made[there] / largest : NAN;
+    run->speeds = fitted->speeds;
+    if (!fitted->truth || !run->truth)
+        return 1;
+    const struct study_run truth = {.speeds = fitted->truth};
+    int count;
+    const rotid_fitted_parameter *value = study_run_values(pool, &truth, &count);
+    rotid_component *all = POOL_ARRAY(pool, rotid_component, run->ntruth + count);
+    if (!value || !all)
+        return 0;
+    memcpy(all, run->truth, (size_t)run->ntruth * sizeof *all);
+    for (int i = 0; i < count; i++)
+        all[run->ntruth++] = (rotid_component){value[i].name, value[i].value};
+    run->truth = all;
+    return 1;
+}
+
+static char *line_identified(const struct line *line, const struct experiment *experiment, const struct fitted *fitted,
+                             const struct message_list *notes)
+{
+    const struct states *states = fitted->states;
+    struct pool pool;
+    struct study_run run = begin(line);
+    pool_open(&pool, NULL);
+    rotid_identification *said = states->nstate > 1
+                                     ? result_identification_states(&pool, states, fitted->found, fitted->fit)
+                                     : result_identification(&pool, &states->state->job, states->bounds, fitted->found);
+    int whole = add_fit(&pool, experiment, NULL, states, said, notes, &run) && add_speeds(&pool, fitted, &run);
+    if (whole && !(line->study->plan->spread > 0)) /* the way from each start is what such a plan is about */
+        said->history = NULL;
+    if (whole && !line->study->plan->baseline)
+        said->baseline = NULL;
+    return end(&pool, &run, whole, clock_seconds() - line->begin);
+}
+
+static char *line_diagnosed(const struct line *line, const struct experiment *experiment, struct diagnosis *d,
+                            const struct message_list *notes)
+{
+    const struct states *final = d->extended.fit ? &d->extended_states : &d->judged;
+    struct pool pool;
+    struct study_run run = begin(line);
+    pool_open(&pool, NULL);
+    run.diagnosis = result_diagnosis(&pool, d->given.nstate ? &d->given : &experiment->states, d);
+    rotid_identification *fit = run.diagnosis->extended ? run.diagnosis->extended : run.diagnosis->base;
+    int whole = add_fit(&pool, experiment, d, final, fit, notes, &run);
+    if (whole) {
+        fit->history = NULL;
+        fit->baseline = NULL;
+        run.score = experiment->made_by ? (int)score_make(experiment, d) : ROTID_NONE;
+        run.false_findings = experiment->made_by ? score_false_findings(experiment, d) : ROTID_NONE;
     }
+    return end(&pool, &run, whole, clock_seconds() - line->begin);
 }
 
-/* The data of the job, which have their own arrays, become those of the model with the values drawn for a replicate, without
- * noise; shapes relative to their largest component. Values end in *truth. */
-static int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
-                            struct message_list *messages, struct job *job)
-{
-    struct modes modes;
-    struct job source;
-    int highest = 0;
-    draw_values(study, replicate, truth);
-    int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
-    if (status == ROTID_ERROR_ARGUMENT)
-        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
-    for (int k = 0; k < job->measurement.nmode; k++)
-        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
-    if (!status)
-        status = modes_room(pool, highest, source.rotor.nsensor, &modes);
-    /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
-    int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
-    int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
-    if (!status)
-        status = moving ? solve_moving(pool, source.models, &source.rotor, refine, last, &modes)
-                        : solve(source.models, &source.rotor, refine, &modes);
-    for (int k = 0; k < job->measurement.nmode && !status; k++)
-        take_mode(&source.rotor, &modes, k, job);
-    /* what else was measured is not that of this model */
-    job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
-    job->measurement.hammer = job->measurement.ncorrection = 0;
-    job->measurement.raw = NULL;
-    job->measurement.has_noise_floor = 0;
-    if (!status)
-        experiment_fault(truth, 0, job);
-    return status;
-}
-
-/* The value of a parameter of the model that made the data, of a shared one the first; NaN where it has none of that name. */
-static double true_value(struct rotor *rotor, const char *names)
-{
-    struct parameter parameter;
-    const char *unit;
-    char name[PARAMETER_NAME];
-    (void)parameter_next_name(names, name);
-    if (parameter_find(rotor, name, &parameter, &unit))
-        return NAN;
-    const struct material *material = parameter.kind == PARAMETER_G ? &rotor->group[parameter.index].material : NULL;
-    return material ? material_shear_modulus(material) : *parameter_value(rotor, parameter);
-}
-
-/* Room for shapes where the deck has sensors and the plan a noise of shapes. */
-static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct job *job)
-{
-    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
-    if (job->measurement.shape || !job->rotor.nsensor || isnan(noise->shape))
-        return ROTID_OK;
-    job->measurement.shape = POOL_ARRAY(pool, double, components); /* zeros: measured, and to be filled in */
-    job->measurement.shape_std = POOL_ARRAY(pool, double, components);
-    if (!job->measurement.shape || !job->measurement.shape_std)
-        return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < components; i++)
-        job->measurement.shape_std[i] = NAN;
-    return ROTID_OK;
-}
-
-/* The data belong to this run from now on. */
-static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
-{
-    int status = data_copy(pool, job);
-    if (!status && plan->no_shapes) {
-        job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
-            job->measurement.point_frequency_std = NULL;
-        job->measurement.ncorrection = 0;
-        job->measurement.raw = NULL;
-    }
-    return status;
-}
-
-/* States and unknowns of this run alone. */
-static int own_states(struct pool *pool, const struct plan *plan, const struct states *fitted, struct states *out)
-{
-    int status = ROTID_OK;
-    *out = *fitted;
-    out->state = POOL_ARRAY(pool, struct state, fitted->nstate);
-    out->bounds = POOL_ARRAY(pool, rotid_parameter, fitted->nparameter);
-    if (!out->state || !out->bounds)
-        return ROTID_ERROR_MEMORY;
-    if (fitted->nparameter)
-        memcpy(out->bounds, fitted->bounds, (size_t)fitted->nparameter * sizeof *out->bounds);
-    for (int s = 0; s < fitted->nstate && !status; s++) {
-        struct job *job = &out->state[s].job;
-        out->state[s] = fitted->state[s];
-        status = own_data(pool, plan, job);
-        rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
-        if (!bounds)
-            return ROTID_ERROR_MEMORY;
-        if (job->unknowns.nparameter)
-            memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
-        job->unknowns.bounds = bounds;
-    }
-    return status;
-}
-
-static void repeat(const struct message_list *from, struct message_list *to)
-{
-    for (size_t i = 0; i < from->count; i++) {
-        const rotid_message *m = &from->item[i];
-        message_add(to, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
-    }
-}
-
-static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
-                      struct experiment *out)
-{
-    const struct plan *plan = jobs->study->plan;
-    struct truth *truth;
-    int status = jobs_truth(jobs, &point->cell, &truth);
-    if (status) {
-        repeat(&jobs->truth_messages, messages);
-        return status;
-    }
-    out->made_by = truth;
-    out->truth = POOL_ARRAY(pool, double, out->states.nparameter);
-    if (!out->truth)
-        return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < out->states.nstate && !status; s++) {
-        const struct state *state = &out->states.state[s];
-        struct job *job = &out->states.state[s].job;
-        if (!plan->no_shapes)
-            status = add_shapes(pool, &plan->noise[point->cell.noise], job);
-        if (!status)
-            status = experiment_model(pool, jobs->study, point->replicate, &truth[s], messages, job);
-        for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
-            const char *name = job->unknowns.bounds[p].name;
-            size_t length = state->name ? strlen(state->name) : 0;
-            int own = p >= state->ncommon && length && !strncmp(name, state->name, length) && name[length] == ':';
-            out->truth[state->unknown[p]] = true_value(&truth[s].job.rotor, own ? name + length + 1 : name);
-        }
-    }
-    return status;
-}
-
-/* The start of this run; bounds are the job's own. */
-static void experiment_starts(const struct study *study, const struct study_point *point, struct states *states)
-{
-    const struct plan *plan = study->plan;
-    long digits = point->start;
-    for (int p = 0; p < states->nparameter && plan->spread > 0; p++) {
-        rotid_parameter *bounds = &states->bounds[p];
-        double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
-        double lower = fmax(bounds->start - reach, bounds->lower + inside),
-               upper = fmin(bounds->start + reach, bounds->upper - inside);
-        double along;
-        if (plan->grid) {
-            along = (double)(digits % plan->grid) / (plan->grid - 1);
-            digits /= plan->grid;
-        } else {
-            struct random_stream stream =
-                draw_stream(study->seed, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
-            along = random_uniform(&stream);
-        }
-        double start = lower + along * (upper - lower);
-        bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */
-    }
-}
-
-int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
-                    struct experiment *out)
-{
-    const struct study *study = jobs->study;
-    const struct states *fitted;
-    *out = (struct experiment){0};
-    int status = jobs_fitted(jobs, &point->cell, &fitted);
-    if (status) {
-        repeat(&jobs->fitted_messages, messages);
-        return status;
-    }
-    status = own_states(pool, study->plan, fitted, &out->states);
-    if (!status && study->plan->from_model)
-        status = from_model(pool, jobs, point, messages, out);
-    if (status)
-        return status;
-    out->job = &out->states.state[0].job;
-    out->length = rotor_length(&out->job->rotor);
-    for (int s = 0; s < out->states.nstate && !status; s++) {
-        const struct truth *truth = out->made_by ? &out->made_by[s] : NULL;
-        experiment_noise(study, point, truth, s, &out->states.state[s].job);
-        status = experiment_sensors(pool, study, point, truth, &out->states.state[s].job);
-    }
-    if (status)
-        return status;
-    experiment_starts(study, point, &out->states);
-    for (int s = 0; s < out->states.nstate; s++)
-        for (int p = 0; p < out->states.state[s].job.unknowns.nparameter; p++)
-            out->states.state[s].job.unknowns.bounds[p].start = out->states.bounds[out->states.state[s].unknown[p]].start;
-    return ROTID_OK;
-}
+/* ---- the run */
 
 static int is_cancelled(const rotid_environment *environment)
 {

@@ -3,6 +3,69 @@
 #include <stdio.h>
 #include <string.h>
 
+/* ---- what tells whether a deck has changed */
+
+static void digest_doubles(struct digest *digest, size_t count, const double *value)
+{
+    for (size_t i = 0; i < count; i++) {
+        long long bits = -1; /* one NaN is like another */
+        if (value[i] == value[i])
+            memcpy(&bits, &value[i], sizeof bits);
+        digest_integer(digest, bits);
+    }
+}
+
+/* Names, options and data lines of the cards. */
+static void digest_cards(struct digest *digest, const struct deck_text *text)
+{
+    digest_integer(digest, text->ncard);
+    for (int c = 0; c < text->ncard; c++) {
+        const struct card *card = &text->card[c];
+        digest_text(digest, card->name);
+        digest_integer(digest, card->noption);
+        for (int i = 0; i < card->noption; i++) {
+            digest_text(digest, card->option[i].name);
+            digest_text(digest, card->option[i].value);
+        }
+        digest_integer(digest, card->nline);
+        for (int i = 0; i < card->nline; i++) {
+            digest_integer(digest, card->line[i].count);
+            for (int f = 0; f < card->line[i].count; f++)
+                digest_text(digest, card->line[i].field[f].text);
+        }
+    }
+}
+
+/* What was measured, as the deck and its files say it. */
+static void digest_measured(struct digest *digest, const struct job *job)
+{
+    size_t nmode = (size_t)job->measurement.nmode, components = nmode * (size_t)job->rotor.nsensor;
+    digest_integer(digest, job->measurement.nmode);
+    digest_integer(digest, job->rotor.nsensor);
+    for (int k = 0; k < job->measurement.nmode; k++)
+        digest_integer(digest, job->measurement.number[k]);
+    for (int s = 0; s < job->rotor.nsensor; s++) {
+        digest_integer(digest, job->rotor.sensor[s].id);
+        digest_doubles(digest, 1, &job->rotor.sensor[s].position);
+    }
+    digest_doubles(digest, nmode, job->measurement.frequency_hz);
+    digest_doubles(digest, nmode, job->measurement.frequency_std);
+    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape);
+    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape_std);
+    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_hz);
+    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_std);
+    digest_integer(digest, job->measurement.hammer);
+}
+
+/* ---- the decks */
+
+/* What the decks of a plan are before the first run: which can be read, how many parameters they have, what they mean. */
+
+struct check {
+    int *nparameter; /* [nvariant * ndeck] */
+    struct digest decks, data;
+};
+
 struct checker {
     struct pool *pool, scratch; /* scratch: of one deck */
     struct study *study;

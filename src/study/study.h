@@ -4,17 +4,17 @@
 /* study: many identifications or diagnoses from one plan (docs/study.md); each run gives one line of a file of results.
  *
  * Comes in: a plan file, or decks. Goes out: a file of results (JSON, one line a run, after a header line), its summary. Steps:
- *   plan.c, plan_cards.c, plan_hide.c  plan_read: cards to axes: decks, variants, modes, sensors, noise, hidden effects
+ *   plan.c            plan_read: cards to axes: decks, variants, modes, sensors, noise, hidden effects
  *   study.c           study_open: every deck read in every variant, runs counted; study_locate: run i to its place on the axes
  *   jobs.c            jobs_fitted, jobs_truth: the deck that is fitted, the deck that makes the data; kept between runs
- *   run.c             experiment_make: data of the truth at drawn parameters (SOURCE=MODEL), or as measured; noise, sensors and
+ *   experiment.c      experiment_make: data of the truth at drawn parameters (SOURCE=MODEL), or as measured; noise, sensors and
  *                     starts drawn by name (draw_stream: seed, purpose, replicate, mode, sensor), so order and machine do not
- *                     matter; study_run: identify_states_bare or diagnose_states on that, one thread
- *   line.c            a run as JSON; score_make: the verdict beside the hidden effect
+ *                     matter
+ *   run.c             study_run: identify_states_bare or diagnose_states on that, one thread; the line of it as JSON;
+ *                     score_make: the verdict beside the hidden effect
  *   record.c          record_open, record_append: the file while it grows, locked; record_finish: lines in order of the runs
- *   worker.c, workers.c  workers_run: processes of this machine, a run each; a process that dies costs its run
- *   header.c, stamp.c, digest.c  the header; a line knows its study and its own digest
- *   results.c         results_next, results_index: reading with every line checked
+ *   workers.c         workers_run: processes of this machine, a run each; a process that dies costs its run
+ *   results.c         the header; a line knows its study and its own digest; results_read: every line checked
  *   merge.c, summary.c, summary_table.c  shards into one file; of each cell bias, scatter, coverage of the intervals
  *
  * Callers: src/cli/command_study.c, src/mpi (hands out runs over MPI), src/page (summary of a file). study_run knows nothing of
@@ -47,15 +47,10 @@ struct digest {
 };
 
 void digest_open(struct digest *digest);
-void digest_bytes(struct digest *digest, size_t count, const void *bytes);
 /* Numbers by their bits. */
 void digest_integer(struct digest *digest, long long value);
-/* Includes the terminating zero, so that "a", "bc" is not "ab", "c". NULL is not "". */
+/* With its length, so that "a", "bc" is not "ab", "c". NULL is not "". */
 void digest_text(struct digest *digest, const char *text);
-/* Names, options and data lines of the cards. */
-void digest_cards(struct digest *digest, const struct deck_text *text);
-/* What was measured, as the deck and its files say it. */
-void digest_measured(struct digest *digest, const struct job *job);
 /* Hexadecimal, with an end. */
 void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1]);
 
@@ -191,19 +186,6 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
 /* 0 <= run < study->runs. Inside a cell the starts follow each other, then the replicates. */
 struct study_point study_locate(const struct study *study, long run);
 
-/* What the decks of a plan are before the first run: which can be read, how many parameters they have, what they mean. */
-
-struct check {
-    int *nparameter; /* [nvariant * ndeck] */
-    struct digest decks, data;
-};
-
-/* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
- * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
- * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */
-
-enum draw_purpose { DRAW_TRUTH = 1, DRAW_HIDDEN, DRAW_SENSOR, DRAW_FREQUENCY, DRAW_SHAPE, DRAW_START };
-
 /* ------------------------------------------------------------------------------------------------------------------ jobs */
 
 /* The jobs behind a run: the deck as it is to be fitted, and the deck that makes the data. */
@@ -267,58 +249,36 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
 
 /* ---------------------------------------------------------------------------------------------------------------- header */
 
-/* The first line of a file of results: which study it is of. */
+/* The first line of a file of results: which study it is of. Lines of the study carry a stamp of it. */
 
-struct header {
-    const char *version, *commit; /* of the program that computed the runs */
-    const char *plan;             /* path as given, NULL where decks were named */
-    const char *studies;          /* "identify", "diagnose" */
-    const char *plan_digest, *decks_digest, *data_digest, *options_digest;
-    unsigned long seed;
-    long runs;         /* of the whole study */
-    int shard, shards; /* runs with run % shards == shard - 1; 1 of 1: all */
-    const char *const
-        *input; /* [runs] digests of decks of which each may change, whose run is computed again then; NULL: none may */
-};
+/* Leans on the study; its shard, 1 of 1: all, is a text on the pool. */
+struct study_header header_of(struct pool *pool, const struct study *study, const char *version, const char *commit, int shard,
+                              int shards);
 
-struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards);
+/* The shard that the file is of: runs with run % shards == shard - 1; 1 of 1: all. 0 where its text is none. */
+int header_shard(const struct study_header *header, int *shard, int *shards);
 
 /* With the line feed at its end, to be freed with json_free; NULL where memory is out. */
-char *header_text(const struct header *header);
+char *header_text(const struct study_header *header);
 
 /* Texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is no header of results, ROTID_ERROR_MEMORY. */
-int results_header_read(struct pool *pool, const cJSON *object, struct header *header);
+int results_header_read(struct pool *pool, const cJSON *object, struct study_header *header);
 
 /* What differs in "the file ..., here ...", such as "the plan has changed"; NULL where they are of one study. The shard does not
- * count. ROTID_OK or ROTID_ERROR_MEMORY. */
-int header_difference(struct pool *pool, const struct header *file, const struct header *here, const char **text);
+ * count, nor do decks and data with other_decks. ROTID_OK or ROTID_ERROR_MEMORY. */
+int header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here, int other_decks,
+                      const char **text);
 
-/* ------------------------------------------------------------------------------------------------------------------ line */
+/* What a line of results carries so that it can be told from a line that was changed or belongs elsewhere: which study it is of,
+ * and a digest of everything before. One byte that is changed always changes the digest, more of them but once in 2^64. Against
+ * accidents: whoever wants to forge a line can compute its digest. */
 
-/* The text of one line of the file of results. */
+/* Of version and commit of the program, plan, decks, data, options, seed and number of runs: of all that the runs depend on. In a
+ * study of decks each line carries the digest of its deck with the data, and that of the study knows nothing of them. */
+void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 1]);
 
-struct line {
-    const struct study *study;
-    long run;
-    struct study_point point;
-    double begin; /* on the clock */
-};
-
-/* What was fitted and, of *RUNNING, computed from it. */
-struct fitted {
-    const struct states *states;  /* with the unknowns of the machine where its run-up was fitted */
-    struct identification *found; /* [states] */
-    rotid_fit_result *fit;        /* of all */
-    rotid_speeds *speeds, *truth; /* NULL without; truth: of the model that made the data */
-};
-
-/* Each with the line feed at its end, to be freed with json_free; NULL where
- * memory is out. */
-char *line_identified(const struct line *line, const struct experiment *experiment, const struct fitted *fitted,
-                      const struct message_list *notes);
-char *line_diagnosed(const struct line *line, const struct experiment *experiment, struct diagnosis *result,
-                     const struct message_list *notes);
-char *line_failed(const struct line *line, const char *error, double seconds);
+/* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
+char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line);
 
 /* ----------------------------------------------------------------------------------------------------------------- merge */
 
@@ -337,28 +297,6 @@ struct merge {
 int merge_results(struct pool *pool, int count, char *const *part, const char *path, struct message_list *messages,
                   struct merge *merge);
 
-/* ------------------------------------------------------------------------------------------------------------ plan cards */
-
-/* The readers of the cards of a plan, by file. */
-
-struct plan_reader {
-    struct deck_reader fields; /* pool, messages and end of memory, for the readers of single fields */
-    struct plan *plan;
-    size_t deck_room, variant_room, modes_room, sensors_room, noise_room, hide_room, truth_room;
-    const struct card *study_card, *data_card, *starts_card, *truth_card, *hide_card;
-};
-
-void plan_study(struct plan_reader *reader, const struct card *card);
-void plan_decks(struct plan_reader *reader, const struct card *card);
-void plan_variant(struct plan_reader *reader, const struct card *card);
-void plan_modes(struct plan_reader *reader, const struct card *card);
-void plan_sensors(struct plan_reader *reader, const struct card *card);
-void plan_data(struct plan_reader *reader, const struct card *card);
-void plan_truth(struct plan_reader *reader, const struct card *card);
-void plan_noise(struct plan_reader *reader, const struct card *card);
-void plan_starts(struct plan_reader *reader, const struct card *card);
-void plan_hide(struct plan_reader *reader, const struct card *card);
-
 /* ---------------------------------------------------------------------------------------------------------------- record */
 
 /* The file of results while a study writes it. Each line goes to its end with one write, so that whatever ends the program leaves
@@ -369,7 +307,10 @@ enum record_state { RUN_MISSING, RUN_DONE, RUN_FAILED };
 struct study_record {
     int descriptor;
     char *path; /* without symbolic links */
-    struct header header;
+    struct study_header header;
+    const char *const *input; /* [header.runs] digests of decks of which each may change, whose run is computed again then; NULL:
+                                 none may */
+    int shard, shards;
     char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
     char *state;                    /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
     long wanted, done, failed;      /* of the shard; failed ones are among those done */
@@ -381,11 +322,11 @@ struct study_record {
     double synced; /* on the clock */
 };
 
-/* Opens or creates the file of the study that the header tells, and locks it. What is cut at its end goes; everything else stays
- * as it is. ROTID_OK; ROTID_ERROR_ARGUMENT where the file is something else, of another study or in use, ROTID_ERROR_IO: the list
- * says why; ROTID_ERROR_MEMORY. Without ROTID_OK nothing is open. */
-int record_open(struct pool *pool, const char *path, const struct header *header, int retry_failed, struct message_list *messages,
-                struct study_record *record);
+/* Opens or creates the file of the study that the header and `input` (as above) tell, and locks it. What is cut at its end goes;
+ * everything else stays as it is. ROTID_OK; ROTID_ERROR_ARGUMENT where the file is something else, of another study or in use,
+ * ROTID_ERROR_IO: the list says why; ROTID_ERROR_MEMORY. Without ROTID_OK nothing is open. */
+int record_open(struct pool *pool, const char *path, const struct study_header *header, const char *const *input,
+                int retry_failed, struct message_list *messages, struct study_record *record);
 
 /* The next run that is missing and was not given out yet, or -1. */
 long record_take(struct study_record *record);
@@ -404,74 +345,34 @@ int record_finish(struct pool *pool, struct study_record *record);
 
 void record_close(struct study_record *record);
 
-/* ----------------------------------------------------------------------------------------------------------------- stamp */
-
-/* What a line of results carries so that it can be told from a line that was changed or belongs elsewhere: which study it is of,
- * and a digest of everything before. One byte that is changed always changes the digest, more of them but once in 2^64. Against
- * accidents: whoever wants to forge a line can compute its digest. */
-
-/* Of version and commit of the program, plan, decks, data, options, seed and number of runs: of all that the runs depend on. In a
- * study of decks each line carries the digest of its deck with the data, and that of the study knows nothing of them. */
-void stamp_study(const struct header *header, char study[DIGEST_LETTERS + 1]);
-
-/* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
-char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line);
-
-enum stamp_fault { STAMP_GOOD, STAMP_NONE, STAMP_CHANGED, STAMP_OTHER_STUDY };
-
-/* line [length] with its line feed */
-enum stamp_fault stamp_check(const char study[DIGEST_LETTERS + 1], const char *line, size_t length);
-
 /* --------------------------------------------------------------------------------------------------------------- results */
 
-/* Reading a file of results, line by line, without ever holding more than one. */
-
-struct results {
-    int descriptor; /* the caller's: it stays open, and where it stands does not matter */
-    const char *path;
-    struct message_list *messages;
-    struct header header;
-    char study[DIGEST_LETTERS + 1]; /* what its lines are stamped with */
-    char *there;                    /* [header.runs] 1: a line of the run failed, 2: one did not */
-    uint64_t *input;                /* [header.runs] of its last line: what tells the digest of its deck */
-    int number;                     /* of the line read last, from 1 */
-    off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
-    off_t size;                     /* of the file, beyond `next` where the last line is cut */
-    struct pool line;               /* of the line read last */
-    char *buffer;
-    size_t capacity, first, count; /* bytes of the buffer not yet given out */
-};
-
-struct result_line {
-    long run;
-    int failed;
-    const char *text; /* [length] with the line feed; until the next line is read */
-    size_t length;
-    off_t offset;
-    const struct study_run *said; /* until the next line is read */
-};
-
-/* Reads the header. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else, ROTID_ERROR_IO: the list says so;
- * ROTID_ERROR_MEMORY. Header texts go to the pool; results_close also after an error. */
-int results_open(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results);
-/* ROTID_OK with the next line, 1 behind the last whole one, ROTID_ERROR_SYNTAX, _IO (both with a message) or _MEMORY. *line: the
- * one before, or zeros. A line that was changed, is of another study or of a run that stands there already, unless that had
- * failed, is an error: which of the two counts, or what the line said, nobody knows here. */
-int results_next(struct results *results, struct result_line *line);
-void results_close(struct results *results);
+/* A file of results, read line by line without ever holding more than one. */
 
 struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
     int descriptor, failed;
     off_t offset;
     size_t length;
+    uint64_t input; /* what tells the digest of its deck; 0: none */
 };
 
-/* Where the runs of a file stand: *place [header->runs]; *most: the length of the longest line. Statuses of results_next. */
-int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
-                  struct result_place **place, size_t *most);
+struct results {
+    struct study_header header;
+    int shard, shards;          /* of the header */
+    struct result_place *place; /* [header.runs] */
+    size_t most;                /* length of the longest line */
+    long last;                  /* run of the last line, -1 where there is none */
+    int in_order;               /* the lines stand in order of the runs, once each */
+    int lines;                  /* whole ones, with the header */
+    off_t end, size;            /* of the last whole line; of the file, more where its last line is cut */
+};
+
+/* Reads the file. Texts of the header and places go to the pool. ROTID_OK; ROTID_ERROR_SYNTAX where it is something else or a
+ * line is wrong, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
+int results_read(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results);
 /* Writes the file `path` whole: the header and the lines at place [header->runs] in order of the runs, none longer than `most`.
  * ROTID_OK, ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: then nothing is written. */
-int results_write(const char *path, const struct header *header, const struct result_place *place, size_t most);
+int results_write(const char *path, const struct study_header *header, const struct result_place *place, size_t most);
 
 /* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
@@ -522,8 +423,8 @@ enum score score_make(const struct experiment *experiment, const struct diagnosi
 
 /* Reads a file of results, finished or not, with its header. runs: NULL, or takes a row of every run. ROTID_OK;
  * ROTID_ERROR_SYNTAX where it is something else, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header, struct table *runs,
-                 struct study_result *summary);
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct study_header *header,
+                 struct table *runs, struct study_result *summary);
 
 /* The summary and the runs as tables; on a page and a screen an axis on which cells do not differ is left away. */
 struct table *table_of_cells(struct pool *pool, const struct study_result *summary);
@@ -550,39 +451,6 @@ double study_run_truth(const struct study_run *run, const char *name);
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
 /* Whether the diagnoses of a cell could be compared with the hidden effects. */
 int summary_is_scored(const struct study_cell_result *cell);
-
-/* ---------------------------------------------------------------------------------------------------------------- worker */
-
-/* One worker process, seen from the one that hands out the runs. */
-
-#define WORKER_NO_MEMORY 3 /* exit code of a process that had no room for its line */
-
-struct worker {
-    pid_t process; /* 0: there is none */
-    int socket;
-    long run;     /* under way, -1: none */
-    double begun; /* on the clock */
-    char *answer; /* [room] the bytes that have arrived: its length, then the line */
-    size_t count, room;
-};
-
-/* Starts a process; others [nothers] are the workers there are, whose sockets it must not keep open. ROTID_OK, or ROTID_ERROR_IO
- * with errno. */
-int worker_start(const struct study *study, int (*cancelled)(void *context), void *context, int nothers,
-                 const struct worker *others, struct worker *worker);
-
-/* Hands out a run. ROTID_OK, or ROTID_ERROR_IO where the process is gone. */
-int worker_give(struct worker *worker, long run);
-
-/* Takes what has arrived. 1: the answer is whole, its line in *line until the next call and the run no longer under way; 0: not
- * yet; ROTID_ERROR_IO: the process is gone; ROTID_ERROR_MEMORY. */
-int worker_take(struct worker *worker, const char **line);
-
-/* Tells it to end: at once with the signal, 0: when it reads on. */
-void worker_tell(struct worker *worker, int signal_number);
-
-/* Waits until it has ended and forgets it; returns what waitpid says. */
-int worker_end(struct worker *worker);
 
 /* --------------------------------------------------------------------------------------------------------------- workers */
 

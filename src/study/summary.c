@@ -371,28 +371,24 @@ static void finish(struct sums *s)
     s->out->missing = s->out->runs - s->out->done;
 }
 
-static int read_all(struct pool *pool, int descriptor, struct message_list *messages, struct header *header, struct table *runs,
+static int read_all(struct pool *pool, struct message_list *messages, const struct results *file, struct table *runs,
                     struct study_result *out)
 {
-    struct result_place *place;
     struct sums sums = {.pool = pool, .out = out};
-    size_t most;
-    int status = results_index(pool, descriptor, out->results, messages, header, &place, &most);
-    char *text = status ? NULL : malloc(most + 1);
-    if (!status && !text)
-        status = ROTID_ERROR_MEMORY;
-    for (long run = 0; run < header->runs && !status; run++) { /* in their order: sums do not depend on who was faster */
-        struct pool own, *of = runs ? pool : &own;             /* the table keeps its texts */
+    char *text = malloc(file->most + 1);
+    int status = text ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (long run = 0; run < file->header.runs && !status; run++) { /* in their order: sums do not depend on who was faster */
+        struct pool own, *of = runs ? pool : &own;                  /* the table keeps its texts */
         struct study_run said;
-        out->runs += run % header->shards == header->shard - 1;
-        if (!place[run].length)
+        out->runs += run % file->shards == file->shard - 1;
+        if (!file->place[run].length)
             continue;
-        status = results_fetch(place[run], text);
+        status = results_fetch(file->place[run], text);
         if (status)
             message_add(messages, SEVERITY_ERROR, out->results, 1, 1, "reading failed: %s", strerror(errno));
         pool_open(&own, NULL);
         if (!status)
-            status = results_line_read(of, text, place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
+            status = results_line_read(of, text, file->place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
         if (!status)
             add_run(&sums, &said);
         if (!status && runs)
@@ -405,21 +401,25 @@ static int read_all(struct pool *pool, int descriptor, struct message_list *mess
     return !status && sums.failed ? ROTID_ERROR_MEMORY : status;
 }
 
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header, struct table *runs,
-                 struct study_result *out)
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct study_header *header,
+                 struct table *runs, struct study_result *out)
 {
     struct stat about;
+    struct results file;
     int descriptor = file_descriptor(path, &about);
     *out = (struct study_result){.results = path};
     if (descriptor < 0) {
         message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
     }
-    int status = read_all(pool, descriptor, messages, header, runs, out);
+    int status = results_read(pool, descriptor, path, messages, &file);
+    if (!status)
+        status = read_all(pool, messages, &file, runs, out);
     (void)close(descriptor);
+    *header = file.header;
     out->plan = header->plan;
     out->studies = header->studies;
-    out->shard = header->shard;
-    out->shards = header->shards;
+    out->shard = file.shard;
+    out->shards = file.shards;
     return status;
 }

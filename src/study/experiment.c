@@ -1,0 +1,608 @@
+/* The job of one run: what happens to data on their way, data that a model makes, starts; every draw by its name. */
+#include "study/study.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "diagnose/causes/causes.h"
+#include "diagnose/diagnose.h"
+#include "modal/modal.h"
+#include "model/model.h"
+#include "result/result.h"
+
+/* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
+ * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
+ * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */
+
+enum draw_purpose { DRAW_TRUTH = 1, DRAW_HIDDEN, DRAW_SENSOR, DRAW_FREQUENCY, DRAW_SHAPE, DRAW_START };
+
+/* The output function of splitmix64 on state and key: a change of one bit changes half of the bits. */
+static uint64_t mix(uint64_t state, uint64_t key)
+{
+    uint64_t z = state + 0x9E3779B97F4A7C15u + key;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+/* a, b: what it is drawn for, such as the number of the mode and the id of the sensor. */
+static struct random_stream draw_stream(unsigned long seed, enum draw_purpose purpose, long long replicate, uint64_t a,
+                                        uint64_t b)
+{
+    uint64_t state = mix(0, seed);
+    state = mix(state, (uint64_t)purpose);
+    state = mix(state, (uint64_t)replicate);
+    state = mix(state, a);
+    return (struct random_stream){mix(state, b)};
+}
+
+/* What happens to data on their way: faults of the measurement chain, noise, sensors that are not there. */
+
+static int is_fault(const struct truth *truth, const char *id)
+{
+    return truth && truth->cause && !truth->effect && !strcmp(truth->cause->id, id);
+}
+
+/* A fault of the measurement chain put into shapes or, with behind nonzero, what has to wait until their noise is there. */
+static void experiment_fault(const struct truth *truth, int behind, struct job *job)
+{
+    if (!truth->cause || truth->effect || !job->measurement.shape || !truth->fault.nsensor)
+        return;
+    int a = sensor_find(job, truth->fault.sensor[0]),
+        b = truth->fault.nsensor > 1 ? sensor_find(job, truth->fault.sensor[1]) : -1;
+    for (int k = 0; k < job->measurement.nmode && a >= 0; k++) {
+        double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor, kept = shape[a];
+        if (is_fault(truth, "sensor_gain") && !behind) {
+            shape[a] *= truth->fault.value;
+        } else if (is_fault(truth, "sensor_sign") && !behind) {
+            shape[a] = -shape[a];
+        } else if (is_fault(truth, "sensor_swap") && !behind && b >= 0) {
+            shape[a] = shape[b];
+            shape[b] = kept;
+        } else if (is_fault(truth, "duplicate_channel") && behind && b >= 0) { /* it repeats the noise as well */
+            shape[a] = shape[b];
+        }
+    }
+}
+
+/* What noise_level hides: the factor on the noise that is stated. */
+static double factor(const struct truth *truth, const char *block)
+{
+    return is_fault(truth, "noise_level") && truth->fault.block && !strcmp(truth->fault.block, block) ? truth->fault.value : 1;
+}
+
+#define STATE_NOISE 1000003u /* more than modes have numbers */
+
+static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int s, int mode, int sensor)
+{
+    struct random_stream stream =
+        draw_stream(study->seed, purpose, replicate, (uint64_t)mode + STATE_NOISE * (uint64_t)s, (uint64_t)sensor);
+    return random_normal(&stream);
+}
+
+/* Measured data have a noise already, to which this one is added. */
+static double stated(int from_model, double std, double level)
+{
+    return from_model || !isfinite(std) ? level : hypot(std, level);
+}
+
+/* Adds noise to the data of state s, which has draws of its own, and states it. */
+static void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, int s,
+                             struct job *job)
+{
+    const struct plan_noise *noise = &study->plan->noise[point->cell.noise];
+    int from_model = truth != NULL, nsensor = job->rotor.nsensor;
+    if (noise->frequency > 0 || noise->shape > 0) /* frequencies at single sensors would contradict the rest */
+        job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+    for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
+        double level = noise->frequency * factor(truth, "FREQUENCY");
+        job->measurement.frequency_hz[k] *=
+            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, s, job->measurement.number[k], 0);
+        job->measurement.frequency_std[k] = stated(from_model, job->measurement.frequency_std[k], noise->frequency);
+    }
+    for (int k = 0; k < job->measurement.nmode && job->measurement.shape && noise->shape > 0; k++) {
+        double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
+               *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor, largest = 0;
+        double level = noise->shape * factor(truth, "SHAPE");
+        for (int i = 0; i < nsensor; i++)
+            largest = isfinite(shape[i]) ? fmax(largest, fabs(shape[i])) : largest;
+        for (int i = 0; i < nsensor; i++) {
+            if (!isfinite(shape[i]))
+                continue;
+            shape[i] += level * largest *
+                        normal(study, DRAW_SHAPE, point->replicate, s, job->measurement.number[k], job->rotor.sensor[i].id);
+            std[i] = stated(from_model, std[i], noise->shape);
+        }
+    }
+    if (truth)
+        experiment_fault(truth, 1, job);
+}
+
+struct choice { /* a sensor with its lot */
+    double lot;
+    int sensor;
+};
+
+static int compare(const void *left, const void *right)
+{
+    const struct choice *a = left, *b = right;
+    return (a->lot > b->lot) - (a->lot < b->lot);
+}
+
+/* A sensor that an effect or the hidden fault is about stays. */
+static int must_stay(const struct job *job, const struct truth *truth, int s)
+{
+    for (int i = 0; i < job->rotor.neffect + job->unknowns.nsuspect; i++) {
+        const struct effect *effect =
+            i < job->rotor.neffect ? &job->rotor.effect[i] : &job->unknowns.suspect[i - job->rotor.neffect].effect;
+        const struct cause_kind *cause = catalogue_of(effect);
+        if (cause && cause->target == TARGET_SENSOR && effect->target == s)
+            return 1;
+    }
+    if (truth && truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target >= 0)
+        return truth->job.rotor.sensor[truth->effect->target].id == job->rotor.sensor[s].id;
+    for (int i = 0; truth && truth->cause && !truth->effect && i < truth->fault.nsensor; i++)
+        if (truth->fault.sensor[i] == job->rotor.sensor[s].id)
+            return 1;
+    return 0;
+}
+
+/* keep [nsensor]: which stay. The lots of a replicate do not depend on how many are kept: fewer sensors are some of more. */
+static int choose(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
+                  const struct job *job, char *keep)
+{
+    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
+    int nsensor = job->rotor.nsensor;
+    struct choice *choice = POOL_ARRAY(pool, struct choice, nsensor);
+    if (!choice)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nsensor; s++) {
+        struct random_stream stream =
+            draw_stream(study->seed, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0);
+        double lot = random_uniform(&stream);
+        choice[s] = (struct choice){must_stay(job, truth, s) ? lot - 1 : lot, s};
+        keep[s] = sensors->every && (s % sensors->every == 0 || choice[s].lot < 0);
+    }
+    if (sensors->keep) {
+        qsort(choice, (size_t)nsensor, sizeof *choice, compare);
+        for (int i = 0; i < sensors->keep && i < nsensor; i++)
+            keep[choice[i].sensor] = 1;
+    }
+    return ROTID_OK;
+}
+
+static void follow(struct effect *effect, const int *new_index)
+{
+    const struct cause_kind *cause = catalogue_of(effect);
+    if (cause && cause->target == TARGET_SENSOR && effect->target >= 0)
+        effect->target = new_index[effect->target];
+}
+
+static int own_effects(struct pool *pool, struct job *job, const int *new_index)
+{
+    struct effect *effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
+    struct suspect *suspect = POOL_ARRAY(pool, struct suspect, job->unknowns.nsuspect);
+    if (!effect || !suspect)
+        return ROTID_ERROR_MEMORY;
+    if (job->rotor.neffect)
+        memcpy(effect, job->rotor.effect, (size_t)job->rotor.neffect * sizeof *effect);
+    if (job->unknowns.nsuspect)
+        memcpy(suspect, job->unknowns.suspect, (size_t)job->unknowns.nsuspect * sizeof *suspect);
+    job->rotor.effect = effect;
+    job->unknowns.suspect = suspect;
+    for (int i = 0; i < job->rotor.neffect; i++)
+        follow(&effect[i], new_index);
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
+        follow(&suspect[i].effect, new_index);
+    return ROTID_OK;
+}
+
+/* Rows of a matrix [n * nmode] that stay, in its place. */
+static void leave_rows(int n, int nmode, const char *keep, double *matrix)
+{
+    ptrdiff_t next = 0;
+    for (int k = 0; k < nmode && matrix; k++)
+        for (int s = 0; s < n; s++)
+            if (keep[s])
+                matrix[next++] = matrix[s + (ptrdiff_t)k * n];
+}
+
+/* Leaves the sensors of this run. */
+static int experiment_sensors(struct pool *pool, const struct study *study, const struct study_point *point,
+                              const struct truth *truth, struct job *job)
+{
+    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
+    int n = job->rotor.nsensor, left = 0;
+    if (!n || !(sensors->keep || sensors->every))
+        return ROTID_OK;
+    char *keep = POOL_ARRAY(pool, char, n);
+    int *new_index = POOL_ARRAY(pool, int, n);
+    int status = keep && new_index ? choose(pool, study, point, truth, job, keep) : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < n && !status; s++)
+        new_index[s] = keep[s] ? left++ : -1;
+    if (!status)
+        status = own_effects(pool, job, new_index);
+    if (status)
+        return status;
+    /* noise is relative to the largest component, which may be one of those that go: it stays what it is in absolute terms */
+    if (job->measurement.shape)
+        shapes_scale(job);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape_std);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_hz);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_std);
+    for (int s = 0; s < n; s++)
+        if (keep[s])
+            job->rotor.sensor[new_index[s]] = job->rotor.sensor[s];
+    job->rotor.nsensor = left;
+    if (job->measurement.shape)
+        shapes_rescale(job);
+    if (sensor_find(job, job->measurement.hammer) < 0)
+        job->measurement.hammer = 0;
+    job->measurement.ncorrection = 0; /* they are in the data already, and what the deck read is of all sensors */
+    job->measurement.raw = NULL;
+    return ROTID_OK;
+}
+
+/* Data that a model makes: its parameters and the hidden effect drawn, its modes at the sensors. */
+
+#define FINER 4 /* cuts of each element: leaves a sixteenth of the error of the mesh */
+
+static double draw(const struct study *study, enum draw_purpose purpose, long replicate, const char *name, double lower,
+                   double upper)
+{
+    struct random_stream stream = draw_stream(study->seed, purpose, replicate, digest_name(name), 0);
+    double along = random_uniform(&stream);
+    return upper > lower ? lower + along * (upper - lower) : lower;
+}
+
+static void set_parameter(struct rotor *rotor, struct parameter parameter, double value)
+{
+    if (parameter.kind == PARAMETER_G)
+        rotor->group[parameter.index].material.isotropic = 0;
+    *parameter_value(rotor, parameter) = value;
+}
+
+static void set(struct rotor *rotor, const char *names, double value)
+{
+    char name[PARAMETER_NAME];
+    for (const char *next = names; next;) {
+        struct parameter parameter;
+        const char *unit;
+        next = parameter_next_name(next, name);
+        if (!parameter_find(rotor, name, &parameter, &unit))
+            set_parameter(rotor, parameter, value);
+    }
+}
+
+/* Every value is set in every run: the truth keeps nothing of the run before. */
+static void draw_values(const struct study *study, long replicate, struct truth *truth)
+{
+    const struct plan *plan = study->plan;
+    struct job *job = &truth->job;
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        set_parameter(&job->rotor, job->unknowns.parameter[p], job->unknowns.bounds[p].start);
+    for (int t = 0; t < plan->ntruth; t++)
+        set(&job->rotor, plan->truth[t].name,
+            draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
+    const struct effect_parameter_name *parameter;
+    for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
+        double value = draw(study, DRAW_HIDDEN, replicate, parameter->name, truth->lower[p], truth->upper[p]);
+        if (truth->effect)
+            truth->effect->value[p] = value;
+        else
+            *correction_value(&truth->fault, p) = value;
+    }
+}
+
+/* Where the sensors really are. Own arrays: a correction changes the order of the sensors and what refers to them. */
+static int place_sensors(struct pool *pool, const struct truth *truth, struct job *job)
+{
+    *job = truth->job;
+    job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
+        job->measurement.point_frequency_std = NULL;
+    if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
+        return ROTID_OK;
+    job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
+    job->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
+    if (!job->rotor.sensor || !job->rotor.effect)
+        return ROTID_ERROR_MEMORY;
+    memcpy(job->rotor.sensor, truth->job.rotor.sensor, (size_t)job->rotor.nsensor * sizeof *job->rotor.sensor);
+    if (job->rotor.neffect)
+        memcpy(job->rotor.effect, truth->job.rotor.effect, (size_t)job->rotor.neffect * sizeof *job->rotor.effect);
+    job->unknowns.nsuspect = 0;
+    return correction_apply(pool, job, &truth->fault);
+}
+
+struct modes { /* elastic ones of a model at the sensors of its rotor */
+    int count, nsensor;
+    double *hz, *shape; /* [count], [nsensor * count] */
+};
+
+static int modes_room(struct pool *pool, int count, int nsensor, struct modes *modes)
+{
+    *modes =
+        (struct modes){count, nsensor, POOL_ARRAY(pool, double, count), POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)count)};
+    return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Of the full model, discretised as `models` are. refine: cuts of each element. */
+static int solve(struct models *models, const struct rotor *rotor, int refine, struct modes *modes)
+{
+    const double none = 0;
+    struct pool scratch;
+    struct prediction p;
+    int failed, status = ROTID_ERROR_MEMORY;
+    pool_open(&scratch, NULL);
+    struct rotor_model *model = POOL_NEW(&scratch, struct rotor_model);
+    if (model)
+        status = model_open(&scratch, models, rotor, 0, NULL, refine, model, &failed);
+    if (!status && model->equations.nrigid + modes->count > model->equations.n)
+        status = ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = prediction_new(&scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON,
+                                model->equations.nrigid + modes->count, 0, &p);
+    if (!status)
+        status = prediction_compute(&p, &none);
+    for (int k = 0; k < modes->count && !status; k++) {
+        modes->hz[k] = prediction_hz(&p, model->equations.nrigid + k);
+        for (int s = 0; s < modes->nsensor; s++)
+            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, model->equations.nrigid + k, s);
+    }
+    pool_close(&scratch);
+    return status;
+}
+
+/* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
+ * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
+static int solve_moving(struct pool *pool, struct models *models, const struct rotor *rotor, int refine, int effect,
+                        struct modes *modes)
+{
+    int n = modes->nsensor, status;
+    struct rotor with = *rotor;
+    struct modes bare, loaded;
+    with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
+    status = with.effect ? modes_room(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = modes_room(pool, modes->count, n, &loaded);
+    if (status)
+        return status;
+    memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
+    with.effect[effect].variant = 1; /* FIXED */
+    with.effect[effect].target = -1; /* nowhere */
+    status = solve(models, &with, refine, &bare);
+    for (int k = 0; k < modes->count; k++)
+        modes->hz[k] = 0;
+    for (int s = 0; s < n && !status; s++) {
+        with.effect[effect].target = s;
+        status = solve(models, &with, refine, &loaded);
+        for (int k = 0; k < modes->count && !status; k++) {
+            const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
+            double across = 0, square = 0;
+            for (int i = 0; i < n; i++) {
+                across += a[i] * b[i];
+                square += a[i] * a[i];
+            }
+            modes->shape[s + (ptrdiff_t)k * n] = across / square * a[s];
+            modes->hz[k] += loaded.hz[k] / n;
+        }
+    }
+    return status;
+}
+
+static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
+{
+    const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
+    double largest = 0;
+    job->measurement.frequency_hz[k] = modes->hz[job->measurement.number[k] - 1];
+    if (!job->measurement.shape)
+        return;
+    double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
+    for (int s = 0; s < modes->nsensor; s++)
+        largest = fmax(largest, fabs(made[s]));
+    for (int s = 0; s < job->rotor.nsensor; s++) {
+        int there = 0;
+        while (there < modes->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
+            there++;
+        if (isfinite(shape[s]))
+            shape[s] = there < modes->nsensor && largest > 0 ? made[there] / largest : NAN;
+    }
+}
+
+/* The data of the job, which have their own arrays, become those of the model with the values drawn for a replicate, without
+ * noise; shapes relative to their largest component. Values end in *truth. */
+static int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
+                            struct message_list *messages, struct job *job)
+{
+    struct modes modes;
+    struct job source;
+    int highest = 0;
+    draw_values(study, replicate, truth);
+    int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
+    if (status == ROTID_ERROR_ARGUMENT)
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
+    if (!status)
+        status = modes_room(pool, highest, source.rotor.nsensor, &modes);
+    /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
+    int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
+    int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
+    if (!status)
+        status = moving ? solve_moving(pool, source.models, &source.rotor, refine, last, &modes)
+                        : solve(source.models, &source.rotor, refine, &modes);
+    for (int k = 0; k < job->measurement.nmode && !status; k++)
+        take_mode(&source.rotor, &modes, k, job);
+    /* what else was measured is not that of this model */
+    job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+    job->measurement.hammer = job->measurement.ncorrection = 0;
+    job->measurement.raw = NULL;
+    job->measurement.has_noise_floor = 0;
+    if (!status)
+        experiment_fault(truth, 0, job);
+    return status;
+}
+
+/* The value of a parameter of the model that made the data, of a shared one the first; NaN where it has none of that name. */
+static double true_value(struct rotor *rotor, const char *names)
+{
+    struct parameter parameter;
+    const char *unit;
+    char name[PARAMETER_NAME];
+    (void)parameter_next_name(names, name);
+    if (parameter_find(rotor, name, &parameter, &unit))
+        return NAN;
+    const struct material *material = parameter.kind == PARAMETER_G ? &rotor->group[parameter.index].material : NULL;
+    return material ? material_shear_modulus(material) : *parameter_value(rotor, parameter);
+}
+
+/* Room for shapes where the deck has sensors and the plan a noise of shapes. */
+static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct job *job)
+{
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
+    if (job->measurement.shape || !job->rotor.nsensor || isnan(noise->shape))
+        return ROTID_OK;
+    job->measurement.shape = POOL_ARRAY(pool, double, components); /* zeros: measured, and to be filled in */
+    job->measurement.shape_std = POOL_ARRAY(pool, double, components);
+    if (!job->measurement.shape || !job->measurement.shape_std)
+        return ROTID_ERROR_MEMORY;
+    for (size_t i = 0; i < components; i++)
+        job->measurement.shape_std[i] = NAN;
+    return ROTID_OK;
+}
+
+/* The data belong to this run from now on. */
+static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
+{
+    int status = data_copy(pool, job);
+    if (!status && plan->no_shapes) {
+        job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
+            job->measurement.point_frequency_std = NULL;
+        job->measurement.ncorrection = 0;
+        job->measurement.raw = NULL;
+    }
+    return status;
+}
+
+/* States and unknowns of this run alone. */
+static int own_states(struct pool *pool, const struct plan *plan, const struct states *fitted, struct states *out)
+{
+    int status = ROTID_OK;
+    *out = *fitted;
+    out->state = POOL_ARRAY(pool, struct state, fitted->nstate);
+    out->bounds = POOL_ARRAY(pool, rotid_parameter, fitted->nparameter);
+    if (!out->state || !out->bounds)
+        return ROTID_ERROR_MEMORY;
+    if (fitted->nparameter)
+        memcpy(out->bounds, fitted->bounds, (size_t)fitted->nparameter * sizeof *out->bounds);
+    for (int s = 0; s < fitted->nstate && !status; s++) {
+        struct job *job = &out->state[s].job;
+        out->state[s] = fitted->state[s];
+        status = own_data(pool, plan, job);
+        rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
+        if (!bounds)
+            return ROTID_ERROR_MEMORY;
+        if (job->unknowns.nparameter)
+            memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
+        job->unknowns.bounds = bounds;
+    }
+    return status;
+}
+
+static void repeat(const struct message_list *from, struct message_list *to)
+{
+    for (size_t i = 0; i < from->count; i++) {
+        const rotid_message *m = &from->item[i];
+        message_add(to, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
+    }
+}
+
+static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
+                      struct experiment *out)
+{
+    const struct plan *plan = jobs->study->plan;
+    struct truth *truth;
+    int status = jobs_truth(jobs, &point->cell, &truth);
+    if (status) {
+        repeat(&jobs->truth_messages, messages);
+        return status;
+    }
+    out->made_by = truth;
+    out->truth = POOL_ARRAY(pool, double, out->states.nparameter);
+    if (!out->truth)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < out->states.nstate && !status; s++) {
+        const struct state *state = &out->states.state[s];
+        struct job *job = &out->states.state[s].job;
+        if (!plan->no_shapes)
+            status = add_shapes(pool, &plan->noise[point->cell.noise], job);
+        if (!status)
+            status = experiment_model(pool, jobs->study, point->replicate, &truth[s], messages, job);
+        for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
+            const char *name = job->unknowns.bounds[p].name;
+            size_t length = state->name ? strlen(state->name) : 0;
+            int own = p >= state->ncommon && length && !strncmp(name, state->name, length) && name[length] == ':';
+            out->truth[state->unknown[p]] = true_value(&truth[s].job.rotor, own ? name + length + 1 : name);
+        }
+    }
+    return status;
+}
+
+/* The start of this run; bounds are the job's own. */
+static void experiment_starts(const struct study *study, const struct study_point *point, struct states *states)
+{
+    const struct plan *plan = study->plan;
+    long digits = point->start;
+    for (int p = 0; p < states->nparameter && plan->spread > 0; p++) {
+        rotid_parameter *bounds = &states->bounds[p];
+        double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
+        double lower = fmax(bounds->start - reach, bounds->lower + inside),
+               upper = fmin(bounds->start + reach, bounds->upper - inside);
+        double along;
+        if (plan->grid) {
+            along = (double)(digits % plan->grid) / (plan->grid - 1);
+            digits /= plan->grid;
+        } else {
+            struct random_stream stream =
+                draw_stream(study->seed, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
+            along = random_uniform(&stream);
+        }
+        double start = lower + along * (upper - lower);
+        bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */
+    }
+}
+
+int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
+                    struct experiment *out)
+{
+    const struct study *study = jobs->study;
+    const struct states *fitted;
+    *out = (struct experiment){0};
+    int status = jobs_fitted(jobs, &point->cell, &fitted);
+    if (status) {
+        repeat(&jobs->fitted_messages, messages);
+        return status;
+    }
+    status = own_states(pool, study->plan, fitted, &out->states);
+    if (!status && study->plan->from_model)
+        status = from_model(pool, jobs, point, messages, out);
+    if (status)
+        return status;
+    out->job = &out->states.state[0].job;
+    out->length = rotor_length(&out->job->rotor);
+    for (int s = 0; s < out->states.nstate && !status; s++) {
+        const struct truth *truth = out->made_by ? &out->made_by[s] : NULL;
+        experiment_noise(study, point, truth, s, &out->states.state[s].job);
+        status = experiment_sensors(pool, study, point, truth, &out->states.state[s].job);
+    }
+    if (status)
+        return status;
+    experiment_starts(study, point, &out->states);
+    for (int s = 0; s < out->states.nstate; s++)
+        for (int p = 0; p < out->states.state[s].job.unknowns.nparameter; p++)
+            out->states.state[s].job.unknowns.bounds[p].start = out->states.bounds[out->states.state[s].unknown[p]].start;
+    return ROTID_OK;
+}
