@@ -382,7 +382,7 @@ coverage:
 	@sh tools/coverage $(BUILD)/coverage
 
 # docs/schema, from the tables of src/record and src/result and the comments of the structs that they describe
-SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/run.h src/running/running.h
+SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h src/result/*.def) src/run/run.h src/running/running.h
 $(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
 $(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(call tell,LD,$@)

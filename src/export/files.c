@@ -536,11 +536,12 @@ const struct export_result *export_result_of(struct pool *pool, const struct exp
         .nfull_hz = s->count,
         .full_hz = s->full_hz,
         .parameters = parameters(pool, model),
-        .files = POOL_ARRAY(pool, const char *, files->count),
     };
+    const char **list = POOL_ARRAY(pool, const char *, files->count);
     out->exported_hz = exported_hz(files, model);
     out->nexported_hz = s->count;
-    for (int i = 0; i < files->count && out->files; i++)
-        out->files[i] = files->path[i];
-    return out->parameters && out->files ? out : NULL;
+    for (int i = 0; i < files->count && list; i++)
+        list[i] = files->path[i];
+    out->files = list;
+    return out->parameters && list ? out : NULL;
 }

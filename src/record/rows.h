@@ -43,9 +43,10 @@
         .key = "", .kind = FIELD_INLINE, .bits = (BITS), .record = &(RECORD)                                                     \
     }
 /* One such object, with as many components as the member nM says. */
-#define MAP(S, M, BITS)              RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
-#define WORDS(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
-#define COUNTS(S, M, BITS, WORDS)    RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
+#define MAP(S, M, BITS)          RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
+#define WORDS(S, M, BITS, WORDS) RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
+/* N: of the words, as many as the member has */
+#define COUNTS(S, M, BITS, WORDS, N) RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS), .fixed = (N))
 #define COUNT_OF(S, M, ABOVE, COUNT) RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
 #define RECORD(S, FIELDS)                                                                                                        \
     {                                                                                                                            \

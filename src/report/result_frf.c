@@ -75,15 +75,16 @@ static struct transfer_beside *beside_measured(struct pool *pool, const struct f
     return beside;
 }
 
-static int add_parts(struct pool *pool, int n, const double complex *h, double **re, double **im)
+static int add_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im)
 {
-    *re = POOL_ARRAY(pool, double, n);
-    *im = POOL_ARRAY(pool, double, n);
-    for (int l = 0; l < n && *re && *im; l++) {
-        (*re)[l] = creal(h[l]);
-        (*im)[l] = cimag(h[l]);
+    double *real = POOL_ARRAY(pool, double, n), *imag = POOL_ARRAY(pool, double, n);
+    for (int l = 0; l < n && real && imag; l++) {
+        real[l] = creal(h[l]);
+        imag[l] = cimag(h[l]);
     }
-    return !*re || !*im;
+    *re = real;
+    *im = imag;
+    return !real || !imag;
 }
 
 static int add_functions(const struct frf_view *view, struct transfer_result *out)

@@ -119,22 +119,22 @@ static int add_nodes(struct pool *pool, const struct listing *listing, int all, 
 {
     int n = listing->node_count;
     *out = (struct listed_nodes){.count = n, .min = {NAN, NAN, NAN}, .max = {NAN, NAN, NAN}, .nids = n, .nx = 3};
-    if (all) {
-        out->ids = POOL_ARRAY(pool, int, n);
-        out->x = POOL_ARRAY(pool, double, 3 * (size_t)n);
-        if (!out->ids || !out->x)
-            return 0;
-    }
+    int *ids = all ? POOL_ARRAY(pool, int, n) : NULL;
+    double *coordinates = all ? POOL_ARRAY(pool, double, 3 * (size_t)n) : NULL;
+    out->ids = ids;
+    out->x = coordinates;
+    if (all && (!ids || !coordinates))
+        return 0;
     for (int i = 0; i < n; ++i) {
         const double *x = listing->node[i].x;
         for (int c = 0; c < 3; ++c) {
             out->min[c] = fmin(out->min[c], x[c]); /* fmin and fmax pass over what is not a number */
             out->max[c] = fmax(out->max[c], x[c]);
             if (all)
-                out->x[i + (ptrdiff_t)c * n] = x[c];
+                coordinates[i + (ptrdiff_t)c * n] = x[c];
         }
         if (all)
-            out->ids[i] = listing->node[i].id;
+            ids[i] = listing->node[i].id;
     }
     return 1;
 }

@@ -20,7 +20,7 @@
 STATE(check, check_record);
 STATE(modes, spectrum_record);
 STATE(sensitivity, sensitivity_record);
-STATE(frf, transfer_record);
+STATE(frf, transfer_result_record);
 
 static const struct record_field check_fields[] = {HEAD, OWN(check, check_record), STATES(check), WARNINGS, {0}};
 static const struct record_field modes_fields[] = {HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS, {0}};
@@ -30,11 +30,11 @@ static const struct record_field diagnose_fields[] = {HEAD, OWN(diagnose, diagno
 static const struct record_field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
 static const struct record_field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
 static const struct record_field speeds_fields[] = {HEAD, OWN(speeds, speeds_record), WARNINGS, {0}};
-static const struct record_field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
-static const struct record_field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
-static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
-static const struct record_field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
-static const struct record_field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
+static const struct record_field frf_fields[] = {HEAD, OWN(frf, transfer_result_record), STATES(frf), WARNINGS, {0}};
+static const struct record_field ema_fields[] = {PROVENANCE, OWN(ema, ema_result_record), WARNINGS, {0}};
+static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_result_record), {0}};
+static const struct record_field export_fields[] = {HEAD, OWN(export, export_result_record), WARNINGS, {0}};
+static const struct record_field study_fields[] = {PROVENANCE, OWN(study, study_result_record), {0}};
 
 static const struct {
     const char *command;

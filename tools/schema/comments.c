@@ -107,6 +107,40 @@ static int add_struct(struct comments *comments, const char *structure, const ch
     return status;
 }
 
+/* The comment that ends right above the line, as that of the struct. */
+static int add_above(struct comments *comments, const char *header, const char *line, const char *structure)
+{
+    if (line - header <= 3 || strncmp(line - 3, "*/\n", 3) != 0)
+        return ROTID_OK;
+    const char *open = line - 3;
+    while (open > header && strncmp(open, "/*", 2) != 0)
+        open--;
+    return add(comments, structure, NULL, clean(comments->pool, open + 2, line - 3));
+}
+
+/* Of src/result/results.def: BEGIN(struct), then a line a member, KEY(kind, struct, member, ...), PART alike or MEMBER(type,
+ * member), each with its comment behind. */
+static int add_described(struct comments *comments, const char *text)
+{
+    char structure[NAME_MOST] = "", member[NAME_MOST];
+    int status = ROTID_OK;
+    for (const char *line = text, *after; *line && !status; line += strcspn(line, "\n"), line += *line == '\n') {
+        if (sscanf(line, "BEGIN(%127[a-z_0-9])", structure) == 1) {
+            status = add_above(comments, text, line, structure);
+            continue;
+        }
+        int found = sscanf(line, "KEY(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "PART(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "MEMBER(%*[^,], %127[a-z_0-9]", member) == 1;
+        const char *comment = found ? strstr(line, "/*") : NULL, *end = line + strcspn(line, "\n");
+        while (*end && end[1] == ' ') /* a line that goes on */
+            end += 1 + strcspn(end + 1, "\n");
+        if (comment && comment < end)
+            status = add(comments, structure, member, comment_at(comments->pool, comment, &after));
+    }
+    return status;
+}
+
 int comments_add(struct comments *comments, const char *header)
 {
     int status = ROTID_OK;
@@ -119,16 +153,11 @@ int comments_add(struct comments *comments, const char *header)
         while (line > header && line[-1] != '\n')
             line--;
         (void)snprintf(name, sizeof name, "%.*s", (int)length, word);
-        if (line - header > 3 && !strncmp(line - 3, "*/\n", 3)) { /* the comment above */
-            const char *open = line - 3;
-            while (open > header && strncmp(open, "/*", 2) != 0)
-                open--;
-            status = add(comments, name, NULL, clean(comments->pool, open + 2, line - 3));
-        }
+        status = add_above(comments, header, line, name);
         if (!status)
             status = add_struct(comments, name, word + length + 3);
     }
-    return status;
+    return status ? status : add_described(comments, header);
 }
 
 /* FLAG_IS: the key complex is the member is_complex. */

@@ -1,0 +1,260 @@
+/* The tables of the results that only the program has: those of results.def, those of src/run, the line of a run of a study. */
+#include "record/rows.h"
+#include "result/result.h"
+#include "run/run.h"
+
+/* ---- words */
+
+const char *const ema_mode_doubts[] = {
+    "close to another mode",
+    "complex: its points do not move in phase",
+    "no stable pole in the table",
+    "its frequency differs from point to point (a moving mass, drift), or two peaks in place of one",
+    "weak: hardly above the noise",
+    "negative damping",
+    "at an end of the band",
+    "not refined",
+    "its modal mass is negative: sign or place of the drive point",
+    NULL};
+const char *const ema_channel_doubts[] = {
+    "dead", "duplicate", "noisy", "not explained by the modes", "values not finite, left out", "low coherence", NULL};
+const char *const ema_method_words[] = {"lscf", "quadrature", NULL};
+static const char *const grounds[] = {"variance", "residual", NULL};
+const char *const export_format_words[] = {"matrix-market", "dmig", NULL};
+static const char *const models[] = {"identified", "stated", NULL};
+static const char *const condensations[] = {"GUYAN", "IRS", NULL};
+const char *const score_words[] = {"quiet",  "false_alarm", "right", "in_set", "other_set",
+                                   "silent", "unexplained", "wrong", NULL};
+static const char *const studies[] = {"identify", "diagnose", "speeds", NULL};
+const char *const study_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
+const char *const transfer_quantity_words[] = {"displacement", "velocity", "acceleration", NULL};
+const char *const transfer_unit_words[] = {"m/N", "m/(s N)", "m/(s2 N)", NULL};
+const char *const transfer_damping_words[] = {"measured", "stated", "smallest_measured", "mean_measured", NULL};
+static const char *const states[] = {"read", "read_over", "not_known", "malformed", NULL};
+static const char *const doubts[] = {
+    "malformed", "unknown_set", "no_units",  "node_twice", "no_coordinates", "abscissa_order", "uneven",          "unit",
+    "dead",      "clipped",     "coherence", "identical",  "length",         "resolution",     "frequency_order", NULL};
+
+/* ---- keys that stand together or not at all */
+
+#define CURVE(M) NUMBERS_BY(struct transfer_function, M, ELEMENTS_MAY_BE_NULL, nfrequency_hz, "frequency_hz")
+static const struct record_field transfer_function_curve_fields[] = {
+    NUMBERS(struct transfer_function, frequency_hz, ABOVE_0),
+    CURVE(synthesised_re),
+    CURVE(synthesised_im),
+    {0},
+};
+static const struct record transfer_function_curve_record = RECORD(struct transfer_function, transfer_function_curve_fields);
+
+static const struct record_field transfer_function_measured_curve_fields[] = {
+    CURVE(measured_re),
+    CURVE(measured_im),
+    {0},
+};
+static const struct record transfer_function_measured_curve_record =
+    RECORD(struct transfer_function, transfer_function_measured_curve_fields);
+
+static const struct record_field listed_nodes_every_node_fields[] = {
+    INTEGERS(struct listed_nodes, ids, 0),
+    MATRIX(struct listed_nodes, x, 0, nids, nx),
+    {0},
+};
+static const struct record listed_nodes_every_node_record = RECORD(struct listed_nodes, listed_nodes_every_node_fields);
+
+static const struct record_field listed_shape_every_value_fields[] = {
+    INTEGERS(struct listed_shape, nodes, 0),
+    NUMBERS(struct listed_shape, real, 0),
+    NUMBERS(struct listed_shape, imag, 0),
+    {0},
+};
+static const struct record listed_shape_every_value_record = RECORD(struct listed_shape, listed_shape_every_value_fields);
+
+/* ---- results.def */
+
+#define BEGIN(S) static const struct record_field S##_fields[] = {
+#define END(S)                                                                                                                   \
+    {                                                                                                                            \
+        0                                                                                                                        \
+    }                                                                                                                            \
+    }                                                                                                                            \
+    ;                                                                                                                            \
+    const struct record S##_record = RECORD(struct S, S##_fields);
+#define KEY(KIND, S, ...)         KIND(struct S, __VA_ARGS__),
+#define PART(KIND, S, M, BITS, T) KIND(struct S, M, BITS, T##_record),
+#define TOGETHER(BITS, R)         ROWS(BITS, R),
+#define MEMBER(TYPE, M)
+#define ROW(...)                 __VA_ARGS__,
+#define NUMBER_3(S, M)           RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, 0, .fixed = 3)
+#define ID(S, M)                 RECORD_ROW(S, M, FIELD_TEXT, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = LISTED_ID_LINES)
+#define STRUCT_IN(S, M, BITS, R) STRUCT(S, M, BITS, R)
+#define STRUCT_AT(S, M, BITS, R) STRUCT(S, M, (BITS) | BEHIND_POINTER, R)
+#define INLINE_IN(S, M, BITS, R) INLINE(S, M, BITS, R)
+#define INLINE_AT(S, M, BITS, R) INLINE(S, M, (BITS) | BEHIND_POINTER, R)
+#include "result/results.def"
+
+/* ---- the change of frequencies with parameters, of src/run */
+
+#define GROWING (ELEMENTS_MAY_BE_NULL | FROM_0)
+
+static const struct record_field parameter_fields[] = {
+    COUNT_OF(struct sensitivity_parameter, nfrequency_hz, struct sensitivity, nfrequency_hz),
+    COUNT_OF(struct sensitivity_parameter, nrelative_value, struct sensitivity, nrelative_value),
+    TEXT(struct sensitivity_parameter, name, 0),
+    TEXT(struct sensitivity_parameter, unit, 0),
+    NUMBER(struct sensitivity_parameter, reference, 0),
+    NUMBERS_BY(struct sensitivity_parameter, sensitivity, 0, nfrequency_hz, "frequency_hz"),
+    NUMBERS_BY(struct sensitivity_parameter, derivative, 0, nfrequency_hz, "frequency_hz"),
+    NUMBERS_BY(struct sensitivity_parameter, frequency_change, SINCE_LATER, nfrequency_hz, "frequency_hz"),
+    MATRIX(struct sensitivity_parameter, curves, GROWING, nfrequency_hz, nrelative_value),
+    {0},
+};
+static const struct record parameter_record = RECORD(struct sensitivity_parameter, parameter_fields);
+
+static const struct record_field line_fields[] = {
+    COUNT_OF(struct growth_line, nepsilon_squared, struct growth, nepsilon_squared),
+    NUMBERS_BY(struct growth_line, objective, GROWING, nepsilon_squared, "epsilon_squared"),
+    NUMBER(struct growth_line, slope, MAY_BE_NULL),
+    NUMBER(struct growth_line, intercept, MAY_BE_NULL),
+    {0},
+};
+static const struct record line_record = RECORD(struct growth_line, line_fields);
+
+static const struct record_field growth_fields[] = {
+    NUMBERS(struct growth, epsilon_squared, ABOVE_0),
+    STRUCT(struct growth, hybrid, 0, line_record),
+    STRUCT(struct growth, hybrid_f, 0, line_record),
+    NUMBERS_BY(struct growth, shapes_alone, GROWING | SINCE_LATER, nepsilon_squared, "epsilon_squared"),
+    {0},
+};
+static const struct record growth_record = RECORD(struct growth, growth_fields);
+
+static const struct record_field sensitivity_fields[] = {
+    TEXT_OF(struct sensitivity, reduction, 0, reduction_words),
+    NUMBER(struct sensitivity, step, ABOVE_0),
+    NUMBERS(struct sensitivity, frequency_hz, FROM_0),
+    NUMBERS(struct sensitivity, relative_value, 0),
+    STRUCTS(struct sensitivity, parameters, 0, parameter_record),
+    STRUCT(struct sensitivity, functional_growth, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, growth_record),
+    {0},
+};
+const struct record sensitivity_record = RECORD(struct sensitivity, sensitivity_fields);
+
+/* ---- the line of a run of a study: rows of the result of its command */
+
+static const struct record_field value_fields[] = {
+    TEXT(struct run_value, name, 0),
+    TEXT(struct run_value, unit, 0),
+    NUMBER(struct run_value, value, 0),
+    {0},
+};
+static const struct record value_record = RECORD(struct run_value, value_fields);
+
+static const struct record_field hidden_fields[] = {
+    TEXT(struct run_hidden, id, 0),
+    STRUCTS(struct run_hidden, parameters, 0, value_record),
+    {0},
+};
+static const struct record hidden_record = RECORD(struct run_hidden, hidden_fields);
+
+/* Lines differ in nothing but their last seconds: no times of steps and of other minimisers. */
+static const struct record_field step_fields[] = {
+    INTEGER(rotid_history_entry, iteration, FROM_0),
+    NUMBER(rotid_history_entry, objective, FROM_0),
+    NUMBERS(rotid_history_entry, x, 0),
+    {0},
+};
+static const struct record step_record = RECORD(rotid_history_entry, step_fields);
+
+static const struct record_field minimiser_fields[] = {
+    TEXT(rotid_minimiser, algorithm, 0),
+    TEXT(rotid_minimiser, result, SINCE_LATER),
+    FLAG(rotid_minimiser, usable, 0),
+    NUMBER(rotid_minimiser, objective, MAY_BE_NULL | FROM_0),
+    INTEGER(rotid_minimiser, evaluations, FROM_0),
+    NUMBERS(rotid_minimiser, x, 0),
+    {0},
+};
+static const struct record run_minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
+
+static const struct record_field state_fields[] = {
+    TEXT(rotid_identified_state, name, 0),
+    STRUCTS(rotid_identified_state, modes, NOT_EMPTY, compared_mode_record),
+    {0},
+};
+static const struct record state_record = RECORD(rotid_identified_state, state_fields);
+
+static const struct record_field fit_fields[] = {
+    TEXT_OF(rotid_identification, functional, 0, functional_words),
+    TEXT_OF(rotid_identification, reduction, 0, reduction_words),
+    NUMBER(rotid_identification, objective, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_identification, chi2, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_identification, chi2_per_dof, MAY_BE_NULL | FROM_0),
+    INTEGER(rotid_identification, dof, 0),
+    INTEGER(rotid_identification, iterations, FROM_0),
+    INTEGER(rotid_identification, evaluations, FROM_1),
+    TEXT(rotid_identification, stop_reason, 0),
+    STRUCTS(rotid_identification, parameters, 0, fitted_parameter_record),
+    STRUCTS(rotid_identification, modes, 0, compared_mode_record),
+    STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
+    STRUCTS(rotid_identification, history, IF_KNOWN, step_record),
+    STRUCTS(rotid_identification, baseline, IF_KNOWN, run_minimiser_record),
+    {0},
+};
+static const struct record fit_record = RECORD(rotid_identification, fit_fields);
+
+static const struct record_field diagnosis_fields[] = {
+    STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
+    STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
+    {0},
+};
+static const struct record diagnosis_record_of_run = RECORD(rotid_diagnosis, diagnosis_fields);
+
+static const struct record_field critical_fields[] = {
+    INTEGER(rotid_critical_speed, number, FROM_1),
+    NUMBER(rotid_critical_speed, speed_rpm, ABOVE_0),
+    NUMBER(rotid_critical_speed, std, MAY_BE_NULL | FROM_0),
+    INTERVAL(rotid_critical_speed, ci95, ELEMENTS_MAY_BE_NULL),
+    TEXT_OF(rotid_critical_speed, whirl, 0, whirl_words),
+    NUMBER(rotid_critical_speed, log_decrement, 0),
+    STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
+    {0},
+};
+static const struct record critical_record = RECORD(rotid_critical_speed, critical_fields);
+
+static const struct record_field speeds_fields[] = {
+    STRUCTS(rotid_speeds, critical_speeds, 0, critical_record),
+    STRUCT(rotid_speeds, stability, 0, stability_record),
+    STRUCTS(rotid_speeds, runup, 0, runup_record),
+    {0},
+};
+static const struct record speeds_record_of_run = RECORD(rotid_speeds, speeds_fields);
+
+static const struct record_field stamp_fields[] = {
+    TEXT(struct study_run, study, 0),
+    TEXT(struct study_run, digest, 0),
+    {0},
+};
+static const struct record stamp_record = RECORD(struct study_run, stamp_fields);
+
+static const struct record_field run_fields[] = {
+    INTEGER(struct study_run, run, FROM_0),
+    STRUCT(struct study_run, cell, 0, study_axes_record),
+    INTEGER(struct study_run, replicate, FROM_0),
+    INTEGER(struct study_run, start, FROM_0),
+    WORD(struct study_run, status, 0, study_status_words),
+    TEXT(struct study_run, error, MAY_BE_NULL),
+    INTEGER(struct study_run, sensors, IF_KNOWN | FROM_0),
+    MAP(struct study_run, truth, IF_KNOWN),
+    STRUCT(struct study_run, hidden, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, hidden_record),
+    INLINE(struct study_run, fit, IF_KNOWN | BEHIND_POINTER, fit_record),
+    INLINE(struct study_run, diagnosis, IF_KNOWN | BEHIND_POINTER, diagnosis_record_of_run),
+    INLINE(struct study_run, speeds, IF_KNOWN | BEHIND_POINTER, speeds_record_of_run),
+    WORD(struct study_run, score, IF_KNOWN, score_words),
+    INTEGER(struct study_run, false_findings, IF_KNOWN | FROM_0),
+    TEXTS(struct study_run, warnings, IF_KNOWN),
+    TEXT(struct study_run, input, IF_KNOWN),
+    NUMBER(struct study_run, seconds, FROM_0),
+    ROWS(IF_KNOWN, stamp_record),
+    {0},
+};
+const struct record study_run_record = RECORD(struct study_run, run_fields);
