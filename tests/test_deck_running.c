@@ -209,7 +209,7 @@ static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
     says(SHAFT TWO "*RUNUP\n1, 4000, 0\n", ROTID_ERROR, 16, "standard deviation of it [rpm] is 0");
     says(SHAFT TWO "*RUNUP\n0, 4000, 1\n", ROTID_ERROR, 16, "number of the critical speed");
     says(SHAFT TWO "*RUNUP\n1, -4000, 1\n", ROTID_ERROR, 16, "critical speed [rpm] is -4000");
-    says(SHAFT TWO "*RUNUP\n1, 4000, 1, UPWARD\n", ROTID_ERROR, 16, "expected FORWARD or BACKWARD");
+    says(SHAFT TWO "*RUNUP\n1, 4000, 1, UPWARD\n", ROTID_ERROR, 16, "expected one of FORWARD, BACKWARD");
     says(SHAFT TWO "*RUNUP\n1, 4000, 1\n1, 4100, 1, FORWARD\n", ROTID_ERROR, 17, "critical speed 1 is given twice");
     says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*RUNUP\n2, 4100, 1\n", ROTID_ERROR, 17, "given twice");
     says(SHAFT TWO "*RUNUP\n1, 4000, 1\n*IDENTIFY\nr.k, 0.1, 2, 1\n", ROTID_ERROR, 18, "no unknown of the machine");

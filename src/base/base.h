@@ -93,6 +93,11 @@ void *pool_room(struct pool *pool, size_t count, size_t size);
  * full. Returns the array, or NULL when memory is out (the old one stays valid). */
 void *pool_grow(struct pool *pool, void *array, size_t count, size_t *capacity, size_t size);
 
+/* Puts a copy of *item behind the last one of a list [*count] that grows by this alone, from empty, and counts it. 0, or 1 where
+ * memory is out. */
+int pool_add(struct pool *pool, void **list, int *count, size_t size, const void *item);
+#define POOL_ADD(pool, list, count, item) pool_add((pool), (void **)&(list), &(count), sizeof *(list), 1 ? (item) : (list))
+
 char *pool_copy_text(struct pool *pool, const char *text);
 char *pool_format(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -108,6 +108,18 @@ void *pool_grow(struct pool *pool, void *array, size_t count, size_t *capacity, 
     return larger;
 }
 
+int pool_add(struct pool *pool, void **list, int *count, size_t size, const void *item)
+{
+    int full = !*count || (*count >= 8 && !(*count & (*count - 1))); /* there is room for 8, doubled whenever it is full */
+    size_t room = (size_t)*count + !full;
+    char *grown = pool_grow(pool, *list, (size_t)*count, &room, size);
+    if (!grown)
+        return 1;
+    *list = grown;
+    memcpy(grown + (size_t)(*count)++ * size, item, size);
+    return 0;
+}
+
 char *pool_copy_text(struct pool *pool, const char *text)
 {
     size_t bytes = strlen(text) + 1;

@@ -1,5 +1,6 @@
-#include "deck/deck_row.h"
 #include "deck/deck.h"
+#include "deck/deck_row.h"
+#include "running/running.h"
 
 #include <string.h>
 
@@ -64,7 +65,7 @@ const struct deck_row deck_tierod_rows[] = {
     {ABOVE_0(struct tierod, diameter, "diameter [m]")},
     {ABOVE_0(struct tierod, pitch, "pitch radius [m]")},
     {NUMBER(struct tierod, tension, "tension per rod [N]")},
-    {WHOLE(struct tierod, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL},
+    {WHOLE(struct tierod, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL, .standard = 1},
     LAST};
 const struct deck_row deck_bars_rows[] = {
     NAME(struct bars),
@@ -106,11 +107,11 @@ const struct deck_row deck_frf_rows[] = {
     {.option = "STEP", ABOVE_0(struct frf_request, step_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
     {.option = "LINES", WHOLE(struct frf_request, nline, "(1601)"), FROM_TO(2, FRF_MOST_LINES),
      .bits = ROW_MAY_LACK | ROW_ABOVE_0},
-    OTHER("QUANTITY", .words = quantities, .standard = 2),
-    OTHER("DAMPING", .what = ""),
-    OTHER("AXIS", .words = axes, .standard = 2),
-    OTHER("ORIGIN", .what = "[m]"),
-    OTHER("FLIP", .words = deck_answers),
+    {.option = "QUANTITY", WORD(struct frf_request, quantity, quantities), .standard = FRF_ACCELERATION},
+    {.option = "DAMPING", ABOVE_0(struct frf_request, damping, ""), OPTIONAL},
+    {.option = "AXIS", WORD(struct frf_request, axis, axes), .standard = 2},
+    {.option = "ORIGIN", NUMBER(struct frf_request, origin, "[m]"), OPTIONAL},
+    {.option = "FLIP", WORD(struct frf_request, flip, deck_answers)},
     LAST};
 
 static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL};
@@ -165,20 +166,77 @@ static const struct deck_row cause[] = {
     OTHER("SUSPECT", .words = deck_answers),
     LAST};
 
-static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL};
+/* ---- the machine in operation */
+
+#define DEGREE 0.017453292519943295
+
+static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL}, *const whirls[] = {"FORWARD", "BACKWARD", NULL};
 const char *const deck_axes[] = {"XY", "LOAD", NULL};
+
+const struct deck_row deck_pedestal_rows[] = {
+    OTHER("BEARING", .what = ""),
+    {ABOVE_0(struct bearing, m[0], "mass mx [kg]")},
+    {ABOVE_0(struct bearing, m[1], "mass my [kg]")},
+    {ABOVE_0(struct bearing, kp[0], "stiffness kx [N/m]")},
+    {ABOVE_0(struct bearing, kp[1], "stiffness ky [N/m]")},
+    {FROM_0(struct bearing, cp[0], "damping cx [N.s/m]"), OPTIONAL},
+    {FROM_0(struct bearing, cp[1], "damping cy [N.s/m]"), OPTIONAL},
+    LAST};
+static const struct deck_row loss[] = {
+    {.option = "TYPE", WORD(struct loss, viscous, losses)},
+    OTHER("TEST", .what = ""),
+    {.kind = ROW_GROUP, IN(struct loss, group), .what = "group"},
+    {FROM_0(struct loss, value, "loss factor"), OPTIONAL},
+    {FROM_0(struct loss, std, "standard deviation of the loss"), OPTIONAL},
+    LAST};
+static const struct deck_row pull[] = {
+    {.option = "GROUP", .kind = ROW_GROUP, IN(struct pull, group)},
+    {.option = "STD", FROM_0(struct pull, std, "(0)"), OPTIONAL},
+    {FROM_0(struct pull, value, "stiffness of the pull, without its sign [N/m]")},
+    LAST};
+static const struct deck_row change[] = {
+    {.kind = ROW_NAME, IN(struct change, name), .what = "parameter"},
+    {ABOVE_0(struct change, factor, "factor")},
+    {FROM_0(struct change, std, "standard deviation of the factor"), OPTIONAL},
+    LAST};
+static const struct deck_row unbalance[] = {
+    {.option = "G", ABOVE_0(struct unbalance, grade, ""), OPTIONAL, .factor = 1e-3},
+    {POSITION(struct unbalance, z)},
+    {FROM_0(struct unbalance, value, "unbalance [kg.m]")},
+    {NUMBER(struct unbalance, phase, "phase [deg]"), OPTIONAL, .factor = DEGREE},
+    LAST};
+static const struct deck_row probe[] = {
+    {.option = "NAME", .kind = ROW_NAME, IN(struct probe, name), .what = "name"},
+    {POSITION(struct probe, z)},
+    {NUMBER(struct probe, angle, "angle [deg]"), OPTIONAL, .factor = DEGREE},
+    LAST};
+static const struct deck_row runup[] = {
+    {WHOLE(struct runup_reading, number, "number of the critical speed"), FROM_TO(1, DECK_MOST_MODES)},
+    {ABOVE_0(struct runup_reading, speed, "critical speed [rpm]"), .factor = RPM},
+    {ABOVE_0(struct runup_reading, std, "standard deviation of it [rpm]"), .factor = RPM},
+    {WORD(struct runup_reading, backward, whirls), .what = "whirl ", OPTIONAL},
+    LAST};
+static const struct deck_row unknown[] = {
+    {.kind = ROW_NAME, IN(struct machine_unknown, bounds.name), .what = "parameter"},
+    {ABOVE_0(struct machine_unknown, bounds.lower, "lower bound")},
+    {ABOVE_0(struct machine_unknown, bounds.upper, "upper bound")},
+    {ABOVE_0(struct machine_unknown, bounds.start, "start")},
+    LAST};
 static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
     bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), OTHER("AXES", .words = deck_axes), LAST},
-    pedestal[] = {OTHER("BEARING", .what = ""), LAST}, loss[] = {OTHER("TYPE", .words = losses), OTHER("TEST", .what = ""), LAST},
-    pull[] = {OTHER("GROUP", .what = ""), OTHER("STD", .what = "(0)"), LAST}, probe[] = {OTHER("NAME", .what = ""), LAST},
-    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST}, unbalance[] = {OTHER("G", .what = ""), LAST};
+    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST};
 
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
 #define REPLACES   BY_CODE, .states = CARD_REPLACES
 #define OF_STATE   BY_CODE, .states = CARD_OF_STATE
 #define OF_MACHINE BY_CODE, .states = CARD_OF_MACHINE
-#define LIST(S, M) .size = sizeof(struct S), .list = offsetof(struct rotor, M), .count = offsetof(struct rotor, n##M)
+#define LIST_IN(O, S, M) .size = sizeof(struct S), .list = offsetof(struct O, M), .count = offsetof(struct O, n##M)
+#define LIST(S, M)       LIST_IN(rotor, S, M)
+#define MACHINE(S, M)    LIST_IN(machine, S, M), .states = CARD_OF_MACHINE
+
+#define DISK_LINES     "position, mass [kg] [, diametral inertia, polar inertia [kg.m2] [, hub length, hub outer diameter [m]]]"
+#define IDENTIFY_LINES "parameter, lower bound, upper bound, start"
 
 /* In the order of docs/deck.md. */
 const struct deck_card deck_card_table[] = {
@@ -192,11 +250,12 @@ const struct deck_card deck_card_table[] = {
     {"BEAM", CARD_MODEL, 2, deck_beam, "length, height in the bending plane, width [m] [, elements]", group, BY_CODE},
     {"LAYER", CARD_MODEL, 3, deck_layer, "outer diameter, inner diameter [m]", layer, BY_CODE},
     {"PERFORATION", CARD_MODEL, 4, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
-    {"TIEROD", CARD_MODEL, 4, deck_tierod, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
-     deck_tierod_rows, BY_CODE},
-    {"BARS", CARD_MODEL, 4, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
+    {"TIEROD", CARD_MODEL, 4, NULL, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
+     deck_tierod_rows, LIST(tierod, tierod), .check = deck_check_tierod, .places = TIEROD_PLACES, .single = 1},
+    {"BARS", CARD_MODEL, 4, NULL, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, LIST(bars, bars),
+     .check = deck_check_bars, .places = BARS_PLACES, .single = 1},
     {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
-    {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg] [, diametral inertia, polar inertia [kg.m2] [, hub length, hub outer diameter [m]]]", disk, LIST(disk, disk),
+    {"DISK", CARD_MODEL, 4, NULL, DISK_LINES, disk, LIST(disk, disk),
      .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad] [, torsional stiffness [N.m/rad] [, axial stiffness [N/m]]]]", spring,
      LIST(spring, spring)},
@@ -210,28 +269,44 @@ const struct deck_card deck_card_table[] = {
     {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE, .once = 1},
     {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES, .instead = "options on the card", .once = 1},
     {"CAUSE", CARD_CAUSE, 7, deck_cause, "parameter, value", cause, BY_CODE},
-    {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
+    {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, IDENTIFY_LINES, nothing, BY_CODE},
     {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON, .instead = "options on the card", .once = 1},
     {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES, .once = 1},
-    {"STATE", CARD_STATES, 8, deck_state, NULL, state, BY_CODE, .instead = "the cards of the state behind it"},
+    {"STATE", CARD_STATES, 8, deck_choose_modes, NULL, state, BY_CODE, .instead = "the cards of the state behind it"},
     {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
     {"RUNNING", CARD_RUNNING, 9, deck_running, "names of supports and masses that were left at the test", running, OF_MACHINE},
     {"BEARING", CARD_RUNNING, 9, deck_bearing, "position, k [N/m], c [N.s/m]; or kxx, kyy, cxx, cyy; or kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy; with FILE: position", bearing, OF_MACHINE},
-    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]", pedestal, OF_MACHINE},
-    {"LOSS", CARD_RUNNING, 10, deck_loss, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, OF_MACHINE},
-    {"PULL", CARD_RUNNING, 10, deck_pull, "stiffness of the magnetic pull, without its sign [N/m]", pull, OF_MACHINE},
-    {"CHANGE", CARD_RUNNING, 10, deck_change, "parameter, factor [, standard deviation of its logarithm]", nothing, OF_MACHINE},
-    {"UNBALANCE", CARD_RUNNING, 10, deck_unbalance, "position, unbalance [kg.m] [, phase [deg]]; with G: position, share of what the grade permits [, phase [deg]]", unbalance, OF_MACHINE},
-    {"PROBE", CARD_RUNNING, 10, deck_probe, "position [, angle from x [deg]]", probe, OF_MACHINE},
+    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]", deck_pedestal_rows, OF_MACHINE},
+    {"LOSS", CARD_RUNNING, 10, NULL, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, MACHINE(loss, loss), .check = deck_check_loss},
+    {"PULL", CARD_RUNNING, 10, NULL, "stiffness of the magnetic pull, without its sign [N/m]", pull, MACHINE(pull, pull), .single = 1},
+    {"CHANGE", CARD_RUNNING, 10, NULL, "parameter, factor [, standard deviation of its logarithm]", change, MACHINE(change, change), .check = deck_check_change},
+    {"UNBALANCE", CARD_RUNNING, 10, NULL, "position, unbalance [kg.m] [, phase [deg]]; with G: position, share of what the grade permits [, phase [deg]]", unbalance, MACHINE(unbalance, unbalance)},
+    {"PROBE", CARD_RUNNING, 10, NULL, "position [, angle from x [deg]]", probe, MACHINE(probe, probe), .single = 1},
     {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
-    {"RUNUP", CARD_RUNNING, 10, deck_runup, "number, critical speed, standard deviation [rpm] [, BACKWARD]", nothing, OF_MACHINE, .once = 1},
+    {"RUNUP", CARD_RUNNING, 10, NULL, "number, critical speed, standard deviation [rpm] [, BACKWARD]", runup, MACHINE(runup_reading, runup), .check = deck_check_runup, .once = 1},
+    {.name = NULL}};
+
+/* What two cards of the rotor at rest mean behind *RUNNING. */
+static const struct deck_card of_machine[] = {
+    {"DISK", CARD_RUNNING, 10, NULL, DISK_LINES, disk, MACHINE(disk, disk), .check = deck_check_disk},
+    {"IDENTIFY", CARD_RUNNING, 10, NULL, IDENTIFY_LINES, unknown, MACHINE(machine_unknown, unknown), .check = deck_check_unknown},
     {.name = NULL}};
 /* clang-format on */
 
+static const struct deck_card *find(const struct deck_card *kind, const char *name)
+{
+    while (kind->name && strcmp(kind->name, name) != 0)
+        kind++;
+    return kind->name ? kind : NULL;
+}
+
 const struct deck_card *deck_card_find(const char *name)
 {
-    for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        if (!strcmp(kind->name, name))
-            return kind;
-    return NULL;
+    return find(deck_card_table, name);
+}
+
+const struct deck_card *deck_card_of_machine(const char *name)
+{
+    const struct deck_card *kind = find(of_machine, name);
+    return kind ? kind : find(deck_card_table, name);
 }

@@ -52,39 +52,40 @@ static void check_materials(struct deck_reader *reader)
 {
     for (int m = 0; m < reader->nmaterial; m++) {
         if (!(reader->material_complete[m] & 1))
-            deck_error(reader, reader->material_place[m], "material %s has no *ELASTIC, expected one behind *MATERIAL",
+            deck_error(reader, reader->place[MATERIAL_PLACES][m], "material %s has no *ELASTIC, expected one behind *MATERIAL",
                        reader->material[m].name);
         if (!(reader->material_complete[m] & 2))
-            deck_error(reader, reader->material_place[m], "material %s has no *DENSITY, expected one behind *MATERIAL",
+            deck_error(reader, reader->place[MATERIAL_PLACES][m], "material %s has no *DENSITY, expected one behind *MATERIAL",
                        reader->material[m].name);
     }
 }
 
-static int makes_group(const struct card *card)
+/* The set of names that a card's NAME belongs to. Parameters are addressed by name, so groups, rods, springs, disks and causes
+ * share one set, but for two groups, which are compared where they are made; materials and states have their own, and of the
+ * machine bearings and probes. NULL: of none. */
+static const char *names_of(const struct card *card, int machine)
 {
-    return !strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM") || !strcmp(card->name, "LAYER");
+    static const char *const groups[] = {"SHAFT", "BEAM", "LAYER"}, *const apart[] = {"MATERIAL", "STATE"};
+    const struct deck_card *kind = deck_card_find(card->name);
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(card->name, groups[i]))
+            return "group";
+    for (int i = 0; i < 2; i++)
+        if (!strcmp(card->name, apart[i]))
+            return NULL;
+    return !machine ? "part" : kind && kind->states == CARD_OF_MACHINE ? kind->name : NULL;
 }
 
-/* Materials and states have names of their own. */
-static int shares_names(const struct card *card)
+void deck_check_unique(struct deck_reader *reader, int ncard, const struct card *card, int machine)
 {
-    return strcmp(card->name, "MATERIAL") != 0 && strcmp(card->name, "STATE") != 0;
-}
-
-/* Parameters are addressed by name, so groups, rods, springs, disks and causes share one set of names. */
-static void check_unique(struct deck_reader *reader)
-{
-    for (int c = 0; c < reader->text.ncard; c++) {
-        const struct card *card = &reader->text.card[c];
-        const struct card_option *option = card_option(card, "NAME");
-        if (!option || !shares_names(card))
-            continue;
-        for (int d = 0; d < c; d++) {
-            const struct card_option *other = card_option(&reader->text.card[d], "NAME");
-            int groups = makes_group(card) && makes_group(&reader->text.card[d]); /* which compare their own */
-            if (other && shares_names(&reader->text.card[d]) && !groups && same_text(option->value, other->value))
+    for (int c = 0; c < ncard; c++) {
+        const struct card_option *option = card_option(&card[c], "NAME"), *other;
+        const char *names = names_of(&card[c], machine), *of;
+        for (int d = 0; d < c && option && names; d++)
+            if ((other = card_option(&card[d], "NAME")) && (of = names_of(&card[d], machine)) &&
+                (machine ? of == names : strcmp(of, "group") != 0 || strcmp(names, "group") != 0) &&
+                same_text(option->value, other->value))
                 deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
-        }
     }
 }
 
@@ -177,20 +178,25 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
+static struct job_place job_place_of(struct place place)
+{
+    return (struct job_place){place.file, place.line, place.column};
+}
+
 /* Of the groups, tie rods, bars and sensors, in this order, and of what was measured. */
 static int keep_places(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place, reader->sensor_place};
+    static const enum deck_places from[] = {GROUP_PLACES, TIEROD_PLACES, BARS_PLACES, SENSOR_PLACES};
     const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars, rotor->nsensor};
     const struct card *measured = reader->modes_card ? reader->modes_card : reader->measured_card;
     struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2] + count[3]);
     reader->job->part = to;
     for (int kind = 0; kind < 4 && to; kind++)
         for (int i = 0; i < count[kind]; i++)
-            *to++ = (struct job_place){from[kind][i].file, from[kind][i].line, from[kind][i].column};
+            *to++ = job_place_of(reader->place[from[kind]][i]);
     if (measured)
-        reader->job->measured = (struct job_place){measured->place.file, measured->place.line, measured->place.column};
+        reader->job->measured = job_place_of(measured->place);
     return reader->job->part ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -216,7 +222,7 @@ static void check_model(struct deck_reader *reader)
         if (size.sensor_dof[s] == size.sensor_dof[s - 1] && !same++)
             first = s;
     if (same)
-        deck_error(reader, reader->sensor_place[first],
+        deck_error(reader, reader->place[SENSOR_PLACES][first],
                    "sensors %d and %d lie at the same node%s, expected one sensor a position, in the unit of the deck's lengths, "
                    "and elements that are shorter than their distance",
                    job->rotor.sensor[first - 1].id, job->rotor.sensor[first].id,
@@ -234,7 +240,7 @@ static void choose_mesh(struct deck_reader *reader)
 {
     struct mesh_choice c;
     struct place place =
-        reader->nopen ? reader->group_place[reader->job->rotor.segment[reader->open_section[0]].group] : reader->text.end;
+        reader->nopen ? reader->place[GROUP_PLACES][reader->job->rotor.segment[reader->open_section[0]].group] : reader->text.end;
     if (!reader->nopen)
         return;
     reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
@@ -267,13 +273,13 @@ static void note_assumptions(struct deck_reader *reader)
         holes = group->holes > 0 ? g : holes;
     }
     if (shear >= 0)
-        deck_note(reader, reader->group_place[shear],
+        deck_note(reader, reader->place[GROUP_PLACES][shear],
                   "E, G and nu of %s say nothing of E across the axis: a solid takes that for E along it, and nu in every "
                   "direction; *ELASTIC, TYPE=LAMINATED states the sheets",
                   rotor->group[shear].name);
     if (holes >= 0)
         deck_note(
-            reader, reader->group_place[holes],
+            reader, reader->place[GROUP_PLACES][holes],
             "a solid smears the holes of %s over a ring as broad as a hole, whose stiffness and density fall by their share",
             rotor->group[holes].name);
 }
@@ -311,34 +317,16 @@ static void check_elements(struct deck_reader *reader)
     for (int s = 0; s < rotor->nsegment; s++)
         elements += rotor->segment[s].elements;
     if (elements > DECK_MOST_ELEMENTS)
-        deck_error(reader, reader->group_place[rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d", elements,
-                   DECK_MOST_ELEMENTS);
+        deck_error(reader, reader->place[GROUP_PLACES][rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d",
+                   elements, DECK_MOST_ELEMENTS);
     for (int b = 0, count = rotor->ntierod + rotor->nbars; b < count && elements <= DECK_MOST_ELEMENTS; b++) {
         int bars = b - rotor->ntierod;
         elements += bars < 0 ? rotor->tierod[b].elements : rotor->bars[bars].elements;
         if (elements > DECK_MOST_ELEMENTS)
-            deck_error(reader, bars < 0 ? reader->tierod_place[b] : reader->bars_place[bars],
+            deck_error(reader, bars < 0 ? reader->place[TIEROD_PLACES][b] : reader->place[BARS_PLACES][bars],
                        "shaft, rods and bars up to these have %ld elements, expected at most %d in all", elements,
                        DECK_MOST_ELEMENTS);
     }
-}
-
-static void read_card(struct deck_reader *reader, const struct card *card, int phase)
-{
-    const struct deck_card *kind = deck_card_find(card->name);
-    if (!kind || kind->phase != phase)
-        return;
-    for (int i = 0; i < card->nline && kind->instead; i++)
-        deck_error(reader, card->line[i].place, "*%s has no data lines, expected %s", card->name, kind->instead);
-    if (kind->once && reader->seen[kind - deck_card_table]++) {
-        deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
-        return;
-    }
-    reader->layout = kind->lines;
-    if (kind->read)
-        kind->read(reader, card);
-    else
-        deck_read_list(reader, card, kind, &reader->list_room[kind - deck_card_table]);
 }
 
 void deck_read_cards(struct deck_reader *reader)
@@ -360,13 +348,18 @@ void deck_read_cards(struct deck_reader *reader)
             job->measurement.holdout = POOL_ARRAY(reader->pool, int, job->measurement.nmode);
             reader->out_of_memory |= !job->measurement.holdout;
         }
-        for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++)
-            read_card(reader, &reader->text.card[c], phase);
+        for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++) {
+            const struct deck_card *kind = deck_card_find(reader->text.card[c].name);
+            if (kind && kind->phase == phase)
+                deck_read_card(reader, &reader->text.card[c], kind);
+        }
     }
+    if (reader->out_of_memory)
+        return;
     check_materials(reader);
-    check_unique(reader);
+    deck_check_unique(reader, reader->text.ncard, reader->text.card, 0);
     check_elements(reader);
-    if (reader->messages->errors || reader->out_of_memory)
+    if (reader->messages->errors)
         return;
     settle_moduli(reader);
     deck_settle_noise(reader);

@@ -170,29 +170,35 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
 #define DECK_MOST_KINDS 64             /* of cards */
 #define DECK_QUANTITIES JOB_QUANTITIES /* whose units *UNITS can state */
 
+enum deck_places {
+    NO_PLACES,
+    MATERIAL_PLACES,
+    GROUP_PLACES,
+    TIEROD_PLACES,
+    BARS_PLACES,
+    SENSOR_PLACES,
+    CORRECTION_PLACES,
+    DECK_PLACES
+};
+
 struct deck_reader {
     struct pool *pool;
     struct message_list *messages;
     struct deck_text text;
     struct job *job;
+    int seen[DECK_MOST_KINDS]; /* of cards that may stand once */
     int nmaterial;
-    size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
-    int seen[DECK_MOST_KINDS];         /* of cards that may stand once */
-    size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
+    int *material_complete;           /* [nmaterial] bit 1: elastic constants, bit 2: density */
+    struct place *place[DECK_PLACES]; /* where the items of these lists stand, in the order of each list */
+    int nplace[DECK_PLACES];
     long taken;               /* rows of tables, by all cards */
     int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
-    size_t open_room;
-    int *material_complete; /* bit 1: elastic constants, bit 2: density */
-    struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
-    size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
-        bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
-    struct place *correction_place; /* of the CAUSE cards of the measurement chain */
-    const char *layout;             /* what a data line of the card at hand holds */
-    double length;                  /* of the rotor, once all groups are read */
+    const char *layout;       /* what a data line of the card at hand holds */
+    double length;            /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
-    const char *tie;           /* FIT, TIE=E:G */
+    int tie;                   /* FIT, TIE=E:G */
     int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
     const char *state;         /* that the cards are of, NULL in a deck without *STATE */
     int ncommon;               /* the first cards of the text are common to all states; the others are of this one */
@@ -203,7 +209,6 @@ struct deck_reader {
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
     int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
     struct card *running;
-    size_t running_room[9];
     struct place margin_place; /* of *OPERATION */
     struct machine *machine;   /* that they make */
     unsigned doubted;          /* kinds of numbers that a warning was given for */
@@ -213,9 +218,10 @@ struct deck_reader {
 void deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* Appends a zeroed element to a growing array and returns its address, or NULL with out_of_memory set. */
-void *deck_append(struct deck_reader *reader, void **array, int count, size_t *room, size_t size);
-#define DECK_APPEND(reader, array, count, room) deck_append((reader), (void **)&(array), (count), &(room), sizeof *(array))
+/* pool_add; without memory the reader has out_of_memory. */
+int deck_add(struct deck_reader *reader, void **list, int *count, size_t size, const void *item);
+#define DECK_ADD(reader, list, count, item) deck_add((reader), (void **)&(list), &(count), sizeof *(list), 1 ? (item) : (list))
+void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place);
 
 enum range { ANY, NOT_NEGATIVE, POSITIVE };
 
@@ -265,7 +271,9 @@ int deck_option_integer(struct deck_reader *reader, const struct card_option *op
 extern const char *const deck_answers[]; /* NO, YES */
 extern const char *const deck_counts[];  /* ELASTIC, ALL */
 
-/* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
+/* Index of a text in a list of words that ends with NULL; -1 after an error that says "WHATtext". */
+int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words);
+/* The same of an option's value. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
 /* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
  * `most`. */
@@ -279,7 +287,8 @@ int deck_find_material(const struct deck_reader *reader, const char *name);
 
 /* Index of the first `count` groups that is called so [length], -1 where there is none. */
 int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length);
-/* The group that an option names, -1 after an error. */
+/* The group of that name, or that an option names: -1 after an error. */
+int deck_named_group(struct deck_reader *reader, const char *name, struct place place);
 int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option);
 
 #define FRF_MOST_LINES     1000000
@@ -289,12 +298,14 @@ int deck_option_group(struct deck_reader *reader, const struct card *card, const
 
 /* The readers of the cards (card_table.c). */
 typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
+/* What no row says of an item of a list; it may complete it. 0, or 1 after an error. */
+typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
-    deck_tierod, deck_bars, deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies,
-    deck_measured, deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_state, deck_set, deck_running, deck_bearing,
-    deck_pedestal, deck_loss, deck_pull, deck_change, deck_unbalance, deck_probe, deck_operation, deck_runup;
-/* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
-int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
+    deck_preload, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise,
+    deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing, deck_pedestal,
+    deck_operation;
+deck_item_check deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change, deck_check_runup,
+    deck_check_unknown;
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
@@ -307,8 +318,6 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
 
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);
-/* MODES and HOLDOUT of a card. */
-void deck_choose_modes(struct deck_reader *reader, const struct card *card);
 /* Whether HOLDOUT=RUNUP, ... holds out the measured critical speeds; *rest goes on behind that. */
 int deck_whole_runup(const char **rest);
 /* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
@@ -318,13 +327,17 @@ const char *deck_whole_state(struct deck_reader *reader, const char **rest);
 /* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
  * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
 int deck_read_tables(struct deck_reader *reader, int *nread);
+/* The table that FILE of a card names, read once whatever number of cards name it. NULL after an error, or where memory is out;
+ * bad: its text has an error. */
+struct table_text *deck_open_table(struct deck_reader *reader, const struct card *card);
 
 /* Takes *RUNNING and what stands behind it out of the text, of whose cards *nread were read. */
 void deck_split_running(struct deck_reader *reader, int *nread);
 /* These cards into states->machine, once all states are read without an error. */
 void deck_read_machine(struct deck_reader *reader, struct states *states);
-/* Errors of a card or an option that is not known. */
+/* Errors of a card or an option that is not known; of a NAME that two cards have. */
 void deck_check_names(struct deck_reader *reader, const struct card *card);
+void deck_check_unique(struct deck_reader *reader, int ncard, const struct card *card, int machine);
 
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);

@@ -53,10 +53,7 @@ int deck_cause_list_item(const struct card *card, const struct card_option *opti
 
 static int find_group(const struct cause_card *c, const char *name, struct place place, int *group)
 {
-    *group = deck_find_group(c->reader, c->reader->job->rotor.ngroup, name, strlen(name));
-    if (*group < 0)
-        deck_error(c->reader, place, "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
-    return *group < 0;
+    return (*group = deck_named_group(c->reader, name, place)) < 0;
 }
 
 /* Groups by name; --set gives both of them as one text. */
@@ -427,19 +424,12 @@ static void read_physical(struct cause_card *c)
     if (read_values(c, effect_parameters(&c->effect), c->kind->effect->parameter, c->effect.value, given))
         return;
     if (!c->suspect) {
-        struct effect *added = DECK_APPEND(c->reader, job->rotor.effect, job->rotor.neffect, c->reader->effect_room);
-        if (added) {
-            *added = c->effect;
-            job->rotor.neffect++;
-        }
+        (void)DECK_ADD(c->reader, job->rotor.effect, job->rotor.neffect, &c->effect);
         return;
     }
-    struct suspect *added = DECK_APPEND(c->reader, job->unknowns.suspect, job->unknowns.nsuspect, c->reader->suspect_room);
-    if (!added)
-        return;
-    added->effect = c->effect;
-    memcpy(added->fixed, given, sizeof given);
-    job->unknowns.nsuspect++;
+    struct suspect suspect = {.effect = c->effect};
+    memcpy(suspect.fixed, given, sizeof given);
+    (void)DECK_ADD(c->reader, job->unknowns.suspect, job->unknowns.nsuspect, &suspect);
 }
 
 /* A fault of the measurement chain: applied when everything has been read. */
@@ -469,15 +459,8 @@ static void read_correction(struct cause_card *c)
                    c->kind->id);
         return;
     }
-    struct correction *added =
-        DECK_APPEND(c->reader, job->measurement.correction, job->measurement.ncorrection, c->reader->correction_room);
-    struct place *place =
-        DECK_APPEND(c->reader, c->reader->correction_place, job->measurement.ncorrection, c->reader->correction_place_room);
-    if (!added || !place)
-        return;
-    *added = c->correction;
-    *place = c->card->place;
-    job->measurement.ncorrection++;
+    deck_add_place(c->reader, CORRECTION_PLACES, c->card->place);
+    (void)DECK_ADD(c->reader, job->measurement.correction, job->measurement.ncorrection, &c->correction);
 }
 
 void deck_causes_of_solid(struct deck_reader *reader)
@@ -521,8 +504,8 @@ static void follow_sensors(struct deck_reader *reader, const struct job_raw *raw
         return;
     }
     for (int s = 0; s < raw->nsensor; s++)
-        place[sensor_find(reader->job, raw->sensor[s].id)] = reader->sensor_place[s];
-    reader->sensor_place = place;
+        place[sensor_find(reader->job, raw->sensor[s].id)] = reader->place[SENSOR_PLACES][s];
+    reader->place[SENSOR_PLACES] = place;
 }
 
 static int knows_any(ptrdiff_t count, const double *std)
@@ -549,7 +532,7 @@ void deck_apply_corrections(struct deck_reader *reader)
             !(shape ? job->measurement.shape &&
                           knows_any((ptrdiff_t)job->rotor.nsensor * job->measurement.nmode, job->measurement.shape_std)
                     : knows_any(job->measurement.nmode, job->measurement.frequency_std))) {
-            deck_error(reader, reader->correction_place[i], "the noise of AT=%s is not stated, expected *NOISE, %s=value",
+            deck_error(reader, reader->place[CORRECTION_PLACES][i], "the noise of AT=%s is not stated, expected *NOISE, %s=value",
                        correction->block, correction->block);
             continue;
         }
@@ -557,11 +540,11 @@ void deck_apply_corrections(struct deck_reader *reader)
         if (status == ROTID_ERROR_MEMORY)
             reader->out_of_memory = 1;
         else if (status && !correction->nsensor)
-            deck_error(reader, reader->correction_place[i],
+            deck_error(reader, reader->place[CORRECTION_PLACES][i],
                        "%s puts sensors beyond the rotor, expected a shift and a scale that leave all of them on it",
                        correction->id);
         else if (status)
-            deck_error(reader, reader->correction_place[i],
+            deck_error(reader, reader->place[CORRECTION_PLACES][i],
                        "%s leaves sensor %d no place of its own among the others, expected another shift", correction->id,
                        correction->sensor[0]);
         if (status)

@@ -39,15 +39,16 @@ void deck_note(struct deck_reader *reader, struct place place, const char *forma
     va_end(values);
 }
 
-void *deck_append(struct deck_reader *reader, void **array, int count, size_t *room, size_t size)
+int deck_add(struct deck_reader *reader, void **list, int *count, size_t size, const void *item)
 {
-    void *grown = pool_grow(reader->pool, *array, (size_t)count, room, size);
-    if (!grown) {
-        reader->out_of_memory = 1;
-        return NULL;
-    }
-    *array = grown;
-    return (char *)grown + (size_t)count * size;
+    int failed = pool_add(reader->pool, list, count, size, item);
+    reader->out_of_memory |= failed;
+    return failed;
+}
+
+void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place)
+{
+    (void)DECK_ADD(reader, reader->place[which], reader->nplace[which], &place);
 }
 
 static const char *range_text(enum range range)
@@ -134,14 +135,20 @@ int deck_find_group(const struct deck_reader *reader, int count, const char *nam
     return -1;
 }
 
+static const char group_name[] = "name of a *SHAFT, *BEAM or *LAYER";
+
+int deck_named_group(struct deck_reader *reader, const char *name, struct place place)
+{
+    int group = deck_find_group(reader, reader->job->rotor.ngroup, name, strlen(name));
+    if (group < 0)
+        deck_error(reader, place, "group %s is not defined, expected the %s", name, group_name);
+    return group;
+}
+
 int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option)
 {
-    static const char expected[] = "name of a *SHAFT, *BEAM or *LAYER";
-    const char *name = deck_option(reader, card, option, expected);
-    int group = name ? deck_find_group(reader, reader->job->rotor.ngroup, name, strlen(name)) : -1;
-    if (name && group < 0)
-        deck_error(reader, card_option(card, option)->value_place, "group %s is not defined, expected the %s", name, expected);
-    return group;
+    const char *name = deck_option(reader, card, option, group_name);
+    return name ? deck_named_group(reader, name, card_option(card, option)->value_place) : -1;
 }
 
 int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z)
@@ -229,16 +236,23 @@ int deck_option_integer(struct deck_reader *reader, const struct card_option *op
 
 const char *const deck_answers[] = {"NO", "YES", NULL};
 
-int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
+int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words)
 {
     char list[256] = "";
     for (int i = 0; words[i]; i++) {
-        if (same_text(option->value, words[i]))
+        if (same_text(text, words[i]))
             return i;
         (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", words[i]);
     }
-    deck_error(reader, option->value_place, "%s=%s is not known, expected one of %s", option->name, option->value, list);
+    deck_error(reader, place, "%s%s is not known, expected one of %s", what, text, list);
     return -1;
+}
+
+int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
+{
+    char what[64];
+    (void)snprintf(what, sizeof what, "%.60s=", option->name);
+    return deck_word(reader, what, option->value, option->value_place, words);
 }
 
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout)

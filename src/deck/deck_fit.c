@@ -139,13 +139,10 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
                 else
                     deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
             }
-        struct parameter *added = DECK_APPEND(reader, job->unknowns.parameter, job->unknowns.nparameter, reader->parameter_room);
-        rotid_parameter *limits = DECK_APPEND(reader, job->unknowns.bounds, job->unknowns.nparameter, reader->bounds_room);
-        if (!added || !limits)
+        int last = job->unknowns.nparameter;
+        if (DECK_ADD(reader, job->unknowns.parameter, last, &parameter) ||
+            DECK_ADD(reader, job->unknowns.bounds, job->unknowns.nparameter, &bounds))
             return;
-        *added = parameter;
-        *limits = bounds;
-        job->unknowns.nparameter++;
         reader->ncommon_unknown += common;
     }
 }
@@ -253,8 +250,8 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     job->options.fit.functional = -1;
     (void)deck_read_options(reader, card, deck_fit_rows, &job->options.fit);
     job->options.has_fit = job->options.fit.functional >= 0;
-    if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
-        reader->tie = option->value;
+    if ((option = card_option(card, "TIE")))
+        reader->tie = deck_option_word(reader, option, ties) == 0;
     if ((option = card_option(card, "MODEL")))
         job->options.solid = deck_option_word(reader, option, models) == 1;
     if (job->options.solid)

@@ -30,13 +30,18 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
     return path;
 }
 
-static void read_lines(struct deck_reader *reader, const struct card *card)
+static int is_of_nodes(const char *option)
 {
-    struct frf_request *frf = &reader->job->options.frf;
+    return same_text(option, "AXIS") || same_text(option, "FLIP") || same_text(option, "ORIGIN");
+}
+
+/* What no row says of the lines, and of where the nodes of the file are. */
+static void check_options(struct deck_reader *reader, const struct card *card)
+{
+    const struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *low = card_option(card, "LOW"), *high = card_option(card, "HIGH"),
-                             *step = card_option(card, "STEP"), *lines = card_option(card, "LINES");
-    if (deck_read_options(reader, card, deck_frf_rows, frf))
-        return;
+                             *step = card_option(card, "STEP"), *lines = card_option(card, "LINES"),
+                             *damping = card_option(card, "DAMPING");
     if (low && high && frf->high_hz <= frf->low_hz)
         deck_error(reader, high->value_place, "HIGH is %s and LOW %s, expected HIGH above LOW", high->value, low->value);
     else if (step && lines)
@@ -48,24 +53,15 @@ static void read_lines(struct deck_reader *reader, const struct card *card)
             step ? "STEP" : "LINES");
     else if (step && high && frf->high_hz / frf->step_hz > FRF_MOST_LINES)
         deck_error(reader, step->value_place, "STEP is %s, expected at most %d lines up to HIGH", step->value, FRF_MOST_LINES);
-}
-
-static void read_nodes_of_file(struct deck_reader *reader, const struct card *card)
-{
-    static const char *const axes[] = {"X", "Y", "Z", NULL};
-    struct frf_request *frf = &reader->job->options.frf;
-    const struct card_option *axis = card_option(card, "AXIS"), *flip = card_option(card, "FLIP"),
-                             *origin = card_option(card, "ORIGIN"),
-                             *any = axis   ? axis
-                                    : flip ? flip
-                                           : origin;
-    frf->axis = axis ? deck_option_word(reader, axis, axes) : 2;
-    frf->flip = flip ? deck_option_word(reader, flip, deck_answers) : 0;
-    frf->origin = frf->flip > 0 ? reader->length : 0;
-    if (origin)
-        (void)deck_option_number(reader, origin, "m", ANY, &frf->origin);
-    if (any && !card_option(card, "FILE"))
-        deck_error(reader, any->place, "%s places the nodes of a file, expected FILE beside it", any->name);
+    if (damping && frf->damping >= 1)
+        deck_error(reader, damping->value_place, "DAMPING is %s, expected a ratio below 1: a fraction of critical damping",
+                   damping->value);
+    for (int i = 0; i < card->noption && !card_option(card, "FILE"); i++)
+        if (is_of_nodes(card->option[i].name)) {
+            deck_error(reader, card->option[i].place, "%s places the nodes of a file, expected FILE beside it",
+                       card->option[i].name);
+            return;
+        }
 }
 
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */
@@ -87,32 +83,20 @@ static void read_pairs(struct deck_reader *reader, const struct card *card)
             }
         if (bad)
             continue;
-        struct frf_pair *added = DECK_APPEND(reader, frf->pair, frf->npair, reader->pair_room);
-        if (!added)
-            return;
-        *added = pair;
-        frf->npair++;
+        (void)DECK_ADD(reader, frf->pair, frf->npair, &pair);
     }
 }
 
 void deck_frf(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL};
     struct frf_request *frf = &reader->job->options.frf;
-    const struct card_option *option;
-    int word;
-    *frf = (struct frf_request){.given = 1, .quantity = FRF_ACCELERATION};
-    if ((option = card_option(card, "FILE")))
-        frf->file = measured_file(reader, card, option);
-    if ((option = card_option(card, "QUANTITY")) && (word = deck_option_word(reader, option, quantities)) >= 0) {
-        frf->quantity = (enum frf_quantity)word;
-        frf->has_quantity = 1;
-    }
-    if ((option = card_option(card, "DAMPING")) && !deck_option_number(reader, option, "", POSITIVE, &frf->damping) &&
-        frf->damping >= 1)
-        deck_error(reader, option->value_place, "DAMPING is %s, expected a ratio below 1: a fraction of critical damping",
-                   option->value);
-    read_lines(reader, card);
-    read_nodes_of_file(reader, card);
+    const struct card_option *file = card_option(card, "FILE");
+    *frf = (struct frf_request){.given = 1, .has_quantity = card_option(card, "QUANTITY") != NULL};
+    if (file)
+        frf->file = measured_file(reader, card, file);
+    if (!deck_read_options(reader, card, deck_frf_rows, frf))
+        check_options(reader, card);
+    if (frf->flip && !card_option(card, "ORIGIN"))
+        frf->origin = reader->length;
     read_pairs(reader, card);
 }

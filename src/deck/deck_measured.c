@@ -76,17 +76,17 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
         for (int s = 0; s < rotor->nsensor; s++)
             if (rotor->sensor[s].id == sensor.id)
                 deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor.id);
-        struct sensor *added = DECK_APPEND(reader, rotor->sensor, rotor->nsensor, reader->sensor_room);
-        struct place *place = DECK_APPEND(reader, reader->sensor_place, rotor->nsensor, reader->sensor_place_room);
-        if (!added || !place)
+        int at = rotor->nsensor; /* kept by increasing position */
+        deck_add_place(reader, SENSOR_PLACES, line->place);
+        if (reader->out_of_memory || DECK_ADD(reader, rotor->sensor, rotor->nsensor, &sensor))
             return;
-        int at = rotor->nsensor++; /* kept by increasing position */
+        struct place *place = reader->place[SENSOR_PLACES];
         for (; at > 0 && rotor->sensor[at - 1].position > sensor.position; at--) {
             rotor->sensor[at] = rotor->sensor[at - 1];
-            reader->sensor_place[at] = reader->sensor_place[at - 1];
+            place[at] = place[at - 1];
         }
         rotor->sensor[at] = sensor;
-        reader->sensor_place[at] = line->place;
+        place[at] = line->place;
     }
 }
 

@@ -68,80 +68,52 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
         group->preload += force;
 }
 
-void deck_tierod(struct deck_reader *reader, const struct card *card)
+int deck_check_tierod(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    const char *layout = reader->layout;
-    struct rotor *rotor = &reader->job->rotor;
-    struct tierod rod = {.elements = 1};
-    int bad = deck_read_options(reader, card, deck_tierod_rows, &rod);
-    if (deck_lines(reader, card, 1, 1, layout) != 1)
-        return;
-    const struct data_line *line = &card->line[0];
-    bad |= deck_read_values(reader, line, deck_tierod_rows, layout, &rod);
-    if (!bad && rod.from >= rod.to) {
+    const struct tierod *rod = item;
+    if (rod->from >= rod->to) {
         deck_error(reader, card_option(card, "TO")->value_place, "TO=%s is not behind FROM=%s, expected a position further right",
                    card_option(card, "TO")->value, card_option(card, "FROM")->value);
-        bad = 1;
+        return 1;
     }
-    if (!bad && rod.elements > 1)
+    if (rod->elements > 1)
         deck_note(reader, line->field[4].place,
                   "rods in %d elements have modes of their own, which may lie among those of the rotor and shift the mode "
-                  "numbers; one element is the "
-                  "usual choice",
-                  rod.elements);
-    struct tierod *added = bad ? NULL : DECK_APPEND(reader, rotor->tierod, rotor->ntierod, reader->tierod_room);
-    struct place *place = bad ? NULL : DECK_APPEND(reader, reader->tierod_place, rotor->ntierod, reader->tierod_place_room);
-    if (!added || !place)
-        return;
-    *added = rod;
-    *place = card->place;
-    rotor->ntierod++;
+                  "numbers; one element is the usual choice",
+                  rod->elements);
+    return 0;
 }
 
-void deck_bars(struct deck_reader *reader, const struct card *card)
+int deck_check_bars(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    const char *layout = reader->layout;
-    struct rotor *rotor = &reader->job->rotor;
-    struct bars bars = {0};
-    int bad = deck_read_options(reader, card, deck_bars_rows, &bars);
-    if (deck_lines(reader, card, 1, 1, layout) != 1)
-        return;
-    const struct data_line *line = &card->line[0];
-    bad |= deck_read_values(reader, line, deck_bars_rows, layout, &bars);
-    if (!bad && bars.elements % 2) {
+    const struct bars *bars = item;
+    double half = bars->length / 2, over = 1e-5 * reader->length, radius = bars->diameter / 4, hz;
+    if (bars->elements % 2) {
         deck_error(reader, line->field[3].place,
-                   "number of elements is %d, expected an even number: half to either side of the centre", bars.elements);
-        bad = 1;
+                   "number of elements is %d, expected an even number: half to either side of the centre", bars->elements);
+        return 1;
     }
-    if (!bad &&
-        (bars.center - bars.length / 2 < -1e-5 * reader->length || bars.center + bars.length / 2 > reader->length * (1 + 1e-5))) {
+    if (bars->center - half < -over || bars->center + half > reader->length + over) {
         deck_error(reader, card_option(card, "LENGTH")->value_place,
-                   "bars of %.9g m reach beyond the rotor, expected them inside 0 to %.6g m", bars.length, reader->length);
-        bad = 1;
+                   "bars of %.9g m reach beyond the rotor, expected them inside 0 to %.6g m", bars->length, reader->length);
+        return 1;
     }
-    struct bars *added = bad ? NULL : DECK_APPEND(reader, rotor->bars, rotor->nbars, reader->bars_room);
-    struct place *place = bad ? NULL : DECK_APPEND(reader, reader->bars_place, rotor->nbars, reader->bars_place_room);
-    if (!added || !place)
-        return;
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
-    double radius = bars.diameter / 4,
-           hz = 0.5596 * sqrt(bars.material.e / bars.material.rho) * radius / (bars.length * bars.length / 4);
-    if (bars.model == BUNDLE_RODS && hz < 5000)
+    hz = 0.5596 * sqrt(bars->material.e / bars->material.rho) * radius / (half * half);
+    if (bars->model == BUNDLE_RODS && hz < 5000)
         deck_note(reader, card->place,
                   "bars fixed at their centre alone have a mode of their own near %.0f Hz, which may lie among those of the "
-                  "rotor and shift the mode "
-                  "numbers; MODEL=TUBE has none so low",
+                  "rotor and shift the mode numbers; MODEL=TUBE has none so low",
                   hz);
-    *added = bars;
-    *place = card->place;
-    rotor->nbars++;
+    return 0;
 }
 
-int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *one)
+int deck_check_disk(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    const struct disk *disk = one;
+    const struct disk *disk = item;
     double from = disk->position - disk->hub_length / 2, to = disk->position + disk->hub_length / 2, z = 0, outer, inner;
+    (void)card;
     if ((disk->hub_length > 0) != (disk->hub_outer > 0)) {
         deck_error(reader, line->field[deck_has(line, 5) ? 5 : 4].place,
                    "a hub has a length and an outer diameter above zero, expected both or neither");

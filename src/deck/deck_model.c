@@ -1,6 +1,8 @@
 /* Cards of materials and of the shaft itself. */
 #include "deck/deck_row.h"
 
+#include <string.h>
+
 int deck_find_material(const struct deck_reader *reader, const char *name)
 {
     for (int i = 0; i < reader->nmaterial; i++)
@@ -14,15 +16,10 @@ void deck_material(struct deck_reader *reader, const struct card *card)
     const char *name = deck_option(reader, card, "NAME", "name");
     if (name && deck_find_material(reader, name) >= 0)
         deck_error(reader, card_option(card, "NAME")->value_place, "material %s is defined twice, expected a new name", name);
-    struct material *material = DECK_APPEND(reader, reader->material, reader->nmaterial, reader->material_room);
-    int *complete = DECK_APPEND(reader, reader->material_complete, reader->nmaterial, reader->material_complete_room);
-    struct place *place = DECK_APPEND(reader, reader->material_place, reader->nmaterial, reader->material_place_room);
-    if (!material || !complete || !place)
-        return;
-    *material = (struct material){.name = name ? name : ""};
-    *complete = 0;
-    *place = card->place;
-    reader->nmaterial++;
+    int count = reader->nmaterial, incomplete = 0;
+    deck_add_place(reader, MATERIAL_PLACES, card->place);
+    (void)DECK_ADD(reader, reader->material_complete, count, &incomplete);
+    (void)DECK_ADD(reader, reader->material, reader->nmaterial, &(struct material){.name = name ? name : ""});
 }
 
 static struct material *current_material(struct deck_reader *reader, const struct card *card, int bit)
@@ -108,83 +105,56 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     if (of && material < 0)
         deck_error(reader, card_option(card, "MATERIAL")->value_place,
                    "material %s is not defined, expected the name of a *MATERIAL", of);
-    for (int g = 0; name && g < rotor->ngroup; g++)
-        if (same_text(rotor->group[g].name, name)) {
-            deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
-            return -1;
-        }
-    struct group *group = DECK_APPEND(reader, rotor->group, rotor->ngroup, reader->group_room);
-    struct place *place = DECK_APPEND(reader, reader->group_place, rotor->ngroup, reader->group_place_room);
-    if (!group || !place)
+    if (name && deck_find_group(reader, rotor->ngroup, name, strlen(name)) >= 0) {
+        deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
         return -1;
-    *group = (struct group){.name = name ? name : "", .layer_of = -1};
-    *place = card->place;
+    }
+    struct group group = {.name = name ? name : "", .layer_of = -1};
     if (material >= 0)
-        group->material = reader->material[material];
-    return rotor->ngroup++;
+        group.material = reader->material[material];
+    deck_add_place(reader, GROUP_PLACES, card->place);
+    return DECK_ADD(reader, rotor->group, rotor->ngroup, &group) ? -1 : rotor->ngroup - 1;
 }
 
-static struct segment *add_segment(struct deck_reader *reader, int group)
+/* A section of each data line. One that states no elements has some until those of all are chosen. */
+static void add_sections(struct deck_reader *reader, const struct card *card, int rectangular,
+                         void (*check)(struct deck_reader *, const struct data_line *, const struct segment *))
 {
     struct rotor *rotor = &reader->job->rotor;
-    struct segment *segment = DECK_APPEND(reader, rotor->segment, rotor->nsegment, reader->segment_room);
-    if (segment) {
-        *segment =
-            (struct segment){.group = group, .length = 1e6, .elements = 1}; /* where an error follows: every position is inside */
-        rotor->nsegment++;
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    for (int i = 0; i < count && group >= 0; i++) {
+        struct segment s = {
+            .group = group, .rectangular = rectangular, .length = 1e6}; /* of an error: every position is inside */
+        int bad = deck_read_values(reader, &card->line[i], rectangular ? deck_beam_rows : deck_shaft_rows, reader->layout, &s);
+        if (!bad && check)
+            check(reader, &card->line[i], &s);
+        if (!s.elements)
+            (void)DECK_ADD(reader, reader->open_section, reader->nopen, &rotor->nsegment);
+        s.elements = s.elements ? s.elements : 1;
+        if (DECK_ADD(reader, rotor->segment, rotor->nsegment, &s))
+            return;
     }
-    return segment;
 }
 
-/* A section that states no elements has some until those of all are chosen. */
-static void settle_elements(struct deck_reader *reader, struct segment *s)
+static void check_diameters(struct deck_reader *reader, const struct data_line *line, const struct segment *s)
 {
-    if (s->elements)
-        return;
-    s->elements = 1;
-    int *open = DECK_APPEND(reader, reader->open_section, reader->nopen, reader->open_room);
-    if (open) {
-        *open = (int)(s - reader->job->rotor.segment);
-        reader->nopen++;
-    }
+    if (s->inner >= s->outer)
+        deck_error(reader, line->field[2].place,
+                   "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", s->inner, s->outer);
+    else if (s->stiff_outer > s->outer || s->stiff_outer <= s->inner)
+        deck_error(reader, line->field[4].place,
+                   "the diameter that carries stiffness is %.12g m, expected above the inner and at most the outer diameter",
+                   s->stiff_outer);
 }
 
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
-    for (int i = 0; i < count && group >= 0; i++) {
-        const struct data_line *line = &card->line[i];
-        struct segment *s = add_segment(reader, group);
-        if (!s)
-            return;
-        s->elements = 0;
-        int bad = deck_read_values(reader, line, deck_shaft_rows, layout, s);
-        settle_elements(reader, s);
-        if (!bad && s->inner >= s->outer)
-            deck_error(reader, line->field[2].place,
-                       "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", s->inner,
-                       s->outer);
-        else if (!bad && (s->stiff_outer > s->outer || s->stiff_outer <= s->inner))
-            deck_error(reader, line->field[4].place,
-                       "the diameter that carries stiffness is %.12g m, expected above the inner and at most the outer diameter",
-                       s->stiff_outer);
-    }
+    add_sections(reader, card, 0, check_diameters);
 }
 
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
-    for (int i = 0; i < count && group >= 0; i++) {
-        struct segment *s = add_segment(reader, group);
-        if (!s)
-            return;
-        s->rectangular = 1;
-        s->elements = 0;
-        (void)deck_read_values(reader, &card->line[i], deck_beam_rows, layout, s);
-        settle_elements(reader, s);
-    }
+    add_sections(reader, card, 1, NULL);
 }
 
 /* ------------------------------------------------------------------------------------------------ *LAYER */
@@ -244,14 +214,13 @@ static void add_ring(struct deck_reader *reader, const struct ring *ring)
 {
     struct rotor *rotor = &reader->job->rotor;
     int at = rotor->nring;
-    if (!DECK_APPEND(reader, rotor->ring, rotor->nring, reader->ring_room))
+    if (DECK_ADD(reader, rotor->ring, rotor->nring, ring))
         return;
     for (; at > 0 && (rotor->ring[at - 1].segment > ring->segment ||
                       (rotor->ring[at - 1].segment == ring->segment && rotor->ring[at - 1].inner > ring->inner));
          at--)
         rotor->ring[at] = rotor->ring[at - 1];
     rotor->ring[at] = *ring;
-    rotor->nring++;
 }
 
 void deck_layer(struct deck_reader *reader, const struct card *card)

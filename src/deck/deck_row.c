@@ -11,37 +11,45 @@ int deck_row_is_last(const struct deck_row *row)
 
 /* ---- reading */
 
+static int read_material(struct deck_reader *reader, const struct card_option *option, struct material *material)
+{
+    int index = deck_find_material(reader, option->value);
+    if (index < 0)
+        deck_error(reader, option->value_place, "material %s is not defined, expected the name of a *MATERIAL", option->value);
+    else if (reader->material[index].laminated)
+        deck_error(reader, option->value_place,
+                   "material %s is a stack of sheets across the axis, expected one that rods are made of", option->value);
+    else
+        *material = reader->material[index];
+    return index < 0 || reader->material[index].laminated;
+}
+
 static int read_option(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *member)
 {
     const struct card_option *option = card_option(card, row->option);
-    int is_text = row->kind == ROW_NAME || row->kind == ROW_MATERIAL, index;
+    int is_text = row->kind == ROW_NAME || row->kind == ROW_MATERIAL, index, bad;
     if (!option && row->bits & ROW_MAY_LACK)
         return 0;
-    if (row->kind != ROW_WORD && (is_text || !option) && !(row->bits & ROW_MAY_LACK) &&
+    if (row->kind != ROW_WORD && row->kind != ROW_GROUP && (is_text || !option) && !(row->bits & ROW_MAY_LACK) &&
         !deck_option(reader, card, row->option, row->what))
         return 1;
     switch (row->kind) {
     case ROW_NAME:
         *(const char **)member = option->value;
         return 0;
+    case ROW_GROUP:
+        return (*(int *)member = deck_option_group(reader, card, row->option)) < 0;
     case ROW_MATERIAL:
-        index = deck_find_material(reader, option->value);
-        if (index < 0)
-            deck_error(reader, option->value_place, "material %s is not defined, expected the name of a *MATERIAL",
-                       option->value);
-        else if (reader->material[index].laminated)
-            deck_error(reader, option->value_place,
-                       "material %s is a stack of sheets across the axis, expected one that rods are made of", option->value);
-        else
-            *(struct material *)member = reader->material[index];
-        return index < 0 || reader->material[index].laminated;
+        return read_material(reader, option, member);
     case ROW_WORD:
         index = option ? deck_option_word(reader, option, row->words) : row->standard;
         if (index >= 0)
             *(int *)member = index;
         return index < 0;
     case ROW_NUMBER:
-        return deck_option_number(reader, option, row->what, row->range, member);
+        bad = deck_option_number(reader, option, row->what, row->range, member);
+        *(double *)member *= row->factor > 0 ? row->factor : 1;
+        return bad;
     case ROW_WHOLE:
         return deck_option_integer(reader, option, row->least, row->most, member);
     case ROW_POSITION:
@@ -60,6 +68,38 @@ int deck_read_options(struct deck_reader *reader, const struct card *card, const
     return bad;
 }
 
+/* Value i of a data line. 0, or 1 after an error. */
+static int read_value(struct deck_reader *reader, const struct data_line *line, int i, const struct deck_row *row, char *to)
+{
+    void *member = to + row->offset;
+    const struct field *field = &line->field[i];
+    if (row->bits & ROW_MAY_LACK && !deck_has(line, i)) {
+        if (row->kind == ROW_WHOLE)
+            *(int *)member = row->standard;
+        else if (row->as)
+            *(double *)member = *(const double *)(to + row->as);
+        return 0;
+    }
+    switch (row->kind) {
+    case ROW_NAME:
+        *(const char **)member = field->text;
+        return 0;
+    case ROW_GROUP:
+        return (*(int *)member = deck_named_group(reader, field->text, field->place)) < 0;
+    case ROW_WORD:
+        return (*(int *)member = deck_word(reader, row->what, field->text, field->place, row->words)) < 0;
+    case ROW_POSITION:
+        return deck_position(reader, field, row->what, member);
+    case ROW_WHOLE:
+        return deck_integer(reader, line, i, row->what, row->least, row->most, member);
+    default:
+        if (deck_number(reader, line, i, row->what, row->range, member))
+            return 1;
+        *(double *)member *= row->factor > 0 ? row->factor : 1;
+        return 0;
+    }
+}
+
 int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
                      void *to)
 {
@@ -68,43 +108,47 @@ int deck_read_values(struct deck_reader *reader, const struct data_line *line, c
         count += !r->option;
     if (deck_count(reader, line, count, layout))
         return 1;
-    for (; !deck_row_is_last(row); row++) {
-        void *member = (char *)to + row->offset;
-        if (row->option)
-            continue;
-        if (row->bits & ROW_MAY_LACK && !deck_has(line, i)) {
-            if (row->as)
-                *(double *)member = *(const double *)((const char *)to + row->as);
-            i++;
-            continue;
-        }
-        if (row->kind == ROW_POSITION)
-            bad |= deck_position(reader, &line->field[i], row->what, member);
-        else if (row->kind == ROW_WHOLE)
-            bad |= deck_integer(reader, line, i, row->what, row->least, row->most, member);
-        else
-            bad |= deck_number(reader, line, i, row->what, row->range, member);
-        i++;
-    }
+    for (; !deck_row_is_last(row); row++)
+        if (!row->option)
+            bad |= read_value(reader, line, i++, row, to);
     return bad;
 }
 
-void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room)
+/* The values of each line over those of the options, which are read once. */
+static void read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
 {
-    char *rotor = (char *)&reader->job->rotor;
-    void **list = (void **)(rotor + kind->list);
-    int *count = (int *)(rotor + kind->count);
-    int lines = deck_lines(reader, card, 1, card_option(card, "NAME") ? 1 : DECK_MOST_LINES, kind->lines);
-    for (int i = 0; i < lines; i++) {
-        char *added = deck_append(reader, list, *count, room, kind->size);
-        if (!added)
-            return;
-        memset(added, 0, kind->size);
-        if (!(deck_read_options(reader, card, kind->row, added) |
-              deck_read_values(reader, &card->line[i], kind->row, kind->lines, added)) &&
-            (!kind->check || !kind->check(reader, &card->line[i], added)))
-            ++*count;
+    char *owner = kind->states == CARD_OF_MACHINE ? (char *)reader->machine : (char *)&reader->job->rotor,
+         *item = pool_get(reader->pool, 2, kind->size), *of_card = item + kind->size;
+    if (!item) {
+        reader->out_of_memory = 1;
+        return;
     }
+    int bad = deck_read_options(reader, card, kind->row, of_card),
+        most = kind->single || card_option(card, "NAME") ? 1 : DECK_MOST_LINES;
+    for (int i = 0, lines = deck_lines(reader, card, 1, most, kind->lines); i < lines; i++) {
+        memcpy(item, of_card, kind->size);
+        if (deck_read_values(reader, &card->line[i], kind->row, kind->lines, item) || bad ||
+            (kind->check && kind->check(reader, card, &card->line[i], item)))
+            continue;
+        if (kind->places)
+            deck_add_place(reader, kind->places, card->place);
+        (void)deck_add(reader, (void **)(owner + kind->list), (int *)(owner + kind->count), kind->size, item);
+    }
+}
+
+void deck_read_card(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
+{
+    for (int i = 0; i < card->nline && kind->instead; i++)
+        deck_error(reader, card->line[i].place, "*%s has no data lines, expected %s", card->name, kind->instead);
+    if (kind->once && reader->seen[kind - deck_card_table]++) {
+        deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
+        return;
+    }
+    reader->layout = kind->lines;
+    if (kind->read)
+        kind->read(reader, card);
+    else
+        read_list(reader, card, kind);
 }
 
 /* ---- writing */
@@ -181,6 +225,7 @@ int deck_is_same(const struct deck_row *row, const void *a, const void *b)
         case ROW_MATERIAL:
             same = deck_is_same_material(p, q);
             break;
+        case ROW_GROUP:
         case ROW_WORD:
         case ROW_WHOLE:
             same = *(const int *)p == *(const int *)q;

@@ -9,6 +9,7 @@
 enum row_kind {
     ROW_OTHER,    /* read and written by the code of the card; what: its form, as docs/deck.md has it */
     ROW_NAME,     /* const char * */
+    ROW_GROUP,    /* int: index of the group of that name */
     ROW_MATERIAL, /* struct material: of the *MATERIAL of that name; written with the name of the row before */
     ROW_WORD,     /* int: which of the words */
     ROW_NUMBER,   /* double */
@@ -27,9 +28,10 @@ struct deck_row {
     size_t offset;            /* of its member; without it the member is left as it is */
     const char *what;         /* of a value, in messages: "outer diameter [m]"; of an option what is expected behind the = */
     enum range range;         /* ROW_NUMBER */
+    double factor;            /* ROW_NUMBER: to SI, of what *UNITS states no unit of; 0: 1 */
     int least, most;          /* ROW_WHOLE */
     const char *const *words; /* ROW_WORD, or ROW_OTHER for docs/deck.md; the first is the one without the option, but for */
-    int standard;             /* another one, from 0 */
+    int standard;             /* another one, from 0; ROW_WHOLE: where the value lacks */
     size_t as;                /* of a value that may lack, not 0: the member that it equals then */
     unsigned bits;            /* of enum row_bit */
 };
@@ -80,27 +82,31 @@ struct deck_card {
     const char *name;
     enum card_section section;  /* of docs/deck.md */
     int phase;                  /* cards are read by phases: what a later one refers to comes first, wherever it stands */
-    deck_card_reader *read;     /* NULL: into a list of structs of the rotor */
+    deck_card_reader *read;     /* NULL: into a list of structs of the rotor, or of the machine */
     const char *lines;          /* what a data line holds, in messages too; NULL: there is none */
     const struct deck_row *row; /* ended by one without option and what */
     enum card_states states;
-    size_t size, list, count; /* of a list: a struct, and where in struct rotor pointer and number stand */
-    int (*check)(struct deck_reader *reader, const struct data_line *line, const void *one); /* of a list: what no row says */
-    int once;                                                                                /* it may stand once */
-    const char *instead; /* of a card without data lines, what is expected in their place */
+    size_t size, list, count; /* of a list: a struct, and where in struct rotor or struct machine pointer and number stand */
+    deck_item_check *check;   /* of a list: what no row says */
+    enum deck_places places;  /* of a list: which places it adds to */
+    int single;               /* of a list: the card has one data line */
+    int once;                 /* it may stand once */
+    const char *instead;      /* of a card without data lines, what is expected in their place */
 };
 
 /* Rows of cards that have code of their own. */
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
-    deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[];
+    deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
 
 /* x along the horizontal; x along the load of the bearing, which the weight makes. */
 extern const char *const deck_axes[];
 
-/* The cards there are, ended by one without a name; that of a name, NULL where there is none. */
+/* The cards there are, ended by one without a name; that of a name, NULL where there is none. Behind *RUNNING some names of cards
+ * of the rotor at rest mean the same of the machine. */
 extern const struct deck_card deck_card_table[];
 const struct deck_card *deck_card_find(const char *name);
+const struct deck_card *deck_card_of_machine(const char *name);
 
 int deck_row_is_last(const struct deck_row *row);
 
@@ -110,8 +116,8 @@ int deck_read_options(struct deck_reader *reader, const struct card *card, const
 int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
                      void *to);
 
-/* A card without code of its own: a struct for each data line, one where it has a name. room: of the list. */
-void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room);
+/* A card by what its row of the table says: by its code, or a struct for each data line, one where it has a name. */
+void deck_read_card(struct deck_reader *reader, const struct card *card, const struct deck_card *kind);
 
 /* The values of a struct as a data line, in the units of the deck; the card and line of a struct of a list. */
 void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from);

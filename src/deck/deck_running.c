@@ -4,12 +4,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "deck/card_table.h"
 #include "deck/deck.h"
 #include "deck/deck_row.h"
 #include "running/running.h"
 
-#define DEGREE       0.017453292519943295
 #define MOST_SPEEDS  10000 /* of a table of a bearing */
 #define COEFFICIENTS 8     /* kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy */
 
@@ -72,17 +70,6 @@ int deck_is_of_bearing(const struct deck_reader *reader, const char *name)
             return 1;
     }
     return 0;
-}
-
-static int named_group(struct deck_reader *reader, const struct place place, const char *name)
-{
-    const struct rotor *rotor = &reader->job->rotor;
-    for (int g = 0; name && g < rotor->ngroup; g++)
-        if (same_text(rotor->group[g].name, name))
-            return g;
-    if (name)
-        deck_error(reader, place, "group %s is not defined, expected the name of a *SHAFT or *LAYER", name);
-    return -1;
 }
 
 static int named_bearing(struct deck_reader *reader, const struct card_option *option)
@@ -223,18 +210,12 @@ static int bearing_table(struct deck_reader *reader, const struct card *card, co
 {
     static const char *const names[COEFFICIENTS + 1] = {"speed_rpm", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy"};
     int column[COEFFICIENTS + 1], bad = 0;
-    const char *path = deck_path(reader, card, file);
-    struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL;
-    if (!table || table_text_read(reader->pool, path, file->value_place, reader->messages, table))
+    const struct table_text *table = deck_open_table(reader, card);
+    if (!table || table->bad)
         return 1;
-    struct table_text **kept = DECK_APPEND(reader, reader->text.table, reader->text.ntable, reader->text.table_room);
-    if (!kept)
-        return 1;
-    *kept = table;
-    reader->text.ntable++;
     if (table->nrow < 2 || table->nrow > MOST_SPEEDS) {
         deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients over speed",
-                   path, table->nrow, MOST_SPEEDS);
+                   table->path, table->nrow, MOST_SPEEDS);
         return 1;
     }
     for (int j = 0; j <= COEFFICIENTS; j++) {
@@ -307,9 +288,6 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
     if (deck_lines(reader, card, 1, 1, reader->layout) != 1)
         return;
     const struct data_line *line = &card->line[0];
-    for (int i = 0; i < machine->nbearing; i++)
-        if (b.name && machine->bearing[i].name && same_text(b.name, machine->bearing[i].name))
-            deck_error(reader, name->value_place, "the name %s is given twice, expected a new one", b.name);
     int bad = bearing_std(reader, card, &b) | deck_position(reader, &line->field[0], "position", &b.z);
     if (like) {
         int of = named_bearing(reader, like);
@@ -336,46 +314,27 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         turn_to_load(b.k + 4 * (ptrdiff_t)i);
         turn_to_load(b.c + 4 * (ptrdiff_t)i);
     }
-    struct bearing *added = bad ? NULL : DECK_APPEND(reader, machine->bearing, machine->nbearing, reader->running_room[0]);
-    if (!added)
-        return;
-    *added = b;
-    machine->nbearing++;
-    doubt_bearing(reader, card->place, added);
+    if (!bad && !DECK_ADD(reader, machine->bearing, machine->nbearing, &b))
+        doubt_bearing(reader, card->place, &b);
 }
 
 void deck_pedestal(struct deck_reader *reader, const struct card *card)
 {
     const struct card_option *option = card_option(card, "BEARING");
-    double *value[6];
-    static const char *const what[6] = {"mass mx [kg]",       "mass my [kg]",       "stiffness kx [N/m]",
-                                        "stiffness ky [N/m]", "damping cx [N.s/m]", "damping cy [N.s/m]"};
-    int bad = 0;
-    if (!deck_option(reader, card, "BEARING", "name of a *BEARING"))
-        return;
-    int of = named_bearing(reader, option);
+    int of = deck_option(reader, card, "BEARING", "name of a *BEARING") ? named_bearing(reader, option) : -1;
     if (of < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
         return;
     struct bearing *b = &reader->machine->bearing[of];
     if (b->has_pedestal)
         deck_error(reader, option->value_place, "the pedestal of %s is given twice, expected once", option->value);
-    for (int i = 0; i < 2; i++) {
-        value[i] = &b->m[i];
-        value[2 + i] = &b->kp[i];
-        value[4 + i] = &b->cp[i];
-    }
-    bad = deck_count(reader, &card->line[0], 6, reader->layout);
-    for (int i = 0; i < 6 && !bad; i++)
-        bad |= i > 3 && !deck_has(&card->line[0], i)
-                   ? 0
-                   : deck_number(reader, &card->line[0], i, what[i], i < 4 ? POSITIVE : NOT_NEGATIVE, value[i]);
+    (void)deck_read_values(reader, &card->line[0], deck_pedestal_rows, reader->layout, b);
     b->has_pedestal = 1;
 }
 
 /* ---- losses, pull, change */
 
 /* What the damping ratios of the test say, in the kind of the card; both kinds are told. */
-static void settle_loss(struct deck_reader *reader, struct place place, struct loss *loss)
+static int settle_loss(struct deck_reader *reader, struct place place, struct loss *loss)
 {
     struct loss_of_test found;
     const char *name = reader->job->rotor.group[loss->group].name;
@@ -387,7 +346,7 @@ static void settle_loss(struct deck_reader *reader, struct place place, struct l
             "no measured mode says what %s loses, expected damping ratios in *MODES, of modes that bend it, or a loss factor "
             "without TEST",
             name);
-        return;
+        return 1;
     }
     loss->value = found.value[loss->viscous];
     loss->std = found.std[loss->viscous];
@@ -396,130 +355,36 @@ static void settle_loss(struct deck_reader *reader, struct place place, struct l
               "mode%s, of which the %s is taken: losses of supports and air at the test are in it",
               name, found.value[0], found.std[0], found.value[1], found.std[1], found.count, found.count > 1 ? "s" : "",
               loss->viscous ? "second" : "first");
+    return 0;
 }
 
-void deck_loss(struct deck_reader *reader, const struct card *card)
+int deck_check_loss(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    struct machine *machine = reader->machine;
-    const struct card_option *type = card_option(card, "TYPE");
-    static const char *const types[] = {"HYSTERETIC", "VISCOUS", NULL};
-    int viscous = type ? deck_option_word(reader, type, types) : 0, test = card_option(card, "TEST") != NULL;
-    for (int i = 0; i < card->nline && viscous >= 0; i++) {
-        const struct data_line *line = &card->line[i];
-        struct loss loss = {
-            .group = named_group(reader, line->field[0].place, line->field[0].text), .viscous = viscous, .from_test = test};
-        int bad = loss.group < 0 || deck_count(reader, line, test ? 1 : 3, test ? "group alone with TEST" : reader->layout);
-        if (test && !bad)
-            settle_loss(reader, line->place, &loss);
-        bad = bad || test ? bad
-                          : deck_number(reader, line, 1, viscous ? "viscous loss [s]" : "loss factor", NOT_NEGATIVE, &loss.value);
-        if (!bad && deck_has(line, 2))
-            bad = deck_number(reader, line, 2, "standard deviation of the loss", NOT_NEGATIVE, &loss.std);
-        struct loss *added = bad ? NULL : DECK_APPEND(reader, machine->loss, machine->nloss, reader->running_room[1]);
-        if (added) {
-            *added = loss;
-            machine->nloss++;
-        }
-    }
-    (void)deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    struct loss *loss = item;
+    loss->from_test = card_option(card, "TEST") != NULL;
+    if (loss->from_test)
+        return deck_count(reader, line, 1, "group alone with TEST") || settle_loss(reader, line->place, loss);
+    return deck_has(line, 1) ? 0 : deck_number(reader, line, 1, "loss", NOT_NEGATIVE, &loss->value);
 }
 
-void deck_pull(struct deck_reader *reader, const struct card *card)
+int deck_check_change(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    struct machine *machine = reader->machine;
-    const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT");
-    const struct card_option *std = card_option(card, "STD");
-    struct pull pull = {.group = name ? named_group(reader, card_option(card, "GROUP")->value_place, name) : -1};
-    if (pull.group < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
-        return;
-    int bad = deck_count(reader, &card->line[0], 1, reader->layout) ||
-              deck_number(reader, &card->line[0], 0, "stiffness of the pull, without its sign [N/m]", NOT_NEGATIVE, &pull.value);
-    bad = bad || (std && deck_option_number(reader, std, "", NOT_NEGATIVE, &pull.std));
-    struct pull *added = bad ? NULL : DECK_APPEND(reader, machine->pull, machine->npull, reader->running_room[2]);
-    if (added) {
-        *added = pull;
-        machine->npull++;
-    }
-}
-
-void deck_change(struct deck_reader *reader, const struct card *card)
-{
-    struct machine *machine = reader->machine;
+    struct change *change = item;
     const char *unit;
-    for (int i = 0; i < card->nline; i++) {
-        const struct data_line *line = &card->line[i];
-        struct change change = {.name = line->field[0].text};
-        int found = deck_find_parameter(reader, &line->field[0], &change.parameter, &unit);
-        if (found == 1 || found == 2)
-            deck_error(reader, line->field[0].place, "%s is no parameter of this deck, expected one such as GROUP.E",
-                       change.name);
-        int bad = found || deck_count(reader, line, 3, reader->layout) ||
-                  deck_number(reader, line, 1, "factor", POSITIVE, &change.factor);
-        if (!bad && deck_has(line, 2))
-            bad = deck_number(reader, line, 2, "standard deviation of the factor", NOT_NEGATIVE, &change.std);
-        if (!bad && change.parameter.kind == PARAMETER_G && reader->job->rotor.group[change.parameter.index].material.isotropic) {
-            deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
-                       change.name);
-            bad = 1;
-        }
-        struct change *added = bad ? NULL : DECK_APPEND(reader, machine->change, machine->nchange, reader->running_room[3]);
-        if (added) {
-            *added = change;
-            machine->nchange++;
-        }
+    int found = deck_find_parameter(reader, &line->field[0], &change->parameter, &unit);
+    (void)card;
+    if (found == 1 || found == 2)
+        deck_error(reader, line->field[0].place, "%s is no parameter of this deck, expected one such as GROUP.E", change->name);
+    else if (!found && change->parameter.kind == PARAMETER_G &&
+             reader->job->rotor.group[change->parameter.index].material.isotropic) {
+        deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
+                   change->name);
+        return 1;
     }
-    (void)deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
+    return found;
 }
 
-/* ---- unbalance, probes, operation, run-up */
-
-void deck_unbalance(struct deck_reader *reader, const struct card *card)
-{
-    struct machine *machine = reader->machine;
-    const struct card_option *grade = card_option(card, "G");
-    double g = 0;
-    int lines = grade && deck_option_number(reader, grade, "mm/s", POSITIVE, &g)
-                    ? 0
-                    : deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
-    for (int i = 0; i < lines; i++) {
-        const struct data_line *line = &card->line[i];
-        struct unbalance u = {.grade = g / 1000};
-        int bad = deck_count(reader, line, 3, reader->layout) || deck_position(reader, &line->field[0], "position", &u.z) ||
-                  deck_number(reader, line, 1, g > 0 ? "share of the permissible unbalance" : "unbalance [kg.m]", NOT_NEGATIVE,
-                              &u.value);
-        if (!bad && deck_has(line, 2))
-            bad = deck_number(reader, line, 2, "phase [deg]", ANY, &u.phase);
-        u.phase *= DEGREE;
-        struct unbalance *added =
-            bad ? NULL : DECK_APPEND(reader, machine->unbalance, machine->nunbalance, reader->running_room[4]);
-        if (added) {
-            *added = u;
-            machine->nunbalance++;
-        }
-    }
-}
-
-void deck_probe(struct deck_reader *reader, const struct card *card)
-{
-    struct machine *machine = reader->machine;
-    const char *name = deck_option(reader, card, "NAME", "name");
-    struct probe probe = {.name = name};
-    if (!name || deck_lines(reader, card, 1, 1, reader->layout) != 1)
-        return;
-    for (int i = 0; i < machine->nprobe; i++)
-        if (same_text(machine->probe[i].name, name))
-            deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
-    int bad = deck_count(reader, &card->line[0], 2, reader->layout) ||
-              deck_position(reader, &card->line[0].field[0], "position", &probe.z);
-    if (!bad && deck_has(&card->line[0], 1))
-        bad = deck_number(reader, &card->line[0], 1, "angle [deg]", ANY, &probe.angle);
-    probe.angle *= DEGREE;
-    struct probe *added = bad ? NULL : DECK_APPEND(reader, machine->probe, machine->nprobe, reader->running_room[5]);
-    if (added) {
-        *added = probe;
-        machine->nprobe++;
-    }
-}
+/* ---- operation, run-up */
 
 void deck_operation(struct deck_reader *reader, const struct card *card)
 {
@@ -547,37 +412,19 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
     machine->has_operation = 1;
 }
 
-void deck_runup(struct deck_reader *reader, const struct card *card)
+int deck_check_runup(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    struct machine *machine = reader->machine;
-    int lines = deck_lines(reader, card, 1, DECK_MOST_MODES, reader->layout);
-    for (int i = 0; i < lines; i++) {
-        const struct data_line *line = &card->line[i];
-        struct runup_reading reading = {.place = {line->place.file, line->place.line, line->place.column}};
-        int bad = deck_count(reader, line, 4, reader->layout) |
-                  deck_integer(reader, line, 0, "number of the critical speed", 1, DECK_MOST_MODES, &reading.number) |
-                  deck_number(reader, line, 1, "critical speed [rpm]", POSITIVE, &reading.speed) |
-                  deck_number(reader, line, 2, "standard deviation of it [rpm]", POSITIVE, &reading.std);
-        if (!bad && deck_has(line, 3)) {
-            reading.backward = same_text(line->field[3].text, "BACKWARD");
-            bad = !reading.backward && !same_text(line->field[3].text, "FORWARD");
-            if (bad)
-                deck_error(reader, line->field[3].place, "%s is no whirl, expected FORWARD or BACKWARD", line->field[3].text);
+    const struct machine *machine = reader->machine;
+    struct runup_reading *reading = item;
+    (void)card;
+    reading->place = (struct job_place){line->place.file, line->place.line, line->place.column};
+    for (int j = 0; j < machine->nrunup; j++)
+        if (machine->runup[j].number == reading->number && machine->runup[j].backward == reading->backward) {
+            deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
+                       reading->number);
+            return 1;
         }
-        for (int j = 0; j < machine->nrunup && !bad; j++)
-            if (machine->runup[j].number == reading.number && machine->runup[j].backward == reading.backward) {
-                deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
-                           reading.number);
-                bad = 1;
-            }
-        reading.speed *= RPM;
-        reading.std *= RPM;
-        struct runup_reading *added = bad ? NULL : DECK_APPEND(reader, machine->runup, machine->nrunup, reader->running_room[7]);
-        if (added) {
-            *added = reading;
-            machine->nrunup++;
-        }
-    }
+    return 0;
 }
 
 /* NAME.k or NAME.c of a *BEARING: -1 after an error. */
@@ -604,39 +451,31 @@ static int unknown_bearing(struct deck_reader *reader, const struct field *field
 }
 
 /* *IDENTIFY behind *RUNNING */
-static void add_unknowns(struct deck_reader *reader, const struct card *card)
+int deck_check_unknown(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    const char *layout = deck_card_find("IDENTIFY")->lines;
     struct machine *machine = reader->machine;
-    for (int i = 0, count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout); i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        struct machine_unknown u = {.bounds = {.name = line->field[0].text, .unit = "1"}};
-        u.bearing = unknown_bearing(reader, &line->field[0], &u.damping);
-        int bad = u.bearing < 0 || deck_count(reader, line, 4, layout);
-        bad = bad || deck_number(reader, line, 1, "lower bound", POSITIVE, &u.bounds.lower) |
-                         deck_number(reader, line, 2, "upper bound", POSITIVE, &u.bounds.upper) |
-                         deck_number(reader, line, 3, "start", POSITIVE, &u.bounds.start);
-        if (!bad && !(u.bounds.lower < u.bounds.start && u.bounds.start < u.bounds.upper)) {
-            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", u.bounds.name,
-                       line->field[3].text);
-            bad = 1;
-        }
-        for (int j = 0; j < reader->job->unknowns.nparameter && !bad; j++)
-            bad = same_text(reader->job->unknowns.bounds[j].name, u.bounds.name);
-        for (int j = 0; j < machine->nunknown && !bad; j++)
-            bad = machine->unknown[j].bearing == u.bearing && machine->unknown[j].damping == u.damping;
-        if (bad && u.bearing >= 0 && !reader->messages->errors)
-            deck_error(reader, line->field[0].place, "%s is given twice, expected once", u.bounds.name);
-        struct machine_unknown *added =
-            bad ? NULL : DECK_APPEND(reader, machine->unknown, machine->nunknown, reader->running_room[8]);
-        if (!added)
-            continue;
-        *added = u;
-        for (int j = u.bearing; j < machine->nbearing; j++)
-            if (machine->bearing[j].like == u.bearing)
-                machine->bearing[j].unknown[u.damping] = reader->job->unknowns.nparameter + machine->nunknown;
-        machine->nunknown++;
+    struct machine_unknown *u = item;
+    int twice = 0;
+    (void)card;
+    u->bounds.unit = "1";
+    u->bearing = unknown_bearing(reader, &line->field[0], &u->damping);
+    if (u->bearing < 0)
+        return 1;
+    if (!(u->bounds.lower < u->bounds.start && u->bounds.start < u->bounds.upper)) {
+        deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", u->bounds.name,
+                   line->field[3].text);
+        return 1;
     }
+    for (int j = 0; j < reader->job->unknowns.nparameter; j++)
+        twice |= same_text(reader->job->unknowns.bounds[j].name, u->bounds.name);
+    for (int j = 0; j < machine->nunknown; j++)
+        twice |= machine->unknown[j].bearing == u->bearing && machine->unknown[j].damping == u->damping;
+    if (twice)
+        deck_error(reader, line->field[0].place, "%s is given twice, expected once", u->bounds.name);
+    for (int j = u->bearing; j < machine->nbearing && !twice; j++)
+        if (machine->bearing[j].like == u->bearing)
+            machine->bearing[j].unknown[u->damping] = reader->job->unknowns.nparameter + machine->nunknown;
+    return twice;
 }
 
 /* U = G m/W of ISO 21940-11: m of the machine, W its highest running speed. */
@@ -696,25 +535,6 @@ static void check_runup(struct deck_reader *reader, const struct place running)
             "or HOLDOUT=RUNUP");
 }
 
-static void add_disk(struct deck_reader *reader, const struct card *card)
-{
-    const struct deck_card *kind = deck_card_find("DISK");
-    struct machine *machine = reader->machine;
-    int lines = deck_lines(reader, card, 1, DECK_MOST_LINES, kind->lines);
-    for (int i = 0; i < lines; i++) {
-        struct disk disk = {0};
-        int bad = deck_read_options(reader, card, kind->row, &disk) |
-                  deck_read_values(reader, &card->line[i], kind->row, kind->lines, &disk);
-        struct disk *added = bad || kind->check(reader, &card->line[i], &disk)
-                                 ? NULL
-                                 : DECK_APPEND(reader, machine->disk, machine->ndisk, reader->running_room[6]);
-        if (added) {
-            *added = disk;
-            machine->ndisk++;
-        }
-    }
-}
-
 /* Disks without polar inertia turn without gyroscopic moments: said once. */
 static void doubt_disks(struct deck_reader *reader, struct place place)
 {
@@ -738,7 +558,6 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                               .text = reader->text,
                               .job = job,
                               .length = rotor_length(&job->rotor)};
-    const struct card *none = NULL;
     if (!reader->nrunning && held_runup(&reader->text))
         deck_error(reader, held_runup(&reader->text)->value_place,
                    "HOLDOUT=RUNUP, but the deck has no machine, expected *RUNNING with *RUNUP");
@@ -753,29 +572,18 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         deck_check_names(reader, &reader->running[c]);
     for (int phase = 9; phase <= 10; phase++)
         for (int c = 0; c < reader->nrunning && own.machine && !own.out_of_memory; c++) {
-            const struct card *card = &reader->running[c];
-            const struct deck_card *kind = deck_card_find(card->name);
-            none = card;
-            int borrowed = is(card, "DISK") || is(card, "IDENTIFY"); /* from the cards of the rotor at rest */
-            if (!kind || (borrowed ? 10 : kind->phase) != phase)
-                continue;
-            own.layout = kind->lines;
-            if (is(card, "DISK"))
-                add_disk(&own, card);
-            else if (is(card, "IDENTIFY"))
-                add_unknowns(&own, card);
-            else if (kind->once && own.seen[kind - deck_card_table]++)
-                deck_error(&own, card->place, "*%s is given twice, expected once", card->name);
-            else
-                kind->read(&own, card);
+            const struct deck_card *kind = deck_card_of_machine(reader->running[c].name);
+            if (kind && kind->phase == phase)
+                deck_read_card(&own, &reader->running[c], kind);
         }
+    deck_check_unique(reader, reader->nrunning, reader->running, 1);
     reader->out_of_memory |= own.out_of_memory;
     reader->text.nfile = own.text.nfile;
     reader->text.file = own.text.file;
     reader->text.file_room = own.text.file_room;
     reader->text.ntable = own.text.ntable;
     reader->text.table = own.text.table;
-    if (reader->out_of_memory || !none)
+    if (reader->out_of_memory)
         return;
     if (!own.machine->nbearing && !reader->messages->errors)
         deck_error(reader, reader->running[0].place,

@@ -8,11 +8,6 @@
 #include "deck/deck_row.h"
 #include "diagnose/causes/causes.h"
 
-void deck_state(struct deck_reader *reader, const struct card *card)
-{
-    deck_choose_modes(reader, card);
-}
-
 static int is_state(const struct card *card)
 {
     return !strcmp(card->name, "STATE");

@@ -266,7 +266,7 @@ struct taking {
     double asked;                 /* MODE of the card, NaN where all modes of the table are taken */
 };
 
-static struct table_text *open_table(struct deck_reader *reader, const struct card *card)
+struct table_text *deck_open_table(struct deck_reader *reader, const struct card *card)
 {
     struct deck_text *text = &reader->text;
     const struct card_option *file = card_option(card, "FILE");
@@ -593,7 +593,7 @@ static void take_table(struct deck_reader *reader, const struct card *card, cons
         deck_error(reader, card->line[0].place, "*%s has a FILE and data lines, expected one of them", card->name);
         return;
     }
-    t.table = open_table(reader, card);
+    t.table = deck_open_table(reader, card);
     if (!t.table || t.table->bad || table_find_columns(reader, t.table, kind, !kind->by_mode, &t.columns))
         return;
     if (kind->by_mode)

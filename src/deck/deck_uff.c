@@ -232,8 +232,7 @@ static int import_sensors(struct import *import)
         return 1;
     }
     rotor->sensor = POOL_ARRAY(reader->pool, struct sensor, file->node_count);
-    reader->sensor_place = POOL_ARRAY(reader->pool, struct place, file->node_count);
-    if (!rotor->sensor || !reader->sensor_place) {
+    if (!rotor->sensor) {
         reader->out_of_memory = 1;
         return 1;
     }
@@ -273,7 +272,7 @@ static int import_sensors(struct import *import)
     if (rotor->nsensor)
         qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, compare_sensors);
     for (int s = 0; s < rotor->nsensor; s++)
-        reader->sensor_place[s] = in_file(import, 1);
+        deck_add_place(reader, SENSOR_PLACES, in_file(import, 1));
     return outside > 0;
 }
 

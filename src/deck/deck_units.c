@@ -170,12 +170,12 @@ static void refuse_contrast(struct deck_reader *reader, struct place place, doub
         double e = rotor->group[g->group].material.e, d = g->outer, b = g->inner;
         bending = fmax(bending, g->rectangular ? e * g->width * pow(g->height, 3) / 12 : e * pi / 64 * (pow(d, 4) - pow(b, 4)));
         if (g->length < SHORTEST * length)
-            deck_error(reader, reader->group_place[g->group],
+            deck_error(reader, reader->place[GROUP_PLACES][g->group],
                        "a section of %s is %.3g m long in a rotor of %.4g m, expected at least %.1g of the length",
                        rotor->group[g->group].name, g->length, length, SHORTEST);
         if ((g->rectangular ? g->height : g->outer) < THINNEST * thickest)
             deck_error(
-                reader, reader->group_place[g->group],
+                reader, reader->place[GROUP_PLACES][g->group],
                 "a section of %s is %.3g m thick in a rotor of up to %.4g m, expected at least %.1g of that: a diameter in "
                 "another unit?",
                 rotor->group[g->group].name, g->rectangular ? g->height : g->outer, thickest, THINNEST);
@@ -208,7 +208,7 @@ static void refuse_contrast(struct deck_reader *reader, struct place place, doub
     }
     if (soft >= 0 && reader->material[hard].e > SOFTEST * reader->material[soft].e)
         deck_error(
-            reader, reader->material_place[soft],
+            reader, reader->place[MATERIAL_PLACES][soft],
             "Young's modulus of %s is %.4g Pa beside %.4g Pa of %s, expected at most a factor of %.1g between two materials: "
             "one of them in another unit?",
             reader->material[soft].name, reader->material[soft].e, reader->material[hard].e, reader->material[hard].name,
@@ -224,7 +224,7 @@ void deck_doubt_rotor(struct deck_reader *reader)
         double area = g->rectangular ? g->height * g->width : pi / 4 * (g->outer * g->outer - g->inner * g->inner);
         mass += area * g->length * rotor->group[g->group].material.rho;
     }
-    struct place place = rotor->ngroup ? reader->group_place[0] : reader->text.end;
+    struct place place = rotor->ngroup ? reader->place[GROUP_PLACES][0] : reader->text.end;
     if (mass > 0 && length > 0)
         refuse_contrast(reader, place, mass, length);
     if (!reader->doubted && (length > 30 || length < 0.01))

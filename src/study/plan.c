@@ -19,7 +19,6 @@ const char *const plan_commands[] = {"identify", "diagnose", "speeds", NULL};
 struct plan_reader {
     struct deck_reader fields; /* pool, messages and end of memory, for the readers of single fields */
     struct plan *plan;
-    size_t deck_room, variant_room, modes_room, sensors_room, noise_room, hide_room, truth_room;
     const struct card *starts_card, *truth_card, *hide_card;
 };
 
@@ -98,11 +97,8 @@ static void read_decks(struct plan_reader *reader, const struct card *card)
         for (int d = 0; d < plan->ndeck; d++)
             if (!strcmp(plan->deck[d].name, line->text))
                 deck_error(&reader->fields, line->place, "deck %s is given twice, expected once", line->text);
-        struct plan_deck *deck = DECK_APPEND(&reader->fields, plan->deck, plan->ndeck, reader->deck_room);
-        if (!deck)
-            return;
-        *deck = (struct plan_deck){line->text, beside(reader, line->place, line->text), line->place};
-        plan->ndeck++;
+        const struct plan_deck deck = {line->text, beside(reader, line->place, line->text), line->place};
+        (void)DECK_ADD(&reader->fields, plan->deck, plan->ndeck, &deck);
     }
 }
 
@@ -122,20 +118,16 @@ static void read_variant(struct plan_reader *reader, const struct card *card)
         if (same_text(plan->variant[v].name, name))
             deck_error(&reader->fields, card_option(card, "NAME")->value_place, "variant %s is given twice, expected a new name",
                        name);
-    struct plan_variant *variant = DECK_APPEND(&reader->fields, plan->variant, plan->nvariant, reader->variant_room);
-    if (!variant)
-        return;
-    *variant = (struct plan_variant){.name = name ? name : "",
-                                     .override = POOL_ARRAY(pool, struct override, card->nline),
-                                     .place = POOL_ARRAY(pool, struct place, card->nline)};
-    plan->nvariant++;
-    if (!variant->override || !variant->place) {
+    struct plan_variant variant = {.name = name ? name : "",
+                                   .override = POOL_ARRAY(pool, struct override, card->nline),
+                                   .place = POOL_ARRAY(pool, struct place, card->nline)};
+    if (!variant.override || !variant.place) {
         reader->fields.out_of_memory = 1;
         return;
     }
     for (int i = 0; i < card->nline; i++) {
         const struct data_line *line = &card->line[i];
-        struct override *override = &variant->override[variant->noverride];
+        struct override *override = &variant.override[variant.noverride];
         if (override_parse(pool, line->text, override)) {
             if (override->value) /* it has the form */
                 reader->fields.out_of_memory = 1;
@@ -145,10 +137,11 @@ static void read_variant(struct plan_reader *reader, const struct card *card)
         }
         place_file(reader, line->place, override);
         /* what is wrong with it is found when the deck is read, and reported by this name: it is put in its place there */
-        override->text = pool_format(pool, "variant %s, %s", variant->name, line->text);
+        override->text = pool_format(pool, "variant %s, %s", variant.name, line->text);
         reader->fields.out_of_memory |= !override->text;
-        variant->place[variant->noverride++] = line->place;
+        variant.place[variant.noverride++] = line->place;
     }
+    (void)DECK_ADD(&reader->fields, plan->variant, plan->nvariant, &variant);
 }
 
 static void read_modes(struct plan_reader *reader, const struct card *card)
@@ -159,11 +152,8 @@ static void read_modes(struct plan_reader *reader, const struct card *card)
         for (int m = 0; m < plan->nmodes; m++)
             if (!strcmp(plan->modes[m].text, line->text))
                 deck_error(&reader->fields, line->place, "modes %s are given twice, expected once", line->text);
-        struct plan_modes *modes = DECK_APPEND(&reader->fields, plan->modes, plan->nmodes, reader->modes_room);
-        if (!modes)
-            return;
-        *modes = (struct plan_modes){line->text, line->place};
-        plan->nmodes++;
+        const struct plan_modes modes = {line->text, line->place};
+        (void)DECK_ADD(&reader->fields, plan->modes, plan->nmodes, &modes);
     }
 }
 
@@ -187,11 +177,8 @@ static void read_sensors(struct plan_reader *reader, const struct card *card)
         for (int s = 0; s < plan->nsensors && !bad && sensors.text; s++)
             if (!strcmp(plan->sensors[s].text, sensors.text))
                 deck_error(&reader->fields, line->place, "%s is given twice, expected once", line->text);
-        struct plan_sensors *added = DECK_APPEND(&reader->fields, plan->sensors, plan->nsensors, reader->sensors_room);
-        if (!added || !sensors.text)
-            return;
-        *added = sensors;
-        plan->nsensors++;
+        if (sensors.text)
+            (void)DECK_ADD(&reader->fields, plan->sensors, plan->nsensors, &sensors);
     }
 }
 
@@ -226,11 +213,7 @@ static void read_truth(struct plan_reader *reader, const struct card *card)
         for (int t = 0; t < plan->ntruth; t++)
             if (same_text(plan->truth[t].name, truth.name))
                 deck_error(&reader->fields, line->place, "%s is given twice, expected once", truth.name);
-        struct plan_truth *added = DECK_APPEND(&reader->fields, plan->truth, plan->ntruth, reader->truth_room);
-        if (!added)
-            return;
-        *added = truth;
-        plan->ntruth++;
+        (void)DECK_ADD(&reader->fields, plan->truth, plan->ntruth, &truth);
     }
 }
 
@@ -252,11 +235,7 @@ static void read_noise(struct plan_reader *reader, const struct card *card)
             if (plan->noise[n].frequency == noise.frequency &&
                 (plan->noise[n].shape == noise.shape || (isnan(plan->noise[n].shape) && isnan(noise.shape))))
                 deck_error(&reader->fields, line->place, "noise of %s is given twice, expected once", line->text);
-        struct plan_noise *added = DECK_APPEND(&reader->fields, plan->noise, plan->nnoise, reader->noise_room);
-        if (!added)
-            return;
-        *added = noise;
-        plan->nnoise++;
+        (void)DECK_ADD(&reader->fields, plan->noise, plan->nnoise, &noise);
     }
 }
 
@@ -356,11 +335,7 @@ static void read_hide(struct plan_reader *reader, const struct card *card)
     for (int h = 0; h < plan->nhide && hide.name; h++)
         if (same_text(plan->hide[h].name, hide.name))
             deck_error(&reader->fields, card->place, "two *HIDE are called %s, expected another NAME on one of them", hide.name);
-    struct plan_hide *added = DECK_APPEND(&reader->fields, plan->hide, plan->nhide, reader->hide_room);
-    if (!added || reader->fields.out_of_memory)
-        return;
-    *added = hide;
-    plan->nhide++;
+    (void)DECK_ADD(&reader->fields, plan->hide, plan->nhide, &hide);
 }
 
 static void heading(struct plan_reader *reader, const struct card *card)
