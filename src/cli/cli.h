@@ -7,11 +7,11 @@
  * 2 usage, 3 internal). The way of a run:
  *
  *   main.c              main: terminal, arguments, deck, command, exit code; threads of BLAS: blas.c
- *   arguments.c         arguments_parse: the rows of option_table.c to struct command; --help
- *   arguments_refuse.c  options that do not go together, files that would be lost
+ *   arguments.c         arguments_parse: the rows of option_table.c to struct command; --help; options that do not go
+ *                       together, files that would be lost
  *   command_deck.c      command_read_deck: the deck by rotid_deck_read; states; command_fit_deck: fits before frf, export, ...
  *   command_NAME.c      command_check, _modes, _sensitivity, _speeds, _identify, _diagnose, _suggest, _frf, _ema, _uff, _report,
- * _export, _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command_csv.c)
+ * _export, _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command.c)
  *   command_table.c     the list of the commands; option_table.c: the options, a row each, from which `make tables` writes the
  *                       completions and the lists of docs/rotid.1
  *   command.c           messages, head of the result, failures, environment of a long call
@@ -128,8 +128,6 @@ struct screen command_screen(struct command *command);
 /* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
 int command_write_result(struct command *command, struct result *result, int code);
 
-/* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
-int command_write_file(struct command *command, const char *path, const char *text, int code);
 /* The same of a deck that was made from that of the command, to --extended. */
 int command_write_deck(struct command *command, const char *text, int code);
 

@@ -9,11 +9,12 @@
  *   deck_table.c         tables of FILE= (table_text.c) become data lines
  *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
  *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
- *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, read and written by deck_row.c
- *   deck_fields.c        one number, option or position with range and unit; deck_units.c: factors to SI
- *   deck_model.c, deck_members.c  materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
- *   deck_measured.c, deck_uff.c, deck_frf.c  sensors, modes, shapes, noise; *MEASURED, FILE; *FRF
- *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; deck_state.c: *SET, what a state has of its own
+ *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, lists of rotor or machine
+ *   deck_fields.c        one number, option or position with range and unit; a row of them: read, written, compared
+ *   deck_units.c         factors to SI, numbers that no rotor has
+ *   deck_model.c         materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
+ *   deck_measured.c      sensors, modes, shapes, noise; *MEASURED, FILE
+ *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *FRF; deck_state.c: *SET, what a state has of its own
  *   deck_cause.c         *CAUSE: effects and suspects, faults of the data taken out of them
  *   deck_running.c       *RUNNING and what stands behind it: struct machine of src/running
  *
@@ -267,12 +268,9 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 /* unit: "" or as for deck_in_si. */
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
                        double *value);
-int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
 extern const char *const deck_answers[]; /* NO, YES */
 extern const char *const deck_counts[];  /* ELASTIC, ALL */
 
-/* Index of a text in a list of words that ends with NULL; -1 after an error that says "WHATtext". */
-int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words);
 /* The same of an option's value. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
 /* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
@@ -353,15 +351,6 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
 
 /* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
 #define POINT_FREQUENCY_RANGE 0.05
-
-/* Values that are not known, NaN; NULL where memory is out. */
-double *deck_new_values(struct deck_reader *reader, size_t count);
-
-/* Room for them in the job, once its sensors and modes are known. 0, or 1 where memory is out. */
-int deck_new_points(struct deck_reader *reader);
-
-/* Whether hz cannot be a reading of measured mode `mode`. */
-int deck_point_is_far(const struct job *job, int mode, double hz);
 
 /* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
  * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */

@@ -1,4 +1,5 @@
 #include "deck/deck.h"
+#include "deck/deck_row.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -220,7 +221,7 @@ int deck_option_number(struct deck_reader *reader, const struct card_option *opt
     return bad;
 }
 
-int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
+static int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
 {
     double number;
     if (deck_option_number(reader, option, "", ANY, &number))
@@ -236,7 +237,8 @@ int deck_option_integer(struct deck_reader *reader, const struct card_option *op
 
 const char *const deck_answers[] = {"NO", "YES", NULL};
 
-int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words)
+/* Index of a text in a list of words that ends with NULL; -1 after an error that says "WHATtext". */
+static int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words)
 {
     char list[256] = "";
     for (int i = 0; words[i]; i++) {
@@ -262,4 +264,251 @@ int deck_lines(struct deck_reader *reader, const struct card *card, int least, i
     else if (card->nline > most)
         deck_error(reader, card->line[most].place, "*%s has a data line too many, expected %s", card->name, layout);
     return card->nline < most ? card->nline : most;
+}
+
+int deck_row_is_last(const struct deck_row *row)
+{
+    return !row->option && !row->what;
+}
+
+/* ---- reading */
+
+static int read_material(struct deck_reader *reader, const struct card_option *option, struct material *material)
+{
+    int index = deck_find_material(reader, option->value);
+    if (index < 0)
+        deck_error(reader, option->value_place, "material %s is not defined, expected the name of a *MATERIAL", option->value);
+    else if (reader->material[index].laminated)
+        deck_error(reader, option->value_place,
+                   "material %s is a stack of sheets across the axis, expected one that rods are made of", option->value);
+    else
+        *material = reader->material[index];
+    return index < 0 || reader->material[index].laminated;
+}
+
+static int read_option(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *member)
+{
+    const struct card_option *option = card_option(card, row->option);
+    int is_text = row->kind == ROW_NAME || row->kind == ROW_MATERIAL, index, bad;
+    if (!option && row->bits & ROW_MAY_LACK)
+        return 0;
+    if (row->kind != ROW_WORD && row->kind != ROW_GROUP && (is_text || !option) && !(row->bits & ROW_MAY_LACK) &&
+        !deck_option(reader, card, row->option, row->what))
+        return 1;
+    switch (row->kind) {
+    case ROW_NAME:
+        *(const char **)member = option->value;
+        return 0;
+    case ROW_GROUP:
+        return (*(int *)member = deck_option_group(reader, card, row->option)) < 0;
+    case ROW_MATERIAL:
+        return read_material(reader, option, member);
+    case ROW_WORD:
+        index = option ? deck_option_word(reader, option, row->words) : row->standard;
+        if (index >= 0)
+            *(int *)member = index;
+        return index < 0;
+    case ROW_NUMBER:
+        bad = deck_option_number(reader, option, row->what, row->range, member);
+        *(double *)member *= row->factor > 0 ? row->factor : 1;
+        return bad;
+    case ROW_WHOLE:
+        return deck_option_integer(reader, option, row->least, row->most, member);
+    case ROW_POSITION:
+        return deck_option_position(reader, option, row->option, member);
+    default:
+        return 0;
+    }
+}
+
+int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to)
+{
+    int bad = 0;
+    for (; !deck_row_is_last(row); row++)
+        if (row->option && row->kind != ROW_OTHER)
+            bad |= read_option(reader, card, row, (char *)to + row->offset);
+    return bad;
+}
+
+/* Value i of a data line. 0, or 1 after an error. */
+static int read_value(struct deck_reader *reader, const struct data_line *line, int i, const struct deck_row *row, char *to)
+{
+    void *member = to + row->offset;
+    const struct field *field = &line->field[i];
+    if (row->bits & ROW_MAY_LACK && !deck_has(line, i)) {
+        if (row->kind == ROW_WHOLE)
+            *(int *)member = row->standard;
+        else if (row->as)
+            *(double *)member = *(const double *)(to + row->as);
+        return 0;
+    }
+    switch (row->kind) {
+    case ROW_NAME:
+        *(const char **)member = field->text;
+        return 0;
+    case ROW_GROUP:
+        return (*(int *)member = deck_named_group(reader, field->text, field->place)) < 0;
+    case ROW_WORD:
+        return (*(int *)member = deck_word(reader, row->what, field->text, field->place, row->words)) < 0;
+    case ROW_POSITION:
+        return deck_position(reader, field, row->what, member);
+    case ROW_WHOLE:
+        return deck_integer(reader, line, i, row->what, row->least, row->most, member);
+    default:
+        if (deck_number(reader, line, i, row->what, row->range, member))
+            return 1;
+        *(double *)member *= row->factor > 0 ? row->factor : 1;
+        return 0;
+    }
+}
+
+int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
+                     void *to)
+{
+    int count = 0, bad = 0, i = 0;
+    for (const struct deck_row *r = row; !deck_row_is_last(r); r++)
+        count += !r->option;
+    if (deck_count(reader, line, count, layout))
+        return 1;
+    for (; !deck_row_is_last(row); row++)
+        if (!row->option)
+            bad |= read_value(reader, line, i++, row, to);
+    return bad;
+}
+
+/* The values of each line over those of the options, which are read once. */
+static void read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
+{
+    char *owner = kind->states == CARD_OF_MACHINE ? (char *)reader->machine : (char *)&reader->job->rotor,
+         *item = pool_get(reader->pool, 2, kind->size), *of_card = item + kind->size;
+    if (!item) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    int bad = deck_read_options(reader, card, kind->row, of_card),
+        most = kind->single || card_option(card, "NAME") ? 1 : DECK_MOST_LINES;
+    for (int i = 0, lines = deck_lines(reader, card, 1, most, kind->lines); i < lines; i++) {
+        memcpy(item, of_card, kind->size);
+        if (deck_read_values(reader, &card->line[i], kind->row, kind->lines, item) || bad ||
+            (kind->check && kind->check(reader, card, &card->line[i], item)))
+            continue;
+        if (kind->places)
+            deck_add_place(reader, kind->places, card->place);
+        (void)deck_add(reader, (void **)(owner + kind->list), (int *)(owner + kind->count), kind->size, item);
+    }
+}
+
+void deck_read_card(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
+{
+    for (int i = 0; i < card->nline && kind->instead; i++)
+        deck_error(reader, card->line[i].place, "*%s has no data lines, expected %s", card->name, kind->instead);
+    if (kind->once && reader->seen[kind - deck_card_table]++) {
+        deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
+        return;
+    }
+    reader->layout = kind->lines;
+    if (kind->read)
+        kind->read(reader, card);
+    else
+        read_list(reader, card, kind);
+}
+
+/* ---- writing */
+
+/* Values at the end that may lack are left out where they say nothing: zero, or what they follow. */
+static int says_more(const struct deck_row *row, const void *from)
+{
+    for (; !deck_row_is_last(row); row++) {
+        const char *member = (const char *)from + row->offset;
+        if (row->option)
+            continue;
+        double value = row->kind == ROW_WHOLE ? *(const int *)member : *(const double *)member;
+        if (!(row->bits & ROW_MAY_LACK) || (value != 0 && !(row->as && value == *(const double *)((const char *)from + row->as))))
+            return 1;
+    }
+    return 0;
+}
+
+void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from)
+{
+    const char *before = "";
+    for (; !deck_row_is_last(row) && says_more(row, from); row++) {
+        const void *member = (const char *)from + row->offset;
+        if (row->option)
+            continue;
+        if (row->kind == ROW_WHOLE)
+            deck_put(w, "%s%d", before, *(const int *)member);
+        else
+            deck_put_number(w, before, *(const double *)member, row->kind == ROW_POSITION ? "m" : row->what);
+        before = ", ";
+    }
+    deck_put(w, "\n");
+}
+
+void deck_put_list_item(struct deck_writer *w, const char *card, const void *from)
+{
+    const struct deck_card *kind = deck_card_find(card);
+    deck_put_card(w, card);
+    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+        if (row->kind == ROW_NAME && *(const char *const *)((const char *)from + row->offset))
+            deck_put_option(w, row->option, *(const char *const *)((const char *)from + row->offset));
+    deck_put(w, "\n");
+    deck_put_values(w, kind->row, from);
+}
+
+/* ---- comparing */
+
+int deck_is_near(double a, double b)
+{
+    return a == b || fabs(a - b) <= DECK_ROUNDING * fmax(fabs(a), fabs(b)) || (isnan(a) && isnan(b));
+}
+
+static int is_same_text(const char *a, const char *b)
+{
+    return a && b ? same_text(a, b) : !a == !b;
+}
+
+int deck_is_same_material(const struct material *a, const struct material *b)
+{
+    return a->isotropic == b->isotropic && a->laminated == b->laminated && deck_is_near(a->e, b->e) &&
+           deck_is_near(a->nu, b->nu) && deck_is_near(a->rho, b->rho) && (a->isotropic || deck_is_near(a->g, b->g)) &&
+           (!a->laminated || (deck_is_near(a->sheet_e, b->sheet_e) && deck_is_near(a->stacking, b->stacking)));
+}
+
+int deck_is_same(const struct deck_row *row, const void *a, const void *b)
+{
+    int same = 1;
+    for (; !deck_row_is_last(row) && same; row++) {
+        const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
+        switch (row->kind) {
+        case ROW_NAME:
+            same = is_same_text(*(const char *const *)p, *(const char *const *)q);
+            break;
+        case ROW_MATERIAL:
+            same = deck_is_same_material(p, q);
+            break;
+        case ROW_GROUP:
+        case ROW_WORD:
+        case ROW_WHOLE:
+            same = *(const int *)p == *(const int *)q;
+            break;
+        case ROW_NUMBER:
+        case ROW_POSITION:
+            same = deck_is_near(*(const double *)p, *(const double *)q);
+            break;
+        default:
+            break;
+        }
+    }
+    return same;
+}
+
+int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b)
+{
+    const char *p = *(const char *const *)((const char *)a + kind->list),
+               *q = *(const char *const *)((const char *)b + kind->list);
+    int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
+    for (int i = 0; i < count && same; i++)
+        same = deck_is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
+    return same;
 }

@@ -1,5 +1,5 @@
 /* The cards of a deck, a row for each of their options and values. From the rows follow what is read and what is said where it is
- * wrong (deck_row.c), what is written, and the tables of docs/deck.md (make tables). What no row says, such as an outer diameter
+ * wrong (deck_fields.c), what is written, and the tables of docs/deck.md (make tables). What no row says, such as an outer diameter
  * above the inner one, is plain code in the reader of the card. */
 #ifndef ROTID_DECK_DECK_ROW_H
 #define ROTID_DECK_DECK_ROW_H

@@ -15,10 +15,10 @@
  *   refine.c         refine_poles: all poles by variable projection, Levenberg-Marquardt; covariance C of the poles = inverse of
  *                    the information, wider where the scores of the channels scatter more
  *   modes.c          modes_of_pole: std of frequency and damping from C; modes_judge: quality flags, MAC
- *   residues.c       residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
- *   per_point.c      per_point_frequencies: a pole for each channel (local.c: local_fit) where the channels disagree
- *   shapes.c         shapes_of_mode: A_cr to a real shape (real_mode.c: mode_axis), its std, MPC, MPD, modal mass
- *   synthesis.c      ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
+ *   poles.c          residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
+ *   per_point.c      per_point_frequencies: a pole for each channel (local_fit) where the channels disagree
+ *   modes.c          shapes_of_mode: A_cr to a real shape (mode_axis), its std, MPC, MPD, modal mass
+ *   poles.c          ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
  *
  * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
 
@@ -300,19 +300,6 @@ struct local_pole {
     double chi2;  /* sum of squared residuals over the stated variance; without one as they are */
     double noise; /* that over the degrees of freedom */
 };
-
-/* The pole of channel k of the band alone near pole[which], the modes pole [nmode] being all that there are: modes within twice
- * the window are fitted along with it. residue [nmode] of that channel: what the modes further away add is taken off first; NULL:
- * it is left to the residual terms, which bends the residue by parts in a thousand. Where no mode is near, every place within
- * local_reach is tried first, in steps of half a bandwidth. known needs |A| above 4 standard deviations where the place was
- * searched for, 3 where not. ROTID_OK or ROTID_ERROR_MEMORY. */
-int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole,
-              const double complex *residue, int which, struct local_pole *out);
-
-/* The common pole of all channels near pole[which], all weighted alike, so that those that respond most decide: where the model
- * is wrong, noise does not tell what to trust. *common := NaN where that fails. ROTID_OK or ROTID_ERROR_MEMORY. */
-int local_common(const struct pool *pool, const struct ema_band *band, int nmode, const double complex *pole, int which,
-                 double complex *common);
 
 /* Replaces modes that lie within 2 % of each other by one wherever each channel shows one peak only: one pole a channel against
  * common poles leaves less (log-likelihood of the residuals; both have as many unknowns where two become one). The pole that

@@ -17,7 +17,7 @@
  *   names.c        name_of_*, si_unit: numbers of the format in words; units
  *
  * src/cli calls it for rotid uff, ema and frf, src/report shows the listing. The room knows neither rotor nor deck: the sensors
- * and modes of a deck's *MEASURED are read by src/deck/deck_uff.c. */
+ * and modes of a deck's *MEASURED are read by src/deck/deck_measured.c. */
 
 #include <stdint.h>
 #include <stdio.h>

@@ -2,21 +2,21 @@
 #define ROTID_RUN_RUN_H
 
 /* Run: what the commands compute from a job. A job (struct job) is a deck resolved to numbers: rotor, measurement, unknowns,
- * options; a deck with several measurements is a job a state over common unknowns (struct states). job.c, states.c.
+ * options; a deck with several measurements is a job a state over common unknowns (struct states). job.c.
  * In: job or states. Out: plain structs (spectrum, comparison, identification, ...), which src/api makes the results of rotid.h.
  *
  *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
  *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted; numbering_search: modes missed
  *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
  *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
- *   mesh             held_mesh.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
+ *   mesh             identify.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
  *                    mesh_choice.c (mesh_choose): elements of sections without a number, from the noise of the frequencies
  *   frequency and its standard deviation of a mode read at several sensors   point_fit.c (point_mean): weighted regression
  *                    f_j = c + b shape_j^2; point_fit, point_drop_outliers
  *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']
  *                    of the modes and of those left out; frf_agreement.c: FRAC, scale, level
  *   sensitivity      sensitivity.c (sensitivity_run): E_k over steps (29), d ln f/d ln x; growth_run: growth of the functionals
- *   pictures, checks mode_shapes.c; beside.c (beside_make): beam beside solid; doubt.c (doubt_units): frequencies in a wrong unit
+ *   pictures, checks mode_shapes.c; beside.c (beside_make): beam beside solid; job.c (doubt_units): frequencies in a wrong unit
  *
  * Callers: deck (fills jobs), diagnose, suggest, api, cli, study; result, report, page, export read the structs. The room must
  * not read files, nor know the text of decks, the catalogue of causes (a cause is an effect of the rotor here) or printing. */
@@ -612,9 +612,6 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
 /* A fit of a solid runs on the coarse mesh, whose frequencies are held in ratio to the limit that this mesh and the one that
  * counts lead to, and whose shapes at their distance from the shapes of the latter: both hardly depend on E and G. Condensed
  * matrices have no such ratio. What is held lies with the models of the run (models_hold). */
-
-/* Whether fits of the job run on the coarse mesh. */
-int mesh_is_held(const struct job *job);
 
 /* Takes the coarse mesh as it stands for the first `count` modes, unless something is held. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mesh_hold_as_it_is(struct pool *pool, const struct job *job, int count);

@@ -8,7 +8,7 @@
  *
  *   impacts      impact_find: |f| above a share of its largest value; impact_merge: double hits           transfer.c
  *   blocks       block_plan: one length 2^a 3^b 5^c for all; cut, overloaded, double impacts left out      transfer.c
- *   windows      force: kept, then faded by a cosine; exponential exp(-d t) on f and x, which shifts each  window.c
+ *   windows      force: kept, then faded by a cosine; exponential exp(-d t) on f and x, which shifts each  transfer.c
  *                pole to lambda - d and leaves its residue
  *   spectra      fft_real, kissfft; S_ff = |F|^2, S_xx = |X|^2, S_xf = X conj(F) for each impact           transfer.c
  *   estimators   estimator_transfer: H1 = S_xf/S_ff, H2 = S_xx/S_fx, Hv by total least squares;            transfer.c
@@ -141,11 +141,6 @@ struct block_plan {
     struct impact *impact; /* record by record, with everything but `tail` */
 };
 
-/* Finds the impacts of nrecord >= 1 records, tells second hits from the next impacts, chooses the length of the blocks and which
- * impacts are used; see struct transfer_options, whose ranges have been checked. Statuses and *bad_record as transfer_compute. */
-int block_plan(struct pool *pool, int nrecord, const struct time_record *record, double rate,
-               const struct transfer_options *options, struct block_plan *plan, int *bad_record);
-
 /* ------------------------------------------------------------------------------------------------------------- estimator */
 
 /* Transfer functions and their variance from spectra of single impacts. With force F and response X of an impact, a column holds
@@ -249,14 +244,6 @@ long long impact_room(int n, const struct impact *impact, int k, double rate, lo
 
 /* Windows of a hammer test. Both leave the form of a transfer function as it is. */
 
-/* Mean of x [n], n >= 1. */
-double window_mean(int n, const double *x);
-
-/* Force after its mean before the impact was taken off: kept for the first `keep` samples, then faded by
- * (1 + cos(pi j/(fade + 1)))/2, j = 1 ... fade, then zero: what the channel shows after the pulse is noise. x [n]; keep, fade >=
- * 0. */
-void window_force(int n, int keep, int fade, double *x);
-
 /* Decay [1/s] of the exponential window that falls to `end` over n samples at `rate` [Hz]: ln(1/end) rate/n; 0 < end <= 1.
  *
  * On force and response alike it changes nothing but the poles. Where x(t) is the integral of h(t - s) f(s) ds,
@@ -264,8 +251,5 @@ void window_force(int n, int keep, int fade, double *x);
  * so the windowed signals obey exp(-d t) h(t), whose poles are lambda - d with the same residues, exactly and for any force. On
  * the response alone it would do so only for a pulse of no length. */
 double window_decay(int n, double end, double rate);
-
-/* weight_j = exp(-decay j/rate), [n]. */
-void window_exponential(int n, double decay, double rate, double *weight);
 
 #endif

@@ -6,6 +6,37 @@
 
 #include "base/base.h"
 
+/* Mean of x [n], n >= 1. */
+static double window_mean(int n, const double *x)
+{
+    double sum = 0;
+    for (int j = 0; j < n; j++)
+        sum += x[j] - x[0]; /* the mean of equal values is that value, to the last bit */
+    return x[0] + sum / n;
+}
+
+/* Force after its mean before the impact was taken off: kept for the first `keep` samples, then faded by
+ * (1 + cos(pi j/(fade + 1)))/2, j = 1 ... fade, then zero: what the channel shows after the pulse is noise. x [n]; keep, fade >=
+ * 0. */
+static void window_force(int n, int keep, int fade, double *x)
+{
+    static const double pi = 3.14159265358979323846;
+    for (int j = keep; j < n; j++)
+        x[j] *= j - keep < fade ? (1 + cos(pi * (j - keep + 1) / (fade + 1))) / 2 : 0;
+}
+
+double window_decay(int n, double end, double rate)
+{
+    return -log(end) * rate / n;
+}
+
+/* weight_j = exp(-decay j/rate), [n]. */
+static void window_exponential(int n, double decay, double rate, double *weight)
+{
+    for (int j = 0; j < n; j++)
+        weight[j] = exp(-decay * j / rate);
+}
+
 int fft_length(long long n)
 {
     int best = 0;
@@ -289,8 +320,10 @@ static void judge(const struct time_record *record, double rate, const struct tr
     }
 }
 
-int block_plan(struct pool *pool, int nrecord, const struct time_record *record, double rate,
-               const struct transfer_options *options, struct block_plan *plan, int *bad_record)
+/* Finds the impacts of nrecord >= 1 records, tells second hits from the next impacts, chooses the length of the blocks and which
+ * impacts are used; see struct transfer_options, whose ranges have been checked. Statuses and *bad_record as transfer_compute. */
+static int block_plan(struct pool *pool, int nrecord, const struct time_record *record, double rate,
+                      const struct transfer_options *options, struct block_plan *plan, int *bad_record)
 {
     struct impact_list list = {0};
     double pretrigger = options->pretrigger > 0 ? options->pretrigger : 0.01;

@@ -14,9 +14,9 @@
  *   uff_real_shape                   nearest real vector. Used by src/deck for MEASURED, FILE and by src/report for tables
  *   uff_write_*                      the sets of `rotid ema` (151, 164, 2411, 55: src/import) and `rotid frf` (58: src/report)
  *
- * Inside, from below: lines.c lines, bytes, numbers; record.c the layouts of records, from which follow reading and writing;
- * reader.c the sets in turn, header, units, nodes; function.c sets 58 and 58b, uff_si_factor; shape.c set 55; file.c whole files
- * and their modes, standard deviations in text lines (uff_extra_*); write.c. Numbers are those of the file: uff_si_factor gives
+ * Inside, from below: lines.c lines, bytes, numbers; record.c the layouts of records, from which follow reading and writing
+ * of sets; reader.c the sets in turn: header, units, nodes, functions (58 and 58b), uff_si_factor; file.c set 55, whole files and
+ * their modes, standard deviations in text lines (uff_extra_*). Numbers are those of the file: uff_si_factor gives
  * the factor to SI. The room knows neither rotor nor deck, and judges no data. */
 
 #include <stddef.h>
@@ -389,26 +389,6 @@ struct uff_put {
     char line[UFF_PUT_LIMIT + 1];
 };
 
-/* The line '-1' and the line with the number of the set; the line '-1' that closes it, and the status of all. */
-void uff_put_open(struct uff_put *put, FILE *stream, int set);
-int uff_put_close(struct uff_put *put);
-
-/* To the right of `width` columns; ROTID_ERROR_ARGUMENT where it is wider. */
-void uff_put_integer(struct uff_put *put, int width, long long value);
-/* To the left of `width` columns; `fallback` where the text is empty. ROTID_ERROR_ARGUMENT where it is longer or has control
- * characters, which would break the line. */
-void uff_put_text(struct uff_put *put, int width, const char *text, const char *fallback);
-
-/* Writes the line without its trailing blanks. A line of '-1' alone, which readers take for the end of the set, is
- * ROTID_ERROR_ARGUMENT. */
-void uff_put_line(struct uff_put *put);
-
-/* Integers or reals, `per_line` a line. */
-void uff_put_integers(struct uff_put *put, int width, int per_line, int count, const int *value);
-void uff_put_reals(struct uff_put *put, int width, int decimals, int per_line, int count, const double *value);
-/* A line with one text of up to 80 characters, NONE where it is empty: the format has no blank lines. */
-void uff_put_text_line(struct uff_put *put, const char *text);
-
 /* Lines of universal files with what stands in them, for both directions: which columns, and which member of the struct. From one
  * layout follow uff_read_record and uff_put_record. */
 
@@ -439,9 +419,6 @@ int uff_take_record(struct uff_lines *lines, const struct uff_record *record, vo
  */
 int uff_cut_members(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT],
                     void *to);
-
-/* The members as a line. */
-void uff_put_record(struct uff_put *put, const struct uff_record *record, const void *from);
 
 /* The reader of a universal file from inside. */
 
@@ -497,21 +474,6 @@ struct uff_node_list {
 
 /* Appends the nodes of the set at hand. */
 int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list);
-
-/* Set 55 in two parts: to record 6, which describes the data; the rest, or nothing more. */
-int uff_read_shape_kind(struct uff_reader *reader, struct uff_shape *shape);
-int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape);
-
-/* From the end of the records of a 58b: how many bytes its data have. The number in the first line is wrong with some writers,
- * so the '-1' behind the data decides. `function` holds record 7, or has ordinate 0 when that is not known. Sets *bytes, and in
- * *x_size the size of an abscissa of double precision data, which is 4 by the format and 8 with some writers. */
-int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size);
-
-/* Record 7 of sets 58: the description of the values. Returns the cell that is wrong, or -1. */
-int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[UFF_CELL_LIMIT], struct uff_function *function);
-
-/* From the last value to behind the closing '-1'; blank lines may stand before it. */
-int uff_close_values(struct uff_lines *lines, long long left_over);
 
 /* Ids with their place in a list, to find those that occur twice. */
 struct uff_label {
