@@ -113,6 +113,9 @@ static void print_check(const struct screen *to, const rotid_check *check, const
                   human_plural(check->nparameters, "parameter", "parameters"));
     screen_table(to, table_of_groups(to->pool, check->geometry));
     screen_table(to, table_of_causes(to->pool, job));
+    const char *steps = doubt_steps(to->pool, job);
+    if (steps)
+        screen_say(to, "%s", steps);
 }
 
 void screen_check(const struct screen *to, const struct result *result, const struct job *const *job)

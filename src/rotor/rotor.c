@@ -29,6 +29,38 @@ void rotor_diameters(const struct rotor *rotor, int segment, double *outer, doub
         }
 }
 
+/* The diameter that carries stiffness, 0 of a section that is not round. */
+static double stiff_diameter(const struct rotor *rotor, int segment)
+{
+    const struct segment *s = &rotor->segment[segment];
+    double outer, inner;
+    rotor_diameters(rotor, segment, &outer, &inner);
+    return s->stiff_outer > 0 && s->stiff_outer < s->outer ? s->stiff_outer : outer;
+}
+
+double rotor_step_error(const struct rotor *rotor, double *z, double *ratio)
+{
+    static const double step[] = {1, 1.1, 1.3, 1.6, 2}, c[] = {0, 0.05, 0.22, 0.45, 0.6};
+    const int last = (int)(sizeof step / sizeof *step) - 1;
+    double at = 0, worst = 0, length = rotor_length(rotor);
+    for (int s = 1; s < rotor->nsegment; s++) {
+        double one = stiff_diameter(rotor, s - 1), other = stiff_diameter(rotor, s);
+        at += rotor->segment[s - 1].length;
+        if (!(one > 0) || !(other > 0))
+            continue;
+        double of = fmax(one, other) / fmin(one, other), error = c[last];
+        for (int i = last; i > 0 && of < step[i]; i--)
+            error = c[i - 1] + (c[i] - c[i - 1]) * (of - step[i - 1]) / (step[i] - step[i - 1]);
+        error *= fmax(one, other) / length;
+        if (error <= worst)
+            continue;
+        worst = error;
+        *z = at;
+        *ratio = of;
+    }
+    return worst;
+}
+
 void rotor_group_span(const struct rotor *rotor, int group, double *from, double *to)
 {
     double z = 0;

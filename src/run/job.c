@@ -168,6 +168,21 @@ double doubt_units(const struct job *job, const struct spectrum *spectrum, doubl
     return 0;
 }
 
+#define STEP_TOLD 0.01
+
+const char *doubt_steps(struct pool *pool, const struct job *job)
+{
+    double z = 0, ratio = 1, error = job_discretisation(job) == AS_BEAM ? rotor_step_error(&job->rotor, &z, &ratio) : 0;
+    for (int e = 0; e < job->rotor.neffect; e++)
+        if (job->rotor.effect[e].kind->section)
+            return NULL;
+    return error < STEP_TOLD ? NULL
+                             : pool_format(pool,
+                                           "a beam is some %.2g %% too stiff (in frequency) at the step of the diameter by 1 : "
+                                           "%.2g at %.4g m; *FIT, MODEL=SOLID takes the same deck",
+                                           100 * error, ratio, z);
+}
+
 /* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other */
 void doubt_sections(const struct job *job, int status, struct message_list *notes)
 {

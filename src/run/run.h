@@ -282,6 +282,10 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
  */
 double doubt_units(const struct job *job, const struct spectrum *spectrum, double refused, struct message_list *notes);
 
+/* What a beam gets wrong at the steps of the diameter, where it is 1 % of a frequency or more and the job, a beam, has no effect
+ * on its sections that repairs it; else NULL, as without memory. */
+const char *doubt_steps(struct pool *pool, const struct job *job);
+
 /* Where the eigenvalue problem of the job failed (ROTID_ERROR_EIGEN, _STIFFNESS, _MASS, _SLAVE) and no error says why: an error
  * with the place of the softest section, and the stiffest element where the two are far apart. Nothing for other statuses. */
 void doubt_sections(const struct job *job, int status, struct message_list *notes);
