@@ -119,15 +119,25 @@ static void a_deck_reads_the_modes_back(void **state)
     for (int k = 0; k < MODES; k++) {
         const cJSON *mode = cJSON_GetArrayItem(get(json, "modes"), k);
         assert_close(job.measurement.frequency_hz[k], number_of(mode, "frequency_hz"), 1e-5, 0); /* six digits of a set 55 */
-        assert_close(job.measurement.frequency_std[k] * job.measurement.frequency_hz[k], number_of(mode, "frequency_std_hz"),
-                     1e-5, 0);
+        assert_close(job.measurement.frequency_std[k],
+                     hypot(number_of(mode, "frequency_std_hz") / number_of(mode, "frequency_hz"), 2e-4), 1e-5, 0);
         for (int p = 0; p < POINTS; p++) {
             const cJSON *point = cJSON_GetArrayItem(get(mode, "shape"), p);
             assert_int_equal(job.rotor.sensor[p].id, (int)number_of(point, "node"));
             assert_close(job.measurement.shape[p + POINTS * k], number_of(point, "value"), 1e-5, 1e-6);
-            assert_close(job.measurement.shape_std[p + POINTS * k], number_of(point, "std"), 1e-5, 1e-6);
+            assert_close(job.measurement.shape_std[p + POINTS * k], hypot(number_of(point, "std"), 2e-3), 1e-5, 1e-6);
         }
     }
+    size_t said = messages.count;
+    assert_non_null(strstr(messages.item[said - 1].text, "0.02 % of frequencies and 0.2 % of shapes are added"));
+    put_text("bar.inp", DECK "*MEASURED, FILE=modes.uff\n*NOISE, FLOOR_FREQUENCY=0\n"); /* as the user says */
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, path_of("bar.inp"), 0, NULL, &messages, &job), ROTID_OK);
+    assert_int_equal(messages.count, said - 1);
+    assert_close(job.measurement.frequency_std[0],
+                 number_of(cJSON_GetArrayItem(get(json, "modes"), 0), "frequency_std_hz") /
+                     number_of(cJSON_GetArrayItem(get(json, "modes"), 0), "frequency_hz"),
+                 1e-5, 0);
     cJSON_Delete(json);
     assert_int_equal(program("check", "bar.inp"), 0);
 }

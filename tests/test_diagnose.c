@@ -628,20 +628,20 @@ static void noise_not_stated_or_zero(void **state)
     pool_close(&pool);
 }
 
-static void frequencies_in_radians(void **state)
+static void frequencies_in_another_unit(void **state)
 {
     (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
-    for (int shapes = 0; shapes < 2; shapes++) {
+    for (int i = 0; i < 4; i++) {
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
-        append_data(&d, MODES, 0, shapes, SENSORS, 6.283185307);
+        append_data(&d, MODES, 0, i % 2, SENSORS, i < 2 ? 6.283185307 : 1e-3);
         (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_status(r.status, ROTID_ERROR_ARGUMENT);
-        assert_true(says(&r, "rad/s"));
+        assert_true(says(&r, i < 2 ? "rad/s" : "kHz"));
         close_run(&r);
     }
 }
@@ -763,7 +763,7 @@ int main(void)
         cmocka_unit_test(sensors_at_one_end),
         cmocka_unit_test(two_sensors),
         cmocka_unit_test(noise_not_stated_or_zero),
-        cmocka_unit_test(frequencies_in_radians),
+        cmocka_unit_test(frequencies_in_another_unit),
         cmocka_unit_test(frequencies_in_the_wrong_order),
         cmocka_unit_test(a_mode_missing_from_the_count),
         cmocka_unit_test(a_mode_measured_twice),

@@ -129,6 +129,28 @@ static void a_number_in_another_unit_is_noticed_with_its_cure(void **state)
 
 /* ---- right decks */
 
+/* Commas in numbers are told before what follows from them; lists without blanks, and with points, are no such numbers. */
+static void a_decimal_comma_is_told_first(void **state)
+{
+    static const char model[] = "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n";
+    static const struct {
+        const char *lines;
+        int line;
+    } table[] = {{"1.0, 0.05, 0, 20\n*MODES\n1, 435,5\n", 9}, {"1,5, 0,05, 0\n", 7}, {"1.0, 0.05, 0,20\n", 0}, {"1,1,0,20\n", 0}};
+    char text[600];
+    (void)state;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        struct message_list messages;
+        struct states states;
+        (void)snprintf(text, sizeof text, "%s%s", model, table[i].lines);
+        message_open(&messages, &test_pool);
+        (void)deck_read_states(&test_pool, folder_write("comma.inp", text), NULL, 0, NULL, &messages, &states);
+        const rotid_message *found = find_message(&messages, "a decimal comma?");
+        assert_int_equal(found != NULL, table[i].line > 0);
+        assert_true(!found || (found == messages.item && found->line == table[i].line));
+    }
+}
+
 static void right_decks_get_no_warning_of_units(void **state)
 {
     static const char *const decks[] = {"brake_reuss_beam", "brake_reuss_lap",   "converged_rotor",    "converged_stack",
@@ -425,6 +447,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_number_in_another_unit_is_noticed_with_its_cure),
+        cmocka_unit_test(a_decimal_comma_is_told_first),
         cmocka_unit_test(right_decks_get_no_warning_of_units),
         cmocka_unit_test(every_unit_is_what_it_is_called),
         cmocka_unit_test(a_deck_in_other_units_is_the_same_rotor),

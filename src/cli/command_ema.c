@@ -46,6 +46,19 @@ static int is_doubtful(const struct ema *ema)
     return doubtful;
 }
 
+#define LEAST_POINTS 5 /* fewer do not tell how a frequency follows the shape (point_mean) */
+
+/* Whether the response went from point to point, and a mode's frequency with it: its accelerometer is felt. */
+static int is_moving(const struct frf_set *set, const struct ema *ema)
+{
+    int felt = 0, points = 0;
+    for (int k = 0; k < ema->nmode; k++)
+        felt |= ema->mode[k].local_pole != NULL;
+    for (int i = 1; i < set->nfrf; i++)
+        points |= set->frf[i].response_node != set->frf[0].response_node;
+    return felt && points && ema->npoint >= LEAST_POINTS;
+}
+
 int command_ema(struct command *command)
 {
     struct measurement measurement;
@@ -72,6 +85,13 @@ int command_ema(struct command *command)
         }
     if (!status)
         status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
+    if (!status && !options.per_point && is_moving(&measurement.set, &ema)) {
+        options.per_point = 1;
+        status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "frequencies differ from point to point, as with one accelerometer that goes round: they are taken at each "
+                    "point as well (--per-point), and identify and diagnose allow for its mass");
+    }
     if (environment.progress)
         terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {

@@ -198,6 +198,7 @@ struct deck_reader {
     const char *layout;       /* what a data line of the card at hand holds */
     double length;            /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
+    int states_floor; /* *NOISE has a floor */
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
     int tie;                   /* FIT, TIE=E:G */
     int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */

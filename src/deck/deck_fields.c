@@ -1,6 +1,7 @@
 #include "deck/deck.h"
 #include "deck/deck_row.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -398,6 +399,27 @@ static void read_list(struct deck_reader *reader, const struct card *card, const
     }
 }
 
+/* "1, 435,5": some commas with a blank behind them, one between digits, and no point anywhere */
+static int has_decimal_comma(const char *text)
+{
+    int wide = 0, narrow = 0;
+    for (const char *c = strchr(text, ','); c; c = strchr(c + 1, ',')) {
+        wide |= c[1] == ' ' || c[1] == '\t';
+        narrow |= c > text && isdigit((unsigned char)c[-1]) && isdigit((unsigned char)c[1]);
+    }
+    return wide && narrow && !strchr(text, '.') && !strpbrk(text, "eE");
+}
+
+static void doubt_commas(struct deck_reader *reader, const struct card *card)
+{
+    for (int i = 0; i < card->nline; i++)
+        if (has_decimal_comma(card->line[i].text)) {
+            deck_note(reader, card->line[i].place,
+                      "'%s': a decimal comma? Numbers have a decimal point, and commas separate them", card->line[i].text);
+            return;
+        }
+}
+
 void deck_read_card(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
 {
     for (int i = 0; i < card->nline && kind->instead; i++)
@@ -407,6 +429,8 @@ void deck_read_card(struct deck_reader *reader, const struct card *card, const s
         return;
     }
     reader->layout = kind->lines;
+    if (kind->read != deck_heading)
+        doubt_commas(reader, card);
     if (kind->read)
         kind->read(reader, card);
     else

@@ -151,8 +151,8 @@ static int drop_doubles(struct engine *engine)
     return ROTID_OK;
 }
 
-/* No wrong modulus moves all modes alike by 2 pi: a diagnosis of frequencies in rad/s is refused. */
-static int look_like_radians(struct engine *engine)
+/* No wrong modulus moves all modes alike by 2 pi, 30 or 1000: a diagnosis of numbers in another unit is refused. */
+static int are_in_another_unit(struct engine *engine)
 {
     const struct job *job = engine->job;
     struct spectrum spectrum;
@@ -169,11 +169,11 @@ static int look_like_radians(struct engine *engine)
                                         ROTID_REDUCTION_NONE, comparison_highest(job), job->options.solid ? SPECTRUM_COARSE : 0,
                                         &spectrum);
     if (!status)
-        factor = doubt_units(job, &spectrum, DOUBT_RADIANS, &said);
-    for (size_t i = 0; i < said.count && factor == DOUBT_RADIANS; i++)
+        factor = doubt_units(job, &spectrum, 1, &said);
+    for (size_t i = 0; i < said.count && factor > 0; i++)
         message_add(engine->notes, said.item[i].severity, job->deck, 1, 1, "%s", said.item[i].text);
     pool_close(&scratch);
-    return factor == DOUBT_RADIANS ? ROTID_ERROR_ARGUMENT : status;
+    return factor > 0 ? ROTID_ERROR_ARGUMENT : status;
 }
 
 static int count_fitted(const struct job *job)
@@ -254,7 +254,7 @@ static int prepare_state(struct engine *engine)
             if (!isfinite(job->measurement.frequency_std[k]))
                 job->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
     }
-    status = look_like_radians(engine);
+    status = are_in_another_unit(engine);
     return status ? status : drop_doubles(engine);
 }
 

@@ -130,7 +130,7 @@ static const struct {
     double ratio;
     const char *name, *cure;
 } mistake[] = {
-    {DOUBT_RADIANS, "2 pi", "frequencies in rad/s? *MODES expects hertz, or *UNITS, FREQUENCY=RAD/S"},
+    {6.283185307179586, "2 pi", "frequencies in rad/s? *MODES expects hertz, or *UNITS, FREQUENCY=RAD/S"},
     {0.15915494309189535, "1/(2 pi)", "hertz taken for rad/s and divided once too often?"},
     {1e3, "1000", "lengths of the model in mm, or E in MPa? The deck is in SI units, or says *UNITS, LENGTH=MM"},
     {1e-3, "1/1000", "frequencies in kHz? *MODES expects hertz, or *UNITS, FREQUENCY=KHZ"},
@@ -139,7 +139,7 @@ static const struct {
      "a density in kg/dm3? The deck is in SI units, or says *UNITS, DENSITY=KG/DM3"},
 };
 
-double doubt_units(const struct job *job, const struct spectrum *spectrum, double refused, struct message_list *notes)
+double doubt_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes)
 {
     double least = INFINITY, most = 0, sum = 0;
     int count = 0;
@@ -158,7 +158,7 @@ double doubt_units(const struct job *job, const struct spectrum *spectrum, doubl
     double middle = exp(sum / count);
     for (size_t i = 0; i < sizeof mistake / sizeof *mistake; i++)
         if (fabs(log(middle / mistake[i].ratio)) < log(ALIKE)) {
-            int error = mistake[i].ratio == refused;
+            int error = refused != 0;
             message_add(notes, error ? SEVERITY_ERROR : SEVERITY_WARNING, error ? job->deck : NULL, error, error,
                         "the measured frequencies are %.3g times those of the model in every mode (%.3g to %.3g), which is near "
                         "%s: %s",

@@ -274,13 +274,11 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
 
 /* Doubts about a measurement that only the model can raise. */
 
-#define DOUBT_RADIANS 6.283185307179586
-
 /* Whether the measured frequencies are all the same number times those of the model at its stated values, by mode numbers, and
- * that number is one of a mistaken unit: 2 pi (DOUBT_RADIANS), 1000, the root of 1000, or one over these. Returns it, 0 where
+ * that number is one of a mistaken unit: 2 pi, 1000, the root of 1000, or one over these. Returns it, 0 where
  * there is none. What is said of it goes to notes, as an error at the deck's first line where it is `refused`, else as a warning.
  */
-double doubt_units(const struct job *job, const struct spectrum *spectrum, double refused, struct message_list *notes);
+double doubt_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes);
 
 /* What a beam gets wrong at the steps of the diameter, where it is 1 % of a frequency or more and the job, a beam, has no effect
  * on its sections that repairs it; else NULL, as without memory. */
