@@ -58,7 +58,7 @@ complete -c rotid -n '__fish_seen_subcommand_from suggest' -l frequency-noise -x
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l shape-noise -x -d 'of their shapes, of the largest component (default: that of the deck, else 2)'
 complete -c rotid -n '__fish_seen_subcommand_from suggest' -l set-up-cost -x -d 'of hanging, mounting or moving something, where measuring a point costs 1'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose suggest' -l replicates -x -d 'of the bootstrap that tells a cause from chance (default: 1000)'
-complete -c rotid -n '__fish_seen_subcommand_from speeds' -l speeds -x -d 'of the Campbell diagram [rpm] (default: 0 to 1.3 times the running range in 41 steps)'
+complete -c rotid -n '__fish_seen_subcommand_from speeds' -l speeds -x -d 'of the Campbell diagram [rpm], or a list such as 0,25000,30000 (default: 0 to 1.3 times the running range in 41 steps)'
 complete -c rotid -n '__fish_seen_subcommand_from speeds' -l harmonic -x -d 'critical speeds by an excitation of H per revolution'
 complete -c rotid -n '__fish_seen_subcommand_from speeds' -l draws -x -d 'of the bands, each with its critical speeds solved again'
 complete -c rotid -n '__fish_seen_subcommand_from speeds' -l campbell -r -F -d 'the Campbell diagram as a table'

@@ -960,6 +960,13 @@ module rotid
     real(c_double) :: share = 0
   end type rotid_variance_share
 
+  type, bind(C) :: rotid_speed_sensitivity
+    type(c_ptr) :: parameter = c_null_ptr ! text
+    real(c_double) :: speed = 0
+    real(c_double) :: log_decrement = 0
+    real(c_double) :: amplitude = 0
+  end type rotid_speed_sensitivity
+
   type, bind(C) :: rotid_critical_speed
     integer(c_int) :: number = 0
     integer(c_int) :: mode = 0
@@ -968,6 +975,7 @@ module rotid
     real(c_double) :: ci95(2) = 0
     type(c_ptr) :: whirl = c_null_ptr ! text
     real(c_double) :: log_decrement = 0
+    real(c_double) :: log_decrement_ci95(2) = 0
     real(c_double) :: damping_ratio = 0
     real(c_double) :: amplification = 0
     type(rotid_speed_margin) :: margin = rotid_speed_margin()
@@ -975,6 +983,8 @@ module rotid
     type(c_ptr) :: peaks = c_null_ptr ! rotid_response_peak
     integer(c_int) :: nvariance_shares = 0
     type(c_ptr) :: variance_shares = c_null_ptr ! rotid_variance_share
+    integer(c_int) :: nsensitivities = 0
+    type(c_ptr) :: sensitivities = c_null_ptr ! rotid_speed_sensitivity
     integer(c_int) :: nz = 0
     type(c_ptr) :: z = c_null_ptr ! real
     type(c_ptr) :: x_re = c_null_ptr ! real
@@ -989,6 +999,7 @@ module rotid
     real(c_double) :: ci95(2) = 0
     real(c_double) :: damping_ratio = 0
     real(c_double) :: log_decrement = 0
+    real(c_double) :: log_decrement_ci95(2) = 0
     type(c_ptr) :: whirl = c_null_ptr ! text
   end type rotid_campbell_mode
 
@@ -1010,6 +1021,8 @@ module rotid
     type(c_ptr) :: speed_rpm = c_null_ptr ! real
     type(c_ptr) :: amplitude_m = c_null_ptr ! real
     type(c_ptr) :: phase_deg = c_null_ptr ! real
+    type(c_ptr) :: from_m = c_null_ptr ! real
+    type(c_ptr) :: to_m = c_null_ptr ! real
   end type rotid_probe_response
 
   type, bind(C) :: rotid_bearing_load
@@ -1023,7 +1036,15 @@ module rotid
     real(c_double) :: stiffness_factor = 0
     integer(c_int) :: nspeed_rpm = 0
     type(c_ptr) :: speed_rpm = c_null_ptr ! real
+    type(c_ptr) :: from_rpm = c_null_ptr ! real
+    type(c_ptr) :: to_rpm = c_null_ptr ! real
   end type rotid_map_row
+
+  type, bind(C) :: rotid_excitation
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: per_revolution = 0
+    real(c_double) :: hz = 0
+  end type rotid_excitation
 
   type, bind(C) :: rotid_speeds
     real(c_double) :: low_rpm = 0
@@ -1036,6 +1057,8 @@ module rotid
     type(rotid_stability) :: stability = rotid_stability()
     integer(c_int) :: ncampbell = 0
     type(c_ptr) :: campbell = c_null_ptr ! rotid_campbell_speed
+    integer(c_int) :: nexcitation = 0
+    type(c_ptr) :: excitation = c_null_ptr ! rotid_excitation
     integer(c_int) :: nunbalance = 0
     type(c_ptr) :: unbalance = c_null_ptr ! rotid_probe_response
     real(c_double) :: weight_n = 0

@@ -647,9 +647,9 @@ typedef struct rotid_spectrum {
                             where it cannot be had */
     int nmessage;
     const rotid_message *message; /* of the pairing; with an error among them no measured mode is paired */
-    const char *type;             /* of the modes: BENDING, TORSION or AXIAL, whose shapes are the deflection, the rotation about the
-                                     axis or the displacement along it */
-    void *memory;                 /* internal */
+    const char *type; /* of the modes: BENDING, TORSION or AXIAL, whose shapes are the deflection, the rotation about the
+                         axis or the displacement along it */
+    void *memory;     /* internal */
 } rotid_spectrum;
 
 /* How fine a solid of revolution is discretised. */
@@ -1090,21 +1090,32 @@ typedef struct rotid_variance_share {
     double share; /* in the variance of the linear prediction [1] */
 } rotid_variance_share;
 
+/* What one uncertain number does to a critical speed: derivatives by its logarithm, by itself where it may be zero. */
+typedef struct rotid_speed_sensitivity {
+    const char *parameter; /* its name: core.E, de.k, de.c, loss GROUP, pull GROUP, change PARAMETER */
+    double speed;          /* d ln speed_rpm [1] */
+    double log_decrement;  /* d log_decrement there [1] */
+    double amplitude;      /* d ln amplitude_m of the peak by which the margin is judged [1]; NaN without a peak */
+} rotid_speed_sensitivity;
+
 typedef struct rotid_critical_speed {
-    int number;                /* from 1, by rising speed */
-    int mode;                  /* of the Campbell diagram, from 1 */
-    double speed_rpm;          /* where Im lambda is harmonic times the speed [rpm] */
-    double std;                /* standard deviation of speed_rpm by draws [rpm]; NaN without uncertain numbers */
-    double ci95[2];            /* 95 % interval of speed_rpm by draws [rpm] */
-    const char *whirl;         /* backward, mixed (the orbits along the rotor differ) or forward */
-    double log_decrement;      /* there, without the jump of loss factors [1] */
-    double damping_ratio;      /* there, the same of critical damping [1] */
-    double amplification;      /* largest of the peaks [1]; NaN where none is known */
-    rotid_speed_margin margin; /* to the running range */
+    int number;                   /* from 1, by rising speed */
+    int mode;                     /* of the Campbell diagram, from 1 */
+    double speed_rpm;             /* where Im lambda is harmonic times the speed [rpm] */
+    double std;                   /* standard deviation of speed_rpm by draws [rpm]; NaN without uncertain numbers */
+    double ci95[2];               /* 95 % interval of speed_rpm by draws [rpm] */
+    const char *whirl;            /* backward, mixed (the orbits along the rotor differ) or forward */
+    double log_decrement;         /* there, without the jump of loss factors [1] */
+    double log_decrement_ci95[2]; /* 95 % interval of it by draws [1]; NaN without uncertain numbers */
+    double damping_ratio;         /* there, the same of critical damping [1] */
+    double amplification;         /* largest of the peaks [1]; NaN where none is known */
+    rotid_speed_margin margin;    /* to the running range */
     int npeaks;
     rotid_response_peak *peaks; /* of the unbalance response, by probe */
     int nvariance_shares;
     rotid_variance_share *variance_shares; /* where the doubt of speed_rpm comes from */
+    int nsensitivities;
+    rotid_speed_sensitivity *sensitivities; /* by each uncertain number */
     int nz;
     double *z;    /* places along the axis [m] */
     double *x_re; /* shape at each z: real part of the motion in x, largest component 1 [1] */
@@ -1114,12 +1125,13 @@ typedef struct rotid_critical_speed {
 } rotid_critical_speed;
 
 typedef struct rotid_campbell_mode {
-    int mode;             /* from 1, of one mode over all speeds */
-    double frequency_hz;  /* |Im lambda|/2 pi in the fixed frame [Hz] */
-    double ci95[2];       /* 95 % interval of frequency_hz by the linear prediction [Hz]; NaN without uncertain numbers */
-    double damping_ratio; /* -Re lambda/|lambda| [1]; below 0 the mode grows */
-    double log_decrement; /* [1] */
-    const char *whirl;    /* backward, mixed or forward */
+    int mode;                     /* from 1, of one mode over all speeds */
+    double frequency_hz;          /* |Im lambda|/2 pi in the fixed frame [Hz] */
+    double ci95[2];               /* 95 % interval of frequency_hz by the linear prediction [Hz]; NaN without uncertain numbers */
+    double damping_ratio;         /* -Re lambda/|lambda| [1]; below 0 the mode grows */
+    double log_decrement;         /* [1] */
+    double log_decrement_ci95[2]; /* 95 % interval of it by the linear prediction [1] */
+    const char *whirl;            /* backward, mixed or forward */
 } rotid_campbell_mode;
 
 typedef struct rotid_campbell_speed {
@@ -1140,6 +1152,8 @@ typedef struct rotid_probe_response {
     double *speed_rpm;   /* [rpm] */
     double *amplitude_m; /* at each speed, zero to peak [m] */
     double *phase_deg;   /* at each speed: lag behind the mark at angle 0, 0 to 360 [deg] */
+    double *from_m;      /* lower limit of the 95 % interval of amplitude_m, by draws [m]; NaN without bands */
+    double *to_m;        /* upper limit [m] */
 } rotid_probe_response;
 
 typedef struct rotid_bearing_load {
@@ -1153,7 +1167,17 @@ typedef struct rotid_map_row {
     double stiffness_factor; /* on the stiffness of all bearings [1] */
     int nspeed_rpm;
     double *speed_rpm; /* undamped forward critical speeds with the mean of both direct stiffnesses [rpm] */
+    double
+        *from_rpm;  /* lower limit of the 95 % interval of each by the linear prediction, the bearings known [rpm]; NaN without */
+    double *to_rpm; /* upper limit [rpm] */
 } rotid_map_row;
+
+/* A line of the Campbell diagram along which the machine is excited. */
+typedef struct rotid_excitation {
+    const char *name;      /* 1x, 2x, line, 2x line */
+    double per_revolution; /* its frequency is hz + per_revolution times the speed [1] */
+    double hz;             /* [Hz] */
+} rotid_excitation;
 
 /* The machine in operation. */
 typedef struct rotid_speeds {
@@ -1167,6 +1191,8 @@ typedef struct rotid_speeds {
     rotid_stability stability;             /* whether a mode grows */
     int ncampbell;
     rotid_campbell_speed *campbell; /* modes over the speed */
+    int nexcitation;
+    rotid_excitation *excitation; /* with LINE or POLES of *OPERATION */
     int nunbalance;
     rotid_probe_response *unbalance; /* response at each probe */
     double weight_n;                 /* of the rotor [N] */
@@ -1199,8 +1225,8 @@ ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, in
  * the other one; failure says which. */
 ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                                     char *failure, rotid_spectrum **spectrum);
-/* rotid_spectrum_compute of the modes of a type, whichever type the deck states for its measured ones: ROTID_BENDING, ROTID_TORSION
- * or ROTID_AXIAL. Measured modes of another type are left out. ROTID_ERROR_ARGUMENT where type is none of these. */
+/* rotid_spectrum_compute of the modes of a type, whichever type the deck states for its measured ones: ROTID_BENDING,
+ * ROTID_TORSION or ROTID_AXIAL. Measured modes of another type are left out. ROTID_ERROR_ARGUMENT where type is none of these. */
 ROTID_API int rotid_spectrum_of_type(const rotid_deck *deck, int type, const double *x, int nmode,
                                      const rotid_environment *environment, char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);

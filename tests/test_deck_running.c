@@ -51,20 +51,20 @@ static void the_cards_of_a_machine_are_read(void **state)
     assert_int_equal(m->nbearing, 3);
     assert_int_equal(m->bearing[1].like, 0);
     assert_close(m->bearing[1].std[1], 0.3, 0, 0);
-    assert_memory_equal(m->bearing[1].k, full, sizeof full);
-    assert_close(m->bearing[1].c[YX], 7, 0, 0);
-    assert_int_equal(m->bearing[1].has_pedestal, 1);
-    assert_close(m->bearing[1].kp[1], 4e9, 0, 0);
+    assert_memory_equal(m->bearing[1].film.k, full, sizeof full);
+    assert_close(m->bearing[1].film.c[YX], 7, 0, 0);
+    assert_int_equal(m->bearing[1].pedestal.count, 1);
+    assert_close(m->bearing[1].pedestal.k[YY], 4e9, 0, 0);
     assert_close(m->bearing[2].std[1], 0.1, 0, 0);
-    bearing_at(&m->bearing[2], 2000 * RPM, k, d, dk, dd);
+    coefficients_at(&m->bearing[2].film, 2000 * RPM, k, d, dk, dd);
     assert_close(k[XX], 2e7, 1e-12, 0);
     assert_close(k[YY], 3e7, 1e-12, 0);
     assert_close(d[YY], 3, 1e-12, 0);
     assert_close(dk[XX], 2e7 / (2000 * RPM), 1e-12, 0);
-    bearing_at(&m->bearing[2], 500 * RPM, k, d, dk, dd);
+    coefficients_at(&m->bearing[2].film, 500 * RPM, k, d, dk, dd);
     assert_close(k[XX], 1e7, 0, 0);
     assert_close(dk[XX], 0, 0, 0);
-    bearing_at(&m->bearing[2], 9000 * RPM, k, d, NULL, NULL);
+    coefficients_at(&m->bearing[2].film, 9000 * RPM, k, d, NULL, NULL);
     assert_close(k[YY], 4e7, 0, 0);
     assert_close(m->unbalance[0].phase, asin(1), 1e-15, 0);
     assert_close(m->probe[0].angle, atan(1), 1e-15, 0);
@@ -86,8 +86,8 @@ static void units_of_the_deck_hold_for_the_machine(void **state)
     assert_int_equal(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     const struct machine *m = deck_states_of(deck)->machine;
     assert_close(m->bearing[0].z, 0.2, 1e-15, 0);
-    assert_close(m->bearing[0].k[YY], 1e8, 1e-15, 0);
-    assert_close(m->bearing[0].c[XX], 5, 0, 0);
+    assert_close(m->bearing[0].film.k[YY], 1e8, 1e-15, 0);
+    assert_close(m->bearing[0].film.c[XX], 5, 0, 0);
     rotid_deck_free(deck);
 }
 
@@ -113,6 +113,9 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
     says(SHAFT TWO "*CHANGE\na.q, 1\n", ROTID_ERROR, 16, "no parameter");
     says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");
     says(SHAFT TWO "*OPERATION\n5000, 4000\n", ROTID_ERROR, 16, "expected the lowest speed first");
+    says(SHAFT TWO "*OPERATION, POLES=3\n4000, 5000\n", ROTID_ERROR, 15, "expected an even one");
+    says(SHAFT TWO "*OPERATION, LINE=0\n4000, 5000\n", ROTID_ERROR, 15, "LINE");
+    says(SHAFT TWO "*OPERATION, LINE=50, POLES=4\n1000, 1600\n", ROTID_WARNING, 16, "above 1500 rpm, the speed of the field");
     says(SHAFT TWO "*OPERATION, MARGIN=15\n4000, 5000\n", ROTID_ERROR, 15, "expected a share below 1");
     says(SHAFT TWO "*OPERATION, MARGIN=API617\n4000, 5000\n", ROTID_ERROR, 15, "expected *UNBALANCE and *PROBE");
     says(SHAFT TWO "*OPERATION, MARGIN=API541\n4000, 5000\n", ROTID_ERROR, 15, "MARGIN");
@@ -129,8 +132,8 @@ static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
     struct running_case c;
     const double k[4] = {4, -3, 2, 1}, d[4] = {8, -7, 6, 5};
     assert_int_equal(running_case_open(SHAFT TWO "*BEARING, AXES=LOAD\n1, 1, -2, 3, 4, 5, -6, 7, 8\n", 100, 2, 0, &c), ROTID_OK);
-    assert_memory_equal(c.machine->bearing[2].k, k, sizeof k);
-    assert_memory_equal(c.machine->bearing[2].c, d, sizeof d);
+    assert_memory_equal(c.machine->bearing[2].film.k, k, sizeof k);
+    assert_memory_equal(c.machine->bearing[2].film.c, d, sizeof d);
     running_case_close(&c);
     says(SHAFT TWO "*BEARING, AXES=UP\n1, 1, 1\n", ROTID_ERROR, 15, "AXES");
 }
@@ -244,6 +247,68 @@ static void tables_of_bearings_are_refused_by_their_cells(void **state)
     says(text, ROTID_ERROR, 11, "has 1 rows");
 }
 
+/* A pedestal k - m w^2 + i w c by its dynamic stiffness: with its mass the same machine, with another one the same response,
+ * which is at the frequency of the spin. */
+static void a_pedestal_by_its_dynamic_stiffness(void **state)
+{
+    (void)state;
+    const double m = 150, k = 6e8, d = 2e4;
+    char *table = pool_copy_text(&test_pool, "frequency_hz,kx_re,kx_im,ky_re,ky_im\n");
+    const char *under = "*PEDESTAL, BEARING=p, FILE=stand.csv\n%g, %g\n", *rest = "*UNBALANCE\n1, 1e-3\n*PROBE, NAME=x\n1\n";
+    struct running_case c[3];
+    says(pool_format(&test_pool, SHAFT TWO "*PEDESTAL, BEARING=p, FILE=none.csv\n1, 1\n"), ROTID_ERROR, 15, "cannot read");
+    (void)folder_write("stand.csv", "frequency_hz,kx_re,kx_im,ky_re\n1,1,1,1\n");
+    says(pool_format(&test_pool, SHAFT TWO "*PEDESTAL, BEARING=p, FILE=stand.csv\n1, 1\n"), ROTID_ERROR, 1, "no column ky_im");
+    (void)folder_write("stand.csv", "frequency_hz,kx_re,kx_im,ky_re,ky_im\n0,1,1,1,1\n");
+    says(pool_format(&test_pool, SHAFT TWO "*PEDESTAL, BEARING=p, FILE=stand.csv\n1, 1\n"), ROTID_ERROR, 2,
+         "frequency [Hz] is 0");
+    says(pool_format(&test_pool, SHAFT TWO "*PEDESTAL, BEARING=p, FILE=stand.csv\n1, 1, 1\n"), ROTID_ERROR, 16, "mx, my alone");
+    for (int hz = 1; hz <= 200; hz++) {
+        double w = 6.283185307179586 * hz;
+        table = pool_format(&test_pool, "%s%d,%.17g,%.17g,%.17g,%.17g\n", table, hz, k - m * w * w, w * d, k - m * w * w, w * d);
+    }
+    (void)folder_write("stand.csv", table);
+    for (int i = 0; i < 3; i++) {
+        char *pedestal = i ? pool_format(&test_pool, under, i * m, i * m)
+                           : pool_format(&test_pool, "*PEDESTAL, BEARING=p\n%g, %g, %g, %g, %g, %g\n", m, m, k, k, d, d);
+        char *text = pool_format(&test_pool, SHAFT TWO "%s%s", pedestal, rest);
+        const char *file = strstr(text, "stand.csv");
+        if (file)
+            text = pool_format(&test_pool, "%.*s%s%s", (int)(file - text), text, folder_path("stand.csv"),
+                               file + strlen("stand.csv"));
+        assert_int_equal(running_case_open(text, 9000, 31, 0, &c[i]), ROTID_OK);
+    }
+    assert_true(c[0].speeds.ncritical_speeds >= 2);
+    for (int i = 0; i < c[0].speeds.ncritical_speeds; i++) {
+        assert_close(c[1].speeds.critical_speeds[i].speed_rpm, c[0].speeds.critical_speeds[i].speed_rpm, 1e-9, 0);
+        assert_close(c[1].speeds.critical_speeds[i].log_decrement, c[0].speeds.critical_speeds[i].log_decrement, 1e-7, 1e-12);
+    }
+    const double *same = c[0].speeds.unbalance[0].amplitude_m;
+    for (int i = 0; i < c[0].speeds.unbalance[0].nspeed_rpm; i += 7) {
+        assert_close(c[1].speeds.unbalance[0].amplitude_m[i], same[i], 1e-8, 0);
+        if (c[2].speeds.unbalance[0].speed_rpm[i] == c[0].speeds.unbalance[0].speed_rpm[i] && i < 90)
+            assert_close(c[2].speeds.unbalance[0].amplitude_m[i], same[i], 1e-4, 0);
+    }
+    for (int i = 0; i < 3; i++)
+        running_case_close(&c[i]);
+}
+
+static void lines_of_excitation(void **state)
+{
+    (void)state;
+    struct running_case c;
+    assert_int_equal(running_case_open(SHAFT TWO "*OPERATION, LINE=50, POLES=4\n1000, 1500\n", 3000, 3, 0, &c), ROTID_OK);
+    assert_int_equal(c.speeds.nexcitation, 4);
+    assert_string_equal(c.speeds.excitation[3].name, "2x line");
+    assert_close(c.speeds.excitation[3].hz, 100, 0, 0);
+    assert_close(c.speeds.excitation[3].per_revolution, 0, 0, 0);
+    running_case_close(&c);
+    assert_int_equal(running_case_open(SHAFT TWO "*OPERATION, POLES=4\n1000, 1500\n", 3000, 3, 0, &c), ROTID_OK);
+    assert_close(c.speeds.excitation[2].per_revolution, 2, 0, 0); /* a converter */
+    assert_close(c.speeds.excitation[2].hz, 0, 0, 0);
+    running_case_close(&c);
+}
+
 static void a_bearing_that_is_not_what_it_seems_is_warned_of(void **state)
 {
     (void)state;
@@ -296,6 +361,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_cause_is_left_at_the_test, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_pedestal_by_its_dynamic_stiffness, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(lines_of_excitation, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_does_not_hold_the_rotor_is_refused, open_test_pool, close_test_pool),

@@ -78,6 +78,122 @@ static void draws_of_their_own_share_the_variance(void **state)
     running_case_close(&c);
 }
 
+static const rotid_speed_sensitivity *by(const rotid_critical_speed *w, const char *parameter)
+{
+    for (int i = 0; i < w->nsensitivities; i++)
+        if (!strcmp(w->sensitivities[i].parameter, parameter))
+            return &w->sensitivities[i];
+    fail_msg("no sensitivity by %s", parameter);
+    return NULL;
+}
+
+#define BOUNCE                                                                                                                   \
+    RIGID "*BEARING, NAME=p, STD=%g, %g\nstart, 1e6, 100\n*BEARING, LIKE=p\nend, 1e6, 100\n*UNBALANCE\n0.5, 1e-3\n"              \
+          "*PROBE, NAME=x\n0.5\n*OPERATION\n2500, 3000\n"
+
+/* zeta = c/(2 sqrt(k m)) = 0.01, delta = 2 pi zeta; at the peak, W^2 = k/m/(1 - 2 zeta^2), |x| ~ sqrt(k)/c. */
+static void damping_and_peaks_have_their_derivatives_and_bands(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double sigma = 0.3, delta = 2 * 3.141592653589793 * 0.01;
+    assert_int_equal(running_case_open(pool_format(&test_pool, BOUNCE, 1e-6, sigma), 4000, 9, DRAWS, &c), ROTID_OK);
+    const rotid_critical_speed *w = forward(&c);
+    assert_close(w->log_decrement, delta, 2e-3, 0); /* the shaft is not without mass */
+    assert_close(log(w->log_decrement_ci95[0] / w->log_decrement), -1.96 * sigma, 0, 0.18 * sigma);
+    assert_close(log(w->log_decrement_ci95[1] / w->log_decrement), 1.96 * sigma, 0, 0.18 * sigma);
+    assert_close(by(w, "p.k")->speed, 0.5, 1e-3, 0);
+    assert_close(by(w, "p.c")->speed, 0, 0, 1e-3);
+    assert_close(by(w, "p.k")->log_decrement, -delta / 2, 3e-3, 0);
+    assert_close(by(w, "p.c")->log_decrement, delta, 3e-3, 0);
+    assert_close(by(w, "p.k")->amplitude, 0.5, 0, 3e-3);
+    assert_close(by(w, "p.c")->amplitude, -1, 1e-3, 0);
+    int seen = 0;
+    for (int i = 0; i < c.speeds.campbell[4].nmodes; i++) { /* by the linear prediction normal */
+        const rotid_campbell_mode *m = &c.speeds.campbell[4].modes[i];
+        seen += fabs(m->log_decrement / delta - 1) < 2e-3 &&
+                fabs((m->log_decrement_ci95[1] - m->log_decrement) / (1.96 * sigma * delta) - 1) < 3e-3;
+    }
+    assert_int_equal(seen, 2);
+    running_case_close(&c);
+}
+
+/* Below the critical speed |x| = u W^2/(k - m W^2) falls with k alone: its quantiles are those of k. */
+static void the_response_has_the_band_of_its_stiffness(void **state)
+{
+    (void)state;
+    struct running_case c;
+    const double sigma = 0.1, m = 50, k = 2e6;
+    int seen = 0;
+    assert_int_equal(running_case_open(pool_format(&test_pool, BOUNCE, sigma, 0.0), 4000, 9, 400, &c), ROTID_OK);
+    const rotid_probe_response *u = &c.speeds.unbalance[0];
+    for (int i = 0; i < u->nspeed_rpm; i++) {
+        double w = u->speed_rpm[i] * RPM, z[2];
+        if (u->speed_rpm[i] < 300 || u->speed_rpm[i] > 1200)
+            continue;
+        for (int end = 0; end < 2; end++) /* the factor on k that has such an amplitude */
+            z[end] = log((1e-3 * w * w / (end ? u->to_m[i] : u->from_m[i]) + m * w * w) / k) / sigma;
+        assert_close(z[0], 1.96, 0, 0.4); /* three deviations of a quantile of 400 draws */
+        assert_close(z[1], -1.96, 0, 0.4);
+        seen++;
+    }
+    assert_true(seen > 20);
+    running_case_close(&c);
+}
+
+#define BY_DIFFERENCES 1e-3
+static double changed(double one, int which, int number)
+{
+    return which == number ? one : 0;
+}
+
+/* A machine with everything that may be uncertain; which: of these the one that is changed, by a logarithm. */
+static int open_changed(struct running_case *c, int which, double by_log)
+{
+    double k = exp(changed(by_log, which, 0)), damping = exp(changed(by_log, which, 1)), eta = exp(changed(by_log, which, 2)),
+           pull = exp(changed(by_log, which, 3)), e = exp(changed(by_log, which, 4));
+    char *text = pool_format(
+        &test_pool,
+        "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n0.6, 0.08, 0, 6\n*SHAFT, NAME=b, "
+        "MATERIAL=s\n0.4, 0.12, 0, 4\n*RUNNING\n*DISK\n0.7, 20, 0.2, 0.35\n*BEARING, NAME=p, STD=0.1, 0.1\n0.1, %.17g, %.17g, "
+        "%.17g, %.17g, %.17g, 0, 0, %.17g\n*BEARING, NAME=q\n0.9, 3e7, 2e7, 2e3, 3e3\n*PEDESTAL, BEARING=q\n40, 50, 3e8, 2e8, "
+        "1e4, 1e4\n*LOSS\na, %.17g, 1e-3\n*PULL, GROUP=b, STD=0.1\n%.17g\n*CHANGE\na.E, %.17g, 0.1\n*UNBALANCE\n0.7, 1e-3\n"
+        "*PROBE, NAME=x\n0.6, 30\n*OPERATION\n4000, 5000\n",
+        2e7 * k, 3e6 * k, -3e6 * k, 3e7 * k, 2e3 * damping, 3e3 * damping, 0.01 * eta, 1e6 * pull, 0.95 * e);
+    return running_case_open(text, 12000, 25, which < 0 ? 20 : 0, c);
+}
+
+static void derivatives_are_those_of_differences(void **state)
+{
+    (void)state;
+    static const char *const name[] = {"p.k", "p.c", "loss a", "pull b", "change a.E"};
+    struct running_case c, side[2];
+    int peaks = 0;
+    assert_int_equal(open_changed(&c, -1, 0), ROTID_OK);
+    assert_true(c.speeds.ncritical_speeds >= 3);
+    for (int which = 0; which < 5; which++) {
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(open_changed(&side[i], which, i ? BY_DIFFERENCES : -BY_DIFFERENCES), ROTID_OK);
+        for (int i = 0; i < c.speeds.ncritical_speeds; i++) {
+            const rotid_critical_speed *w = &c.speeds.critical_speeds[i], *a = &side[0].speeds.critical_speeds[i],
+                                       *b = &side[1].speeds.critical_speeds[i];
+            const rotid_speed_sensitivity *s = by(w, name[which]);
+            double unit = which == 2 ? 0.01 : 1; /* of a loss the derivative is by itself */
+            assert_close(s->speed * unit, log(b->speed_rpm / a->speed_rpm) / (2 * BY_DIFFERENCES), 1e-4, 1e-6);
+            assert_close(s->log_decrement * unit, (b->log_decrement - a->log_decrement) / (2 * BY_DIFFERENCES), 1e-4, 1e-6);
+            if (!w->npeaks || !a->npeaks || !b->npeaks)
+                continue;
+            assert_close(s->amplitude * unit, log(b->peaks[0].amplitude_m / a->peaks[0].amplitude_m) / (2 * BY_DIFFERENCES), 1e-3,
+                         1e-5);
+            peaks++;
+        }
+        for (int i = 0; i < 2; i++)
+            running_case_close(&side[i]);
+    }
+    assert_true(peaks >= 5);
+    running_case_close(&c);
+}
+
 /* The formula at factors of which the values are known by hand: 17 (1 - 1/1) = 0, 17 (1 - 1/8.5) = 15, and the caps. */
 static void the_margin_of_api_617_goes_by_the_amplification(void **state)
 {
@@ -128,6 +244,9 @@ static void the_modulus_has_the_distribution_of_its_fit(void **state)
         double t = dof ? 3.182 : 1.960; /* 97.5 % of Student's t with 3 degrees of freedom, of the normal distribution */
         assert_close(log(w->ci95[1] / w->ci95[0]), 2 * t * 0.02, dof ? 0.2 : 0.1, 0);
         assert_string_equal(w->variance_shares[0].source, "identified");
+        const rotid_map_row *map = &c.speeds.map[8]; /* the stated stiffness, by the linear prediction */
+        assert_close(log(map->to_rpm[0] / map->speed_rpm[0]), 1.96 * 0.02, 1e-3, 0);
+        assert_close(log(map->from_rpm[0] / map->speed_rpm[0]), -1.96 * 0.02, 1e-3, 0);
         running_case_close(&c);
     }
 }
@@ -172,6 +291,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(one_draw_for_both_bearings_is_log_normal, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(damping_and_peaks_have_their_derivatives_and_bands, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_response_has_the_band_of_its_stiffness, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(derivatives_are_those_of_differences, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(draws_of_their_own_share_the_variance, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_margin_of_api_617_goes_by_the_amplification, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_modulus_has_the_distribution_of_its_fit, open_test_pool, close_test_pool),

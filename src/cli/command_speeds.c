@@ -13,28 +13,38 @@ static int refuse_deck(struct command *command, const char *why)
     return command_fail(command, ROTID_ERROR_ARGUMENT);
 }
 
-/* FROM:TO[:N] in rpm */
+/* FROM:TO[:N] or a list of speeds, in rpm */
 static int parse_speeds(struct command *command, struct speeds_options *options)
 {
-    double value[3] = {0, 0, SPEEDS_COUNT};
     const char *at = command->speeds.range;
-    char *end;
-    int count = 0, good = 1;
-    for (; at && good && count < 3; at = end + (*end == ':')) {
-        value[count++] = strtod(at, &end);
-        good = end != at && (!*end || *end == ':');
-        if (good && !*end)
-            break;
-    }
-    if (!command->speeds.range)
+    char *end = NULL;
+    int is_list = at && strchr(at, ','), count = 0, good = 1;
+    double *value = POOL_ARRAY(&command->pool, double, at ? strlen(at) / 2 + 4 : 1);
+    if (!value)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    if (!at)
         return EXIT_DONE;
-    if (!good || count < 2 || *end || !(value[0] >= 0) || !(value[1] > value[0]) || !(value[1] < 1e7) || !(value[2] >= 2) ||
-        value[2] > 10000 || value[2] != floor(value[2]))
-        return arguments_wrong("--speeds=%s is no range, expected FROM:TO or FROM:TO:N in rpm, upwards, with N from 2 to 10000",
-                               command->speeds.range);
+    for (int more = 1; more && good; at = end + 1) {
+        value[count] = strtod(at, &end);
+        good = end != at && value[count] >= 0 && value[count] < 1e7 && (is_list || count < 3);
+        good = good && (!*end || *end == (is_list ? ',' : ':')) && (!count || !is_list || value[count] > value[count - 1]);
+        more = *end != 0;
+        count++;
+    }
+    if (!is_list && count == 2)
+        value[count++] = SPEEDS_COUNT;
+    if (!good || count < 2 || count > 10000 ||
+        (!is_list && (!(value[1] > value[0]) || !(value[2] >= 2) || value[2] > 10000 || value[2] != floor(value[2]))))
+        return arguments_wrong(
+            "--speeds=%s is no range, expected FROM:TO, FROM:TO:N or two speeds and more with commas between them, "
+            "in rpm, upwards, with N from 2 to 10000",
+            command->speeds.range);
     options->from = value[0] * RPM;
-    options->to = value[1] * RPM;
-    options->count = (int)value[2];
+    options->to = value[is_list ? count - 1 : 1] * RPM;
+    options->count = is_list ? count : (int)value[2];
+    for (int i = 0; i < count && is_list; i++)
+        value[i] *= RPM;
+    options->speed = is_list ? value : NULL;
     return EXIT_DONE;
 }
 
@@ -56,23 +66,16 @@ static int write_csv(struct command *command, const char *path, const struct tab
     return status ? command_fail(command, status) : code;
 }
 
-static int run(struct command *command, const struct states *states, const rotid_fit_result *fit, int code)
+static int run(struct command *command, const struct states *states, const rotid_fit_result *fit,
+               const struct speeds_options *options, int code)
 {
     const struct machine *machine = states->machine;
     const struct job *job = &states->state[0].job;
     rotid_speeds *speeds = POOL_NEW(&command->pool, rotid_speeds);
-    struct speeds_options options = {.count = SPEEDS_COUNT,
-                                     .harmonic = command->speeds.harmonic,
-                                     .draws = command->speeds.draws,
-                                     .seed = command->seed,
-                                     .threads = command->threads};
     int n = machine_unknowns(machine, job);
     double last = 0, *x = POOL_ARRAY(&command->pool, double, n);
     rotid_fit_result own;
     const rotid_environment environment = command_environment(command, &last);
-    int wrong = parse_speeds(command, &options);
-    if (wrong)
-        return wrong;
     if (!speeds || !x)
         return command_fail(command, ROTID_ERROR_MEMORY);
     int status = fit ? machine_fit(&command->pool, states, fit, &own) : ROTID_OK;
@@ -80,7 +83,7 @@ static int run(struct command *command, const struct states *states, const rotid
         x[p] = fit ? own.x[p] : machine_bounds(machine, job, p)->start;
     if (!status)
         status =
-            speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, &options, &environment, &command->messages, speeds);
+            speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, options, &environment, &command->messages, speeds);
     if (environment.progress)
         terminal_progress_end();
     if (status < 0)
@@ -106,15 +109,22 @@ int command_speeds(struct command *command)
 {
     const struct machine *machine = deck_states_of(command->read)->machine;
     struct command_fit fit = {0};
+    struct speeds_options options = {.count = SPEEDS_COUNT,
+                                     .harmonic = command->speeds.harmonic,
+                                     .draws = command->speeds.draws,
+                                     .seed = command->seed,
+                                     .threads = command->threads};
     if (!machine)
         return refuse_deck(command,
                            "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
-    int code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);
+    int code = parse_speeds(command, &options);
+    if (!code)
+        code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);
     if (!code && command_cancelled(NULL)) {
         terminal_say("rotid: interrupted, nothing was computed\n");
         code = EXIT_DOUBTFUL;
     } else if (!code) {
-        code = run(command, deck_states_of(command->read), fit.fit, command_judge_fit(command, &fit, "used"));
+        code = run(command, deck_states_of(command->read), fit.fit, &options, command_judge_fit(command, &fit, "used"));
     }
     rotid_fit_free(fit.fit);
     return code;

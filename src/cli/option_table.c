@@ -85,7 +85,7 @@ const struct option_row option_table[] = {
      .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
 
     {.name = "speeds", .commands = "speeds", .kind = OPTION_TEXT, AT(speeds.range), .value = "FROM:TO[:N]",
-     .help = "of the Campbell diagram [rpm] (default: 0 to 1.3 times the running range in 41 steps)",
+     .help = "of the Campbell diagram [rpm], or a list such as 0,25000,30000 (default: 0 to 1.3 times the running range in 41 steps)",
      .more = "Without a running range it ends beyond the third critical speed."},
     {.name = "harmonic", .commands = "speeds", .kind = OPTION_REAL, AT(speeds.harmonic), FROM(0.01, 100), .standard = 1,
      .value = "H", .help = "critical speeds by an excitation of H per revolution"},

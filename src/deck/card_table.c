@@ -175,12 +175,13 @@ const char *const deck_axes[] = {"XY", "LOAD", NULL};
 
 const struct deck_row deck_pedestal_rows[] = {
     OTHER("BEARING", .what = ""),
-    {ABOVE_0(struct bearing, m[0], "mass mx [kg]")},
-    {ABOVE_0(struct bearing, m[1], "mass my [kg]")},
-    {ABOVE_0(struct bearing, kp[0], "stiffness kx [N/m]")},
-    {ABOVE_0(struct bearing, kp[1], "stiffness ky [N/m]")},
-    {FROM_0(struct bearing, cp[0], "damping cx [N.s/m]"), OPTIONAL},
-    {FROM_0(struct bearing, cp[1], "damping cy [N.s/m]"), OPTIONAL},
+    OTHER("FILE", .what = ""),
+    {ABOVE_0(struct pedestal_line, m[0], "mass mx [kg]")},
+    {ABOVE_0(struct pedestal_line, m[1], "mass my [kg]")},
+    {ABOVE_0(struct pedestal_line, k[0], "stiffness kx [N/m]"), OPTIONAL},
+    {ABOVE_0(struct pedestal_line, k[1], "stiffness ky [N/m]"), OPTIONAL},
+    {FROM_0(struct pedestal_line, c[0], "damping cx [N.s/m]"), OPTIONAL},
+    {FROM_0(struct pedestal_line, c[1], "damping cy [N.s/m]"), OPTIONAL},
     LAST};
 static const struct deck_row loss[] = {
     {.option = "TYPE", WORD(struct loss, viscous, losses)},
@@ -224,7 +225,7 @@ static const struct deck_row unknown[] = {
     LAST};
 static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
     bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), OTHER("AXES", .words = deck_axes), LAST},
-    operation[] = {OTHER("MARGIN", .what = "(0)"), LAST};
+    operation[] = {OTHER("MARGIN", .what = "(0)"), OTHER("LINE", .what = "[Hz]"), OTHER("POLES", .what = ""), LAST};
 
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
@@ -276,7 +277,7 @@ const struct deck_card deck_card_table[] = {
     {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
     {"RUNNING", CARD_RUNNING, 9, deck_running, "names of supports and masses that were left at the test", running, OF_MACHINE},
     {"BEARING", CARD_RUNNING, 9, deck_bearing, "position, k [N/m], c [N.s/m]; or kxx, kyy, cxx, cyy; or kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy; with FILE: position", bearing, OF_MACHINE},
-    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]", deck_pedestal_rows, OF_MACHINE},
+    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]; with FILE: mx, my", deck_pedestal_rows, OF_MACHINE},
     {"LOSS", CARD_RUNNING, 10, NULL, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, MACHINE(loss, loss), .check = deck_check_loss},
     {"PULL", CARD_RUNNING, 10, NULL, "stiffness of the magnetic pull, without its sign [N/m]", pull, MACHINE(pull, pull), .single = 1},
     {"CHANGE", CARD_RUNNING, 10, NULL, "parameter, factor [, standard deviation of its logarithm]", change, MACHINE(change, change), .check = deck_check_change},

@@ -102,6 +102,10 @@ extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_lamina
 /* x along the horizontal; x along the load of the bearing, which the weight makes. */
 extern const char *const deck_axes[];
 
+struct pedestal_line {
+    double m[2], k[2], c[2]; /* kg, N/m, N.s/m in x and y */
+};
+
 /* The cards there are, ended by one without a name; that of a name, NULL where there is none. Behind *RUNNING some names of cards
  * of the rotor at rest mean the same of the machine. */
 extern const struct deck_card deck_card_table[];

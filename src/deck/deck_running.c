@@ -8,6 +8,8 @@
 #include "deck/deck_row.h"
 #include "running/running.h"
 
+#define pi           3.14159265358979323846
+#define MOST_POLES   1000
 #define MOST_SPEEDS  10000 /* of a table of a bearing */
 #define COEFFICIENTS 8     /* kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy */
 
@@ -140,8 +142,8 @@ static void doubt_bearing(struct deck_reader *reader, struct place place, const 
 {
     double turn = 0, size = 0;
     int negative = 0;
-    for (int i = 0; i < b->count; i++) {
-        const double *k = b->k + 4 * (ptrdiff_t)i, *c = b->c + 4 * (ptrdiff_t)i;
+    for (int i = 0; i < b->film.count; i++) {
+        const double *k = b->film.k + 4 * (ptrdiff_t)i, *c = b->film.c + 4 * (ptrdiff_t)i;
         turn = fmin(turn, k[XY] - k[YX]);
         size = fmax(size, fabs(k[XX]) + fabs(k[YY]));
         negative |= c[XX] < 0 || c[YY] < 0;
@@ -154,7 +156,7 @@ static void doubt_bearing(struct deck_reader *reader, struct place place, const 
         deck_note(reader, place, "the direct damping of this bearing is below zero, which drives whirl");
 }
 
-static int bearing_values(struct deck_reader *reader, const struct data_line *line, int first, struct bearing *b, int row)
+static int bearing_values(struct deck_reader *reader, const struct data_line *line, int first, struct coefficients *b)
 {
     static const char *const what[COEFFICIENTS] = {"kxx [N/m]",   "kxy [N/m]",   "kyx [N/m]",   "kyy [N/m]",
                                                    "cxx [N.s/m]", "cxy [N.s/m]", "cyx [N.s/m]", "cyy [N.s/m]"};
@@ -182,12 +184,12 @@ static int bearing_values(struct deck_reader *reader, const struct data_line *li
                    "pull");
         bad = 1;
     }
-    memcpy(b->k + 4 * (ptrdiff_t)row, value, 4 * sizeof *value);
-    memcpy(b->c + 4 * (ptrdiff_t)row, value + 4, 4 * sizeof *value);
+    memcpy(b->k, value, 4 * sizeof *value);
+    memcpy(b->c, value + 4, 4 * sizeof *value);
     return bad;
 }
 
-static int room_of_table(struct deck_reader *reader, struct bearing *b, int count)
+static int room_of_table(struct deck_reader *reader, struct coefficients *b, int count)
 {
     b->count = count;
     b->speed = POOL_ARRAY(reader->pool, double, 9 * (size_t)count);
@@ -206,26 +208,47 @@ static int column_of(const struct data_line *head, const char *name)
     return -1;
 }
 
-static int bearing_table(struct deck_reader *reader, const struct card *card, const struct card_option *file, struct bearing *b)
+/* A table of coefficients over what its first column has. */
+struct table_layout {
+    const char *names[COEFFICIENTS + 1]; /* NULL: none */
+    int may_lack[COEFFICIENTS + 1];
+    const char *what[3], *expected; /* the first column, those of k, those of c */
+    double speed;                   /* rad/s of 1 in the first column */
+    enum range range;               /* of the first column */
+};
+
+static const struct table_layout of_bearing = {
+    {"speed_rpm", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy"},
+    {0, 0, 1, 1, 0, 0, 1, 1, 0},
+    {"speed [rpm]", "stiffness [N/m]", "damping [N.s/m]"},
+    "speed_rpm, kxx, kyy, cxx, cyy and, where the planes are coupled, kxy, kyx, cxy, cyx",
+    RPM,
+    NOT_NEGATIVE};
+static const struct table_layout of_pedestal = {
+    {"frequency_hz", "kx_re", NULL, NULL, "ky_re", "kx_im", NULL, NULL, "ky_im"},
+    {0},
+    {"frequency [Hz]", "real part of the dynamic stiffness [N/m]", "imaginary part of the dynamic stiffness [N/m]"},
+    "frequency_hz, kx_re, kx_im, ky_re, ky_im",
+    60 * RPM,
+    POSITIVE};
+
+static int read_coefficients(struct deck_reader *reader, const struct card *card, const struct card_option *file,
+                             const struct table_layout *layout, struct coefficients *b)
 {
-    static const char *const names[COEFFICIENTS + 1] = {"speed_rpm", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy"};
     int column[COEFFICIENTS + 1], bad = 0;
     const struct table_text *table = deck_open_table(reader, card);
     if (!table || table->bad)
         return 1;
     if (table->nrow < 2 || table->nrow > MOST_SPEEDS) {
-        deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients over speed",
-                   table->path, table->nrow, MOST_SPEEDS);
+        deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients", table->path,
+                   table->nrow, MOST_SPEEDS);
         return 1;
     }
     for (int j = 0; j <= COEFFICIENTS; j++) {
-        column[j] = column_of(&table->row[0], names[j]);
-        int may_lack = j == 2 || j == 3 || j == 6 || j == 7;
-        if (column[j] < 0 && !may_lack) {
-            deck_error(reader, table->row[0].place,
-                       "the table has no column %s, expected speed_rpm, kxx, kyy, cxx, cyy and, where the "
-                       "planes are coupled, kxy, kyx, cxy, cyx",
-                       names[j]);
+        column[j] = layout->names[j] ? column_of(&table->row[0], layout->names[j]) : -1;
+        if (column[j] < 0 && layout->names[j] && !layout->may_lack[j]) {
+            deck_error(reader, table->row[0].place, "the table has no column %s, expected %s", layout->names[j],
+                       layout->expected);
             bad = 1;
         }
     }
@@ -236,14 +259,13 @@ static int bearing_table(struct deck_reader *reader, const struct card *card, co
         double value[COEFFICIENTS + 1] = {0};
         for (int j = 0; j <= COEFFICIENTS; j++)
             if (column[j] >= 0)
-                bad |= deck_number(reader, row, column[j], j ? j > 4 ? "damping [N.s/m]" : "stiffness [N/m]" : "speed [rpm]",
-                                   j ? ANY : NOT_NEGATIVE, &value[j]);
-        b->speed[i] = value[0] * RPM;
+                bad |= deck_number(reader, row, column[j], layout->what[j > 4 ? 2 : j > 0], j ? ANY : layout->range, &value[j]);
+        b->speed[i] = value[0] * layout->speed;
         memcpy(b->k + 4 * (ptrdiff_t)i, value + 1, 4 * sizeof *value);
         memcpy(b->c + 4 * (ptrdiff_t)i, value + 5, 4 * sizeof *value);
         if (!bad && i && !(b->speed[i] > b->speed[i - 1])) {
-            deck_error(reader, row->field[column[0]].place,
-                       "the speeds of the table do not rise, expected each above the one before");
+            deck_error(reader, row->field[column[0]].place, "the values of %s do not rise, expected each above the one before",
+                       layout->names[0]);
             bad = 1;
         }
     }
@@ -303,32 +325,63 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         }
     }
     if (file) {
-        bad |= deck_count(reader, line, 1, "position alone beside FILE") || bearing_table(reader, card, file, &b);
+        bad |= deck_count(reader, line, 1, "position alone beside FILE") ||
+               read_coefficients(reader, card, file, &of_bearing, &b.film);
     } else {
-        bad |= room_of_table(reader, &b, 1) || bearing_values(reader, line, 1, &b, 0);
+        bad |= room_of_table(reader, &b.film, 1) || bearing_values(reader, line, 1, &b.film);
     }
     const struct card_option *axes = card_option(card, "AXES");
     int along = axes ? deck_option_word(reader, axes, deck_axes) : 0;
     bad |= along < 0;
-    for (int i = 0; i < b.count && along > 0 && !bad; i++) {
-        turn_to_load(b.k + 4 * (ptrdiff_t)i);
-        turn_to_load(b.c + 4 * (ptrdiff_t)i);
+    for (int i = 0; i < b.film.count && along > 0 && !bad; i++) {
+        turn_to_load(b.film.k + 4 * (ptrdiff_t)i);
+        turn_to_load(b.film.c + 4 * (ptrdiff_t)i);
     }
     if (!bad && !DECK_ADD(reader, machine->bearing, machine->nbearing, &b))
         doubt_bearing(reader, card->place, &b);
 }
 
+/* Of a measured dynamic stiffness k - m w^2 + i w c the mass takes its share: at the frequency of the spin, where critical speeds
+ * and responses are, nothing depends on it. */
+static void split_mass(const double m[2], struct coefficients *pedestal)
+{
+    for (int i = 0; i < pedestal->count; i++)
+        for (int plane = 0; plane < 2; plane++) {
+            ptrdiff_t at = 4 * (ptrdiff_t)i + (plane ? YY : XX);
+            pedestal->k[at] += m[plane] * pedestal->speed[i] * pedestal->speed[i];
+            pedestal->c[at] /= pedestal->speed[i];
+        }
+}
+
 void deck_pedestal(struct deck_reader *reader, const struct card *card)
 {
-    const struct card_option *option = card_option(card, "BEARING");
+    const struct card_option *option = card_option(card, "BEARING"), *file = card_option(card, "FILE");
+    struct pedestal_line value = {{0}, {0}, {0}};
     int of = deck_option(reader, card, "BEARING", "name of a *BEARING") ? named_bearing(reader, option) : -1;
     if (of < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
         return;
+    const struct data_line *line = &card->line[0];
     struct bearing *b = &reader->machine->bearing[of];
-    if (b->has_pedestal)
+    if (b->pedestal.count)
         deck_error(reader, option->value_place, "the pedestal of %s is given twice, expected once", option->value);
-    (void)deck_read_values(reader, &card->line[0], deck_pedestal_rows, reader->layout, b);
-    b->has_pedestal = 1;
+    if (deck_read_values(reader, line, deck_pedestal_rows, reader->layout, &value))
+        return;
+    if (file ? line->count != 2 : line->count < 4) {
+        deck_error(reader, line->place, "the pedestal has %d values, expected %s", line->count,
+                   file ? "mx, my alone beside FILE" : reader->layout);
+        return;
+    }
+    if (file ? read_coefficients(reader, card, file, &of_pedestal, &b->pedestal) : room_of_table(reader, &b->pedestal, 1))
+        return;
+    for (int plane = 0; plane < 2; plane++) {
+        b->m[plane] = value.m[plane];
+        if (!file) {
+            b->pedestal.k[plane ? YY : XX] = value.k[plane];
+            b->pedestal.c[plane ? YY : XX] = value.c[plane];
+        }
+    }
+    if (file)
+        split_mass(b->m, &b->pedestal);
 }
 
 /* ---- losses, pull, change */
@@ -410,6 +463,20 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
     machine->low *= RPM;
     machine->high *= RPM;
     machine->has_operation = 1;
+    const struct card_option *line = card_option(card, "LINE"), *poles = card_option(card, "POLES");
+    if (line && deck_option_number(reader, line, "Hz", POSITIVE, &machine->line_hz))
+        return;
+    if (poles && (deck_option_number(reader, poles, "", POSITIVE, &machine->poles) || fmod(machine->poles, 2) != 0 ||
+                  machine->poles > MOST_POLES)) {
+        deck_error(reader, poles->value_place, "POLES=%s is no number of poles, expected an even one up to %d", poles->value,
+                   MOST_POLES);
+        return;
+    }
+    if (machine->line_hz > 0 && machine->poles > 0 && machine->high > 1.001 * 4 * pi * machine->line_hz / machine->poles)
+        deck_note(reader, card->line[0].field[1].place,
+                  "the running range ends above %g rpm, the speed of the field of %g poles at %g Hz: without LINE the line "
+                  "frequency follows the speed",
+                  120 * machine->line_hz / machine->poles, machine->poles, machine->line_hz);
 }
 
 int deck_check_runup(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)

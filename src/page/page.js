@@ -975,6 +975,8 @@
     const of = (number, value) => r.campbell.map((c) => [c.speed_rpm, value(c.modes.find((m) => m.mode === number) || {})]).map(([x, v]) => [x, known(v) ? v : NaN]);
     const whirl = (number) => { const seen = new Set(r.campbell.slice(1).map((c) => (c.modes.find((m) => m.mode === number) || {}).whirl).filter(Boolean)); return seen.size === 1 ? [...seen][0][0].toUpperCase() : 'M'; };
     const top = Math.max(...numbers.flatMap((n) => of(n, (m) => m.frequency_hz).map(([, v]) => v)).filter(known)) * 1.05;
+    const at = (hz, turn) => (x) => hz + turn * x / 60;
+    const excited = (r.excitation || []).filter((e) => !(e.hz === 0 && e.per_revolution === r.harmonic)).map((e) => ({ type: 'line', name: e.name, color: 'steel', width: 1, points: [0, last].map((x) => [x, at(e.hz, e.per_revolution)(x)]) }));
     const running = known(r.low_rpm) ? [{ type: 'rule', x: r.low_rpm }, { type: 'rule', x: r.high_rpm }] : [];
     const first = r.critical_speeds[0];
     const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed; dots: critical speeds; intervals of the frequencies by the linear prediction; dashed lines: the running range.' }, [
@@ -983,21 +985,23 @@
         ...numbers.map((n, i) => ({ type: 'interval', color: COLORS[i % COLORS.length], opacity: 0.45, legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m && known(m.ci95[0])).map(([x, m]) => [x, m.ci95[0], m.ci95[1]]) })).filter((mark) => mark.points.length > 1),
         ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], points: of(n, (m) => m.frequency_hz) })),
         { type: 'line', name: `${r.harmonic === 1 ? '' : `${num(r.harmonic)} times the `}speed`, color: 'muted', points: [[0, 0], [last, last / 60 * r.harmonic]] },
+        ...excited,
         { type: 'dots', name: 'critical speeds', color: 'vermilion', points: r.critical_speeds.map((c) => [c.speed_rpm, c.speed_rpm / 60 * r.harmonic]) }] },
-      { height: 130, x: rpm, y: { label: 'log decrement', domain: range([0, ...numbers.flatMap((n) => of(n, (m) => m.log_decrement).map(([, v]) => v)).filter(known)]) }, marks: numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], legend: false, points: of(n, (m) => m.log_decrement) })) }])];
+      { height: 130, x: rpm, y: { label: 'log decrement', domain: range([0, ...numbers.flatMap((n) => of(n, (m) => m.log_decrement).map(([, v]) => v)).filter(known)]) }, marks: [...numbers.map((n, i) => ({ type: 'interval', color: COLORS[i % COLORS.length], opacity: 0.45, legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m?.log_decrement_ci95 && known(m.log_decrement_ci95[0])).map(([x, m]) => [x, ...m.log_decrement_ci95]) })).filter((mark) => mark.points.length > 1), ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], legend: false, points: of(n, (m) => m.log_decrement) }))] }])];
     if (r.unbalance.length) {
       const most = Math.max(...r.unbalance.flatMap((u) => u.amplitude_m).filter(known)) * 1e6;
-      list.push(panels({ id: 'response', title: `Unbalance response: up to ${num(most, 3)} \u00b5m`, caption: 'Amplitude zero to peak and lag at the probes.' }, [
-        { height: 200, x: rpm, y: { label: 'amplitude [\u00b5m]', domain: [0, most * 1.05] }, marks: r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], points: u.speed_rpm.map((x, k) => [x, known(u.amplitude_m[k]) ? u.amplitude_m[k] * 1e6 : NaN]) })) },
+      const upper = Math.max(...r.unbalance.flatMap((u) => [...u.amplitude_m, ...(u.to_m || [])]).filter(known)) * 1e6;
+      list.push(panels({ id: 'response', title: `Unbalance response: up to ${num(most, 3)} \u00b5m`, caption: 'Amplitude zero to peak and lag at the probes; bars: 95 % intervals.' }, [
+        { height: 200, x: rpm, y: { label: 'amplitude [\u00b5m]', domain: [0, upper * 1.05] }, marks: [...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'interval', color: COLORS[i], opacity: 0.35, legend: false, points: u.speed_rpm.map((x, k) => [x, u.from_m?.[k] * 1e6, u.to_m?.[k] * 1e6]).filter((p) => known(p[1])) })).filter((mark) => mark.points.length > 1), ...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], points: u.speed_rpm.map((x, k) => [x, known(u.amplitude_m[k]) ? u.amplitude_m[k] * 1e6 : NaN]) }))] },
         { height: 130, x: rpm, y: { label: 'lag [\u00b0]', domain: [0, 360] }, marks: r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], legend: false, points: u.speed_rpm.map((x, k) => [x, known(u.phase_deg[k]) ? u.phase_deg[k] : NaN]) })) }]));
     }
     const rows = r.map.filter((row) => row.speed_rpm.length);
     if (rows.length > 1) {
       const count = Math.min(8, Math.max(...rows.map((row) => row.speed_rpm.length)));
       const all = rows.flatMap((row) => row.speed_rpm.slice(0, count));
-      list.push(panels({ id: 'speed-map', title: `Critical speed map: the first from ${num(rows[0].speed_rpm[0])} to ${num(rows[rows.length - 1].speed_rpm[0])} rpm`, caption: 'Undamped forward critical speeds over the stiffness of all bearings, the stated one being 1.' }, [
+      list.push(panels({ id: 'speed-map', title: `Critical speed map: the first from ${num(rows[0].speed_rpm[0])} to ${num(rows[rows.length - 1].speed_rpm[0])} rpm`, caption: 'Undamped forward critical speeds over the stiffness of all bearings, the stated one being 1; bars: 95 % intervals by what else is uncertain.' }, [
         { height: 220, x: { label: 'stiffness of the bearings over that stated', log: true, domain: range(rows.map((row) => row.stiffness_factor)) }, y: { label: 'critical speed [rpm]', log: true, domain: [Math.min(...all) / 1.3, Math.max(...all) * 1.3] },
-          marks: Array.from({ length: count }, (_, k) => ({ type: 'line', name: `${k + 1}`, color: COLORS[k % COLORS.length], log: true, points: rows.filter((row) => row.speed_rpm.length > k).map((row) => [row.stiffness_factor, row.speed_rpm[k]]) })) }]));
+          marks: [...Array.from({ length: count }, (_, k) => ({ type: 'interval', color: COLORS[k % COLORS.length], opacity: 0.45, legend: false, points: rows.filter((row) => row.speed_rpm.length > k && known(row.from_rpm?.[k])).map((row) => [row.stiffness_factor, row.from_rpm[k], row.to_rpm[k]]) })).filter((mark) => mark.points.length > 1), ...Array.from({ length: count }, (_, k) => ({ type: 'line', name: `${k + 1}`, color: COLORS[k % COLORS.length], log: true, points: rows.filter((row) => row.speed_rpm.length > k).map((row) => [row.stiffness_factor, row.speed_rpm[k]]) }))] }]));
     }
     if (first) {
       const shown = r.critical_speeds.slice(0, 6);

@@ -43,8 +43,11 @@ void section_speeds(struct document *document, const struct result *result)
                            human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
+    document_table(document, table_of_stability(pool, s));
     if (s->nrunup)
         document_table(document, table_of_runup(pool, s->nrunup, s->runup));
     if (s->ncritical_speeds && s->critical_speeds[0].nvariance_shares)
         document_table(document, table_of_shares(pool, s));
+    if (s->ncritical_speeds && s->critical_speeds[0].nsensitivities)
+        document_table(document, table_of_sensitivities(pool, s));
 }

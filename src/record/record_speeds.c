@@ -27,6 +27,15 @@ static const struct record_field share_fields[] = {
 };
 static const struct record share_record = RECORD(rotid_variance_share, share_fields);
 
+static const struct record_field sensitivity_fields[] = {
+    TEXT(rotid_speed_sensitivity, parameter, 0),
+    NUMBER(rotid_speed_sensitivity, speed, 0),
+    NUMBER(rotid_speed_sensitivity, log_decrement, 0),
+    NUMBER(rotid_speed_sensitivity, amplitude, MAY_BE_NULL),
+    {0},
+};
+static const struct record sensitivity_record = RECORD(rotid_speed_sensitivity, sensitivity_fields);
+
 static const struct record_field critical_fields[] = {
     INTEGER(rotid_critical_speed, number, FROM_1),
     INTEGER(rotid_critical_speed, mode, FROM_1),
@@ -35,11 +44,13 @@ static const struct record_field critical_fields[] = {
     RECORD_ROW(rotid_critical_speed, ci95, FIELD_NUMBER, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = 2),
     TEXT_OF(rotid_critical_speed, whirl, 0, whirl_words),
     NUMBER(rotid_critical_speed, log_decrement, 0),
+    INTERVAL(rotid_critical_speed, log_decrement_ci95, ELEMENTS_MAY_BE_NULL),
     NUMBER(rotid_critical_speed, damping_ratio, 0),
     NUMBER(rotid_critical_speed, amplification, MAY_BE_NULL | FROM_0),
     STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
     STRUCTS(rotid_critical_speed, peaks, 0, peak_record),
     STRUCTS(rotid_critical_speed, variance_shares, 0, share_record),
+    STRUCTS(rotid_critical_speed, sensitivities, 0, sensitivity_record),
     NUMBERS(rotid_critical_speed, z, ROUNDED),
     NUMBERS_BY(rotid_critical_speed, x_re, ROUNDED, nz, "z"),
     NUMBERS_BY(rotid_critical_speed, x_im, ROUNDED, nz, "z"),
@@ -55,6 +66,7 @@ static const struct record_field mode_fields[] = {
     RECORD_ROW(rotid_campbell_mode, ci95, FIELD_NUMBER, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = 2),
     NUMBER(rotid_campbell_mode, damping_ratio, 0),
     NUMBER(rotid_campbell_mode, log_decrement, 0),
+    INTERVAL(rotid_campbell_mode, log_decrement_ci95, ELEMENTS_MAY_BE_NULL),
     TEXT_OF(rotid_campbell_mode, whirl, 0, whirl_words),
     {0},
 };
@@ -80,6 +92,8 @@ static const struct record_field response_fields[] = {
     NUMBERS(rotid_probe_response, speed_rpm, FROM_0),
     NUMBERS_BY(rotid_probe_response, amplitude_m, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
     NUMBERS_BY(rotid_probe_response, phase_deg, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
+    NUMBERS_BY(rotid_probe_response, from_m, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
+    NUMBERS_BY(rotid_probe_response, to_m, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
     {0},
 };
 static const struct record response_record = RECORD(rotid_probe_response, response_fields);
@@ -96,9 +110,19 @@ static const struct record load_record = RECORD(rotid_bearing_load, load_fields)
 static const struct record_field map_fields[] = {
     NUMBER(rotid_map_row, stiffness_factor, ABOVE_0),
     NUMBERS(rotid_map_row, speed_rpm, ABOVE_0),
+    NUMBERS_BY(rotid_map_row, from_rpm, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
+    NUMBERS_BY(rotid_map_row, to_rpm, ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, nspeed_rpm, "speed_rpm"),
     {0},
 };
 static const struct record map_record = RECORD(rotid_map_row, map_fields);
+
+static const struct record_field excitation_fields[] = {
+    TEXT(rotid_excitation, name, 0),
+    NUMBER(rotid_excitation, per_revolution, FROM_0),
+    NUMBER(rotid_excitation, hz, FROM_0),
+    {0},
+};
+static const struct record excitation_record = RECORD(rotid_excitation, excitation_fields);
 
 static const struct record_field runup_fields[] = {
     INTEGER(rotid_runup_speed, number, FROM_1),
@@ -122,6 +146,7 @@ static const struct record_field speeds_fields[] = {
     STRUCTS(rotid_speeds, critical_speeds, 0, critical_record),
     STRUCT(rotid_speeds, stability, 0, stability_record),
     STRUCTS(rotid_speeds, campbell, 0, campbell_record),
+    STRUCTS(rotid_speeds, excitation, 0, excitation_record),
     STRUCTS(rotid_speeds, unbalance, 0, response_record),
     NUMBER(rotid_speeds, weight_n, FROM_0),
     NUMBER(rotid_speeds, sag_m, FROM_0),

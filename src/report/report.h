@@ -393,6 +393,8 @@ const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *co
 struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list);
 struct table *table_of_shares(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *speeds);
+struct table *table_of_stability(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_campbell(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
 /* A sentence on the margin of a critical speed that has one. NULL where memory is out. */

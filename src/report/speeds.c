@@ -56,6 +56,23 @@ struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
+struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *s)
+{
+    struct table *t =
+        table_open(pool, "SENSITIVITY: of a critical speed, its log decrement and its peak, by each uncertain number");
+    for (int i = 0; i < s->ncritical_speeds; i++)
+        for (int j = 0; j < s->critical_speeds[i].nsensitivities; j++) {
+            const rotid_speed_sensitivity *one = &s->critical_speeds[i].sensitivities[j];
+            table_row(t);
+            number_column(t, "no.", NULL, SHOW_COUNT, i + 1);
+            text_column(t, "parameter", SHOW_TEXT, one->parameter);
+            number_column(t, "d ln speed", NULL, SHOW_SIGNED(4), one->speed);
+            number_column(t, "d log decrement", NULL, SHOW_SIGNED(4), one->log_decrement);
+            number_column(t, "d ln amplitude", NULL, SHOW_SIGNED(3), one->amplitude);
+        }
+    return t;
+}
+
 static struct table *table_of_peaks(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "UNBALANCE RESPONSE: amplitudes zero to peak, amplification by half power");
@@ -87,6 +104,29 @@ static struct table *table_of_loads(struct pool *pool, const rotid_speeds *s)
     return t;
 }
 
+/* The modes at the highest running speed, or the last speed of the Campbell diagram before it ends. */
+struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
+{
+    int at = 0;
+    while (at + 1 < s->ncampbell && !(s->campbell[at].speed_rpm >= s->high_rpm))
+        at++;
+    struct table *t = table_open(pool, s->ncampbell ? pool_format(pool, "STABILITY: modes at %.0f rpm", s->campbell[at].speed_rpm)
+                                                    : "STABILITY");
+    for (int i = 0; s->ncampbell && i < s->campbell[at].nmodes; i++) {
+        const rotid_campbell_mode *m = &s->campbell[at].modes[i];
+        table_row(t);
+        number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
+        number_column(t, "frequency", "Hz", SHOW_FIXED(2), m->frequency_hz);
+        number_column(t, "from", "Hz", SHOW_FIXED(2), m->ci95[0]);
+        number_column(t, "to", "Hz", SHOW_FIXED(2), m->ci95[1]);
+        text_column(t, "whirl", SHOW_TEXT, m->whirl);
+        number_column(t, "log decrement", NULL, SHOW_DIGITS(3), m->log_decrement);
+        number_column(t, "decrement from", NULL, SHOW_DIGITS(3), m->log_decrement_ci95[0]);
+        number_column(t, "decrement to", NULL, SHOW_DIGITS(3), m->log_decrement_ci95[1]);
+    }
+    return t;
+}
+
 struct table *table_of_campbell(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "Campbell diagram");
@@ -101,6 +141,8 @@ struct table *table_of_campbell(struct pool *pool, const rotid_speeds *s)
             number_column(t, "to", "Hz", SHOW_FIXED(3), m->ci95[1]);
             number_column(t, "damping ratio", NULL, SHOW_DIGITS(4), m->damping_ratio);
             number_column(t, "log decrement", NULL, SHOW_DIGITS(4), m->log_decrement);
+            number_column(t, "decrement from", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[0]);
+            number_column(t, "decrement to", NULL, SHOW_DIGITS(4), m->log_decrement_ci95[1]);
             text_column(t, "whirl", SHOW_TEXT, m->whirl);
         }
     return t;
@@ -115,6 +157,8 @@ struct table *table_of_response(struct pool *pool, const rotid_speeds *s)
             text_column(t, "probe", SHOW_TEXT, s->unbalance[p].probe);
             number_column(t, "speed", "rpm", SHOW_FIXED(1), s->unbalance[p].speed_rpm[i]);
             number_column(t, "amplitude", "m", SHOW_DIGITS(5), s->unbalance[p].amplitude_m[i]);
+            number_column(t, "from", "m", SHOW_DIGITS(5), s->unbalance[p].from_m[i]);
+            number_column(t, "to", "m", SHOW_DIGITS(5), s->unbalance[p].to_m[i]);
             number_column(t, "phase", "deg", SHOW_FIXED(2), s->unbalance[p].phase_deg[i]);
         }
     return t;
@@ -122,7 +166,11 @@ struct table *table_of_response(struct pool *pool, const rotid_speeds *s)
 
 const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, const rotid_speeds *s)
 {
-    double judged = c->npeaks ? c->peaks[0].speed_rpm : c->speed_rpm;
+    const struct machine range = {.low = s->low_rpm * RPM, .high = s->high_rpm * RPM};
+    double judged = c->npeaks ? speeds_peak(&range, c)->speed_rpm : c->speed_rpm;
+    const rotid_variance_share *most = c->nvariance_shares ? &c->variance_shares[0] : NULL;
+    for (int i = 1; i < c->nvariance_shares; i++)
+        most = c->variance_shares[i].share > most->share ? &c->variance_shares[i] : most;
     const char *band = isfinite(c->ci95[0]) ? pool_format(pool, " (%.0f to %.0f)", c->ci95[0], c->ci95[1]) : "",
                *peak = c->npeaks ? pool_format(pool, ", peak at %.0f rpm", judged) : "",
                *where = c->margin.value < 0 ? "inside the running range"
@@ -135,9 +183,11 @@ const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, c
     else if (isfinite(c->margin.required))
         kept = pool_format(pool, ": the margin of %.0f %% is %skept", 100 * c->margin.required,
                            c->margin.value >= c->margin.required ? "" : "not ");
-    return band && peak && where && kept ? pool_format(pool, "Critical speed %d, %s, %.0f rpm%s%s, %s%s", c->number, c->whirl,
-                                                       c->speed_rpm, band, peak, where, kept)
-                                         : NULL;
+    const char *doubt =
+        most ? pool_format(pool, "; %.0f %% of the variance of the critical speed: %s", 100 * most->share, most->source) : "";
+    return band && peak && where && kept && doubt ? pool_format(pool, "Critical speed %d, %s, %.0f rpm%s%s, %s%s%s", c->number,
+                                                                c->whirl, c->speed_rpm, band, peak, where, kept, doubt)
+                                                  : NULL;
 }
 
 void screen_speeds(const struct screen *to, const struct result *result)
@@ -148,7 +198,7 @@ void screen_speeds(const struct screen *to, const struct result *result)
         const char *text =
             isfinite(s->critical_speeds[i].margin.value) ? speeds_judgement(to->pool, &s->critical_speeds[i], s) : NULL;
         if (text)
-            wrap_text(to->out, 2, to->width, "", text);
+            screen_say(to, "%s", text);
     }
     if (isfinite(s->stability.onset_rpm))
         screen_say(to, "Mode %d grows from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
@@ -157,6 +207,7 @@ void screen_speeds(const struct screen *to, const struct result *result)
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));
+    screen_table(to, table_of_stability(to->pool, s));
     screen_table(to, table_of_runup(to->pool, s->nrunup, s->runup));
     screen_table(to, table_of_shares(to->pool, s));
     screen_table(to, table_of_peaks(to->pool, s));

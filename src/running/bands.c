@@ -8,6 +8,9 @@
 #define REDRAWS     1000 /* until a draw lies within the bounds */
 #define FARTHEST    0.5  /* change of a critical speed in one step of a prediction */
 #define LEAST_DRAWS 20
+#define RESPONSES   400 /* draws of which the response is computed */
+#define FEWER       8   /* modes of the basis of these */
+#define pi          3.14159265358979323846
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
 enum source_kind { SOURCE_MODULUS, SOURCE_BEARING_K, SOURCE_BEARING_C, SOURCE_LOSS, SOURCE_PULL, SOURCE_CHANGE };
@@ -16,7 +19,8 @@ struct source {
     enum source_kind kind;
     int index, name; /* name: of the shares, sources of one name count as one */
     int is_logarithm;
-    double std; /* of what is drawn; of moduli the covariance says it */
+    double std;      /* of what is drawn; of moduli the covariance says it */
+    const char *own; /* its own name */
 };
 
 struct bands {
@@ -34,11 +38,17 @@ struct bands {
     const struct tracks *tracks;
     struct source *source;
     const char **name;
-    double *factor;     /* [nmodulus^2] Cholesky factor of the covariance of what is drawn */
-    double *derivative; /* [nsource * ncritical] d W/W by what is drawn */
-    double *campbell;   /* [nsource * nspeed * nmode] d f/f of the tracks */
-    double *draw;       /* [nsource * draws] deviations from the nominal */
-    double *speed;      /* [draws * ncritical] NaN where none was found */
+    double *factor;           /* [nmodulus^2] Cholesky factor of the covariance of what is drawn */
+    double *derivative;       /* [nsource * ncritical] d W/W by what is drawn */
+    double complex *campbell; /* [nsource * nspeed * nmode] d lambda of the tracks */
+    double *map;              /* [nsource * columns * nmap] d W/W of the map */
+    double *draw;             /* [nsource * draws] deviations from the nominal */
+    double *speed;            /* [draws * ncritical] NaN where none was found */
+    double *ratio;            /* [draws * ncritical] damping ratio there */
+    const rotid_speeds *out;
+    double complex *const *map_vector;
+    int responses;   /* draws of which there is a response */
+    float *response; /* [responses * nspeed * nprobe] amplitude */
     int nwatched;
     struct pair *watched; /* at the highest running speed */
     double *growth;       /* [draws] largest real part over |lambda| */
@@ -46,7 +56,8 @@ struct bands {
 
 /* ---- what is uncertain */
 
-static void add_source(struct bands *b, enum source_kind kind, int index, int is_logarithm, double std, const char *name)
+static void add_source(struct bands *b, enum source_kind kind, int index, int is_logarithm, double std, const char *name,
+                       const char *parameter)
 {
     int own = 0;
     while (own < b->nname && name && strcmp(b->name[own], name) != 0)
@@ -55,7 +66,7 @@ static void add_source(struct bands *b, enum source_kind kind, int index, int is
         return;
     b->name[own] = name;
     b->nname += own == b->nname;
-    b->source[b->nsource++] = (struct source){kind, index, own, is_logarithm, std};
+    b->source[b->nsource++] = (struct source){kind, index, own, is_logarithm, std, parameter};
 }
 
 static int find_sources(struct bands *b)
@@ -69,27 +80,32 @@ static int find_sources(struct bands *b)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n && b->fit; p++)
         if (isfinite(b->fit->std[p]) && machine_has_unknown(machine, job, p))
-            add_source(b, SOURCE_MODULUS, p, machine_bounds(machine, job, p)->lower > 0, b->fit->std[p], "identified");
+            add_source(b, SOURCE_MODULUS, p, machine_bounds(machine, job, p)->lower > 0, b->fit->std[p], "identified",
+                       machine_bounds(machine, job, p)->name);
     b->nmodulus = b->nsource;
     for (int i = 0; i < machine->nbearing; i++) {
         const struct bearing *own = &machine->bearing[i];
         const char *name = own->name ? pool_format(b->pool, "bearing %s", own->name) : pool_format(b->pool, "bearing %d", i + 1);
-        if (own->like != i)
+        if (own->like != i || !name)
             continue;
         /* what was identified has its deviation from the fit, in place of the one that was stated before it */
         if (!b->fit || own->unknown[0] < 0)
-            add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name);
+            add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name, pool_format(b->pool, "%s.k", name + strlen("bearing ")));
         if (!b->fit || own->unknown[1] < 0)
-            add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name);
+            add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name, pool_format(b->pool, "%s.c", name + strlen("bearing ")));
     }
-    for (int i = 0; i < machine->nloss; i++)
-        add_source(b, SOURCE_LOSS, i, 0, machine->loss[i].std,
-                   pool_format(b->pool, "loss %s", job->rotor.group[machine->loss[i].group].name));
-    for (int i = 0; i < machine->npull; i++)
-        add_source(b, SOURCE_PULL, i, 1, machine->pull[i].std,
-                   pool_format(b->pool, "pull %s", job->rotor.group[machine->pull[i].group].name));
-    for (int i = 0; i < machine->nchange; i++)
-        add_source(b, SOURCE_CHANGE, i, 1, machine->change[i].std, pool_format(b->pool, "change %s", machine->change[i].name));
+    for (int i = 0; i < machine->nloss; i++) {
+        const char *name = pool_format(b->pool, "loss %s", job->rotor.group[machine->loss[i].group].name);
+        add_source(b, SOURCE_LOSS, i, 0, machine->loss[i].std, name, name);
+    }
+    for (int i = 0; i < machine->npull; i++) {
+        const char *name = pool_format(b->pool, "pull %s", job->rotor.group[machine->pull[i].group].name);
+        add_source(b, SOURCE_PULL, i, 1, machine->pull[i].std, name, name);
+    }
+    for (int i = 0; i < machine->nchange; i++) {
+        const char *name = pool_format(b->pool, "change %s", machine->change[i].name);
+        add_source(b, SOURCE_CHANGE, i, 1, machine->change[i].std, name, name);
+    }
     return b->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
@@ -163,52 +179,84 @@ static void set_values(const struct bands *b, const double *d, double part, doub
 
 /* ---- derivatives */
 
+/* Those of one source, by the machines on both sides of it, `apart` in what is drawn. work [2 size^2 + 2 size] */
+static void differentiate_one(struct bands *b, int j, struct system side[2], double apart, double complex *work)
+{
+    struct system nominal = *b->nominal;
+    const struct tracks *t = b->tracks;
+    double h = b->options->harmonic;
+    for (int i = 0; i < b->ncritical; i++) {
+        const struct critical *c = &b->critical[i];
+        b->derivative[j + (ptrdiff_t)b->nsource * i] = critical_rate(&nominal, side, apart, h, c, work) / c->speed;
+    }
+    for (int i = 0; t && i < t->nspeed; i++)
+        for (int m = 0; m < t->nmode; m++) {
+            const struct pair *pair = track_at(t, m, i);
+            double w = cimag(pair->lambda);
+            if (isfinite(w))
+                b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)t->nspeed * m)] =
+                    pair_difference(&nominal, side, apart, t->speed[i], w > t->speed[i] ? 1 : -1, pair, work);
+        }
+    if (!b->out)
+        return;
+    for (int i = 0; i < b->ncritical; i++) {
+        const struct critical *c = &b->critical[i];
+        rotid_speed_sensitivity *to = &b->out->critical_speeds[i].sensitivities[j];
+        const rotid_response_peak *peak = speeds_peak(b->machine, &b->out->critical_speeds[i]);
+        int probe = 0;
+        while (peak && probe + 1 < b->machine->nprobe && strcmp(peak->probe, b->machine->probe[probe].name) != 0)
+            probe++;
+        /* delta = -2 pi Re/Im along the critical speed, which moves: d lambda = lambda,p + lambda,W dW/dp */
+        to->speed = b->derivative[j + (ptrdiff_t)b->nsource * i];
+        double complex rate = pair_difference(&nominal, side, apart, c->speed, 0, &c->pair, work);
+        rate += pair_rate(&nominal, &c->pair) * to->speed * c->speed;
+        double w = cimag(c->pair.lambda);
+        to->parameter = b->source[j].own;
+        to->log_decrement = -2 * pi * (creal(rate) - creal(c->pair.lambda) * cimag(rate) / w) / w;
+        to->amplitude = peak ? response_rate(&nominal, side, apart, probe, peak->speed_rpm * RPM, work) : (double)NAN;
+    }
+    for (int row = 0; row < b->out->nmap; row++)
+        for (int i = 0; i < b->out->map[row].nspeed_rpm && b->source[j].kind != SOURCE_BEARING_K; i++)
+            b->map[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)nominal.columns * row)] = map_rate(
+                &nominal, side, apart, b->out->map[row].speed_rpm[i] * RPM, b->map_vector[row] + (ptrdiff_t)nominal.columns * i);
+}
+
 static int differentiate(struct bands *b)
 {
-    double h = b->options->harmonic;
-    int nspeed = b->tracks ? b->tracks->nspeed : 0;
-    size_t tracks = b->tracks ? (size_t)nspeed * (size_t)b->tracks->nmode : 0;
-    b->derivative = POOL_ARRAY(b->pool, double, (size_t)b->nsource *(size_t)b->ncritical);
-    b->campbell = POOL_ARRAY(b->pool, double, (size_t)b->nsource *tracks);
-    if (!b->derivative || !b->campbell)
-        return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < b->nsource; j++) {
+    size_t n = (size_t)b->nsource, tracks = b->tracks ? (size_t)b->tracks->nspeed * (size_t)b->tracks->nmode : 0,
+           map = b->out ? (size_t)b->nominal->columns * (size_t)b->out->nmap : 0, size = (size_t)b->nominal->size;
+    b->derivative = POOL_ARRAY(b->pool, double, n *(size_t)b->ncritical);
+    b->campbell = POOL_ARRAY(b->pool, double complex, n *tracks);
+    b->map = POOL_ARRAY(b->pool, double, n *map);
+    int status = b->derivative && b->campbell && b->map ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int i = 0; b->out && i < b->ncritical && !status; i++) {
+        rotid_critical_speed *to = &b->out->critical_speeds[i];
+        to->nsensitivities = POOL_LIST(b->pool, to->sensitivities, b->nsource);
+        status = to->nsensitivities ? ROTID_OK : ROTID_ERROR_MEMORY;
+    }
+    for (int j = 0; j < b->nsource && !status; j++) {
         struct pool scratch;
         struct system side[2];
         struct machine_values values[2];
         double *x, *d, step = b->source[j].is_logarithm ? STEP : STEP * fmax(b->source[j].std, 1e-12);
-        int failed, status = ROTID_OK;
+        int failed;
         pool_open(&scratch, b->pool->allocator);
         d = POOL_ARRAY(&scratch, double, b->nsource);
+        double complex *work = POOL_ARRAY(&scratch, double complex, 2 * size * size + 2 * size);
+        status = d && work ? ROTID_OK : ROTID_ERROR_MEMORY;
         for (int i = 0; i < 2 && !status; i++) {
-            status = d ? values_new(&scratch, b, &values[i], &x) : ROTID_ERROR_MEMORY;
+            status = values_new(&scratch, b, &values[i], &x);
             if (status)
                 break;
             d[j] = i ? step : -step;
             set_values(b, d, 1, x, &values[i]);
             status = system_build(&scratch, b->machine, b->job, &values[i], b->nominal, NULL, &side[i], &failed);
         }
-        struct system nominal = *b->nominal;
-        size_t size = (size_t)nominal.size;
-        double complex *a = POOL_ARRAY(&scratch, double complex, 2 * size * size + size);
-        status = !status && !a ? ROTID_ERROR_MEMORY : status;
-        for (int i = 0; i < b->ncritical && !status; i++) {
-            const struct critical *c = &b->critical[i];
-            b->derivative[j + (ptrdiff_t)b->nsource * i] = critical_rate(&nominal, side, 2 * step, h, c, a) / c->speed;
-        }
-        for (int i = 0; i < nspeed && !status; i++)
-            for (int m = 0; m < b->tracks->nmode; m++) {
-                const struct pair *pair = track_at(b->tracks, m, i);
-                double at = b->tracks->speed[i], w = cimag(pair->lambda);
-                if (isfinite(w))
-                    b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)nspeed * m)] =
-                        cimag(pair_difference(&nominal, side, 2 * step, at, w > at ? 1 : -1, pair, a)) / w;
-            }
+        if (!status)
+            differentiate_one(b, j, side, 2 * step, work);
         pool_close(&scratch);
-        if (status)
-            return status;
     }
-    return ROTID_OK;
+    return status;
 }
 
 /* ---- draws */
@@ -289,6 +337,11 @@ static int solve(struct pool *pool, const struct bands *b, const struct system *
     return lost;
 }
 
+static double ratio(double complex lambda)
+{
+    return -creal(lambda) / cabs(lambda);
+}
+
 static void watch(struct pool *pool, const struct bands *b, struct system *s, double *growth)
 {
     *growth = -INFINITY;
@@ -299,6 +352,25 @@ static void watch(struct pool *pool, const struct bands *b, struct system *s, do
             continue;
         *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
     }
+}
+
+/* The amplitudes of a draw, on a basis of its own that has fewer modes and the static motions by all that acts at a place. */
+static int respond(struct pool *pool, struct bands *b, const struct machine_values *values, int index)
+{
+    const struct basis_size fewer = {FEWER, 0, 0};
+    const rotid_probe_response *curve = b->out->unbalance;
+    int nprobe = b->out->nunbalance, failed;
+    struct system s;
+    if (system_build(pool, b->machine, b->job, values, b->nominal, &fewer, &s, &failed))
+        return ROTID_OK; /* this draw has none */
+    double complex *q = POOL_ARRAY(pool, double complex, s.size);
+    float *to = b->response + (ptrdiff_t)index * curve->nspeed_rpm * nprobe;
+    for (int i = 0; i < curve->nspeed_rpm && q; i++) {
+        int singular = response_at(&s, curve->speed_rpm[i] * RPM, q);
+        for (int p = 0; p < nprobe; p++)
+            to[i * nprobe + p] = (float)(singular ? 0 : cabs(probe_motion(&s, p, q)));
+    }
+    return q ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* In one step from the nominal, or where a mode is lost in four. */
@@ -348,8 +420,15 @@ static int one_draw(void *context, int index, int worker)
             from = &system[own];
             near = now[own];
         }
-        for (int i = 0; i < b->ncritical && !status; i++)
-            b->speed[index + (ptrdiff_t)b->options->draws * i] = near == b->critical ? (double)NAN : near[i].speed;
+        for (int i = 0; i < b->ncritical && !status; i++) {
+            ptrdiff_t at = index + (ptrdiff_t)b->options->draws * i;
+            b->speed[at] = near == b->critical ? (double)NAN : near[i].speed;
+            b->ratio[at] = isfinite(b->speed[at]) ? ratio(near[i].pair.lambda) : (double)NAN;
+        }
+        if (!status && index < b->responses && (!lost || steps == 4)) {
+            set_values(b, d, 1, x, &values);
+            status = respond(&pool, b, &values, index);
+        }
         if (!status && from != b->nominal)
             watch(&pool, b, (struct system *)from, &b->growth[index]);
         done = !lost;
@@ -359,6 +438,11 @@ static int one_draw(void *context, int index, int worker)
 }
 
 /* ---- what they say */
+
+static double decrement(double damping_ratio)
+{
+    return 2 * pi * damping_ratio / sqrt(1 - damping_ratio * damping_ratio);
+}
 
 static double quantile(const double *sorted, int count, double p)
 {
@@ -371,16 +455,22 @@ static int summarise(struct bands *b, int i, rotid_critical_speed *to)
 {
     int draws = b->options->draws, count = 0, kept = 0;
     const struct machine *machine = b->machine;
-    double *own = POOL_ARRAY(b->pool, double, draws), *margin = POOL_ARRAY(b->pool, double, draws), sum = 0, square = 0;
-    double judged = isfinite(to->margin.value) && to->npeaks ? to->peaks[0].speed_rpm / to->speed_rpm : 1;
-    if (!own || !margin)
+    double *own = POOL_ARRAY(b->pool, double, 3 * (size_t)draws), *margin = own + draws, *damping = margin + draws, sum = 0,
+           square = 0;
+    const rotid_response_peak *peak = isfinite(to->margin.value) ? speeds_peak(machine, to) : NULL;
+    double judged = peak ? peak->speed_rpm / to->speed_rpm : 1;
+    if (!own)
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < draws; k++) {
         double speed = b->speed[k + (ptrdiff_t)draws * i];
         if (!isfinite(speed))
             continue;
+        double zeta = b->ratio[k + (ptrdiff_t)draws * i];
+        double factor = to->amplification * (zeta > 0 ? to->damping_ratio / zeta : INFINITY); /* AF goes as 1/(2 zeta) */
+        double required = machine->has_operation ? speeds_required(machine, factor, speed * judged) : (double)NAN;
         margin[count] = machine->has_operation ? speeds_margin(machine, speed * judged) : (double)NAN;
-        kept += isfinite(to->margin.required) && margin[count] >= speeds_required(machine, to->amplification, speed * judged);
+        kept += !(margin[count] < required); /* nothing is required of a flat peak */
+        damping[count] = decrement(zeta);
         own[count++] = speed / RPM;
         sum += speed / RPM;
         square += speed * speed / RPM / RPM;
@@ -388,15 +478,18 @@ static int summarise(struct bands *b, int i, rotid_critical_speed *to)
     if (count < LEAST_DRAWS)
         return ROTID_OK;
     sort_doubles((size_t)count, own);
+    sort_doubles((size_t)count, damping);
     to->ci95[0] = quantile(own, count, 0.025);
     to->ci95[1] = quantile(own, count, 0.975);
+    to->log_decrement_ci95[0] = quantile(damping, count, 0.025);
+    to->log_decrement_ci95[1] = quantile(damping, count, 0.975);
     to->std = sqrt(fmax(0, square - sum * sum / count) / (count - 1));
     if (!isfinite(to->margin.value))
         return ROTID_OK;
     sort_doubles((size_t)count, margin);
     to->margin.ci95[0] = quantile(margin, count, 0.025);
     to->margin.ci95[1] = quantile(margin, count, 0.975);
-    if (isfinite(to->margin.required))
+    if (isfinite(to->margin.required) || (machine->api617 && isfinite(to->amplification)))
         to->margin.probability = (double)kept / count;
     return ROTID_OK;
 }
@@ -412,20 +505,64 @@ static double variance_of(const struct bands *b, const double *g, int j)
     return sum;
 }
 
-/* Of the Campbell diagram by the linear prediction, log-normal. */
-static void spread(const struct bands *b, rotid_speeds *out)
+/* 1.96 standard deviations of what has the derivatives g [nsource]; NaN where a mode has none, as where two are one at
+ * standstill. */
+static double half_width(const struct bands *b, const double *g)
+{
+    double variance = 0;
+    for (int j = 0; j < b->nsource; j++)
+        variance += variance_of(b, g, j);
+    return 1.96 * sqrt(variance);
+}
+
+/* Of the Campbell diagram and the map by the linear prediction: frequencies and speeds log-normal, log decrements normal. g
+ * [nsource] */
+static void spread(const struct bands *b, rotid_speeds *out, double *g)
 {
     for (int i = 0; i < out->ncampbell; i++)
         for (int m = 0; m < out->campbell[i].nmodes; m++) {
             rotid_campbell_mode *to = &out->campbell[i].modes[m];
-            const double *g = b->campbell + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * (to->mode - 1));
-            double variance = 0;
+            const double complex lambda = track_at(b->tracks, to->mode - 1, i)->lambda,
+                                 *rate =
+                                     b->campbell + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->tracks->nspeed * (to->mode - 1));
+            double w = cimag(lambda);
             for (int j = 0; j < b->nsource; j++)
-                variance += variance_of(b, g, j);
-            if (!(variance >= 0))
-                continue; /* at standstill two modes may be one */
-            to->ci95[0] = to->frequency_hz * exp(-1.96 * sqrt(variance));
-            to->ci95[1] = to->frequency_hz * exp(1.96 * sqrt(variance));
+                g[j] = cimag(rate[j]) / w;
+            double half = half_width(b, g);
+            if (!isfinite(half))
+                continue;
+            to->ci95[0] = to->frequency_hz * exp(-half);
+            to->ci95[1] = to->frequency_hz * exp(half);
+            for (int j = 0; j < b->nsource; j++)
+                g[j] = 2 * pi * (creal(rate[j]) - creal(lambda) * cimag(rate[j]) / w) / w;
+            half = half_width(b, g);
+            to->log_decrement_ci95[0] = to->log_decrement - half;
+            to->log_decrement_ci95[1] = to->log_decrement + half;
+        }
+    for (int row = 0; row < out->nmap; row++)
+        for (int i = 0; i < out->map[row].nspeed_rpm; i++) {
+            double half = half_width(b, b->map + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)b->nominal->columns * row));
+            out->map[row].from_rpm[i] = out->map[row].speed_rpm[i] * exp(-half);
+            out->map[row].to_rpm[i] = out->map[row].speed_rpm[i] * exp(half);
+        }
+}
+
+/* one [responses] */
+static void spread_response(const struct bands *b, rotid_speeds *out, double *one)
+{
+    for (int p = 0; p < out->nunbalance; p++)
+        for (int i = 0; i < out->unbalance[p].nspeed_rpm && b->responses >= LEAST_DRAWS; i++) {
+            int count = 0;
+            for (int k = 0; k < b->responses; k++) {
+                float amplitude = b->response[((ptrdiff_t)k * out->unbalance[p].nspeed_rpm + i) * out->nunbalance + p];
+                if (amplitude > 0)
+                    one[count++] = (double)amplitude;
+            }
+            if (count < LEAST_DRAWS)
+                continue;
+            sort_doubles((size_t)count, one);
+            out->unbalance[p].from_m[i] = quantile(one, count, 0.025);
+            out->unbalance[p].to_m[i] = quantile(one, count, 0.975);
         }
 }
 
@@ -534,21 +671,30 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
     struct bands b = begin(pool, search, ncritical, search->critical, fit, options);
     b.environment = environment;
     b.tracks = &search->tracks;
+    b.out = out;
+    b.map_vector = search->map;
     int status = find_sources(&b), lost = 0;
     if (status || !b.nsource || !options->draws || !ncritical)
         return status;
     status = factor_covariance(&b);
     if (!status)
         status = differentiate(&b);
+    b.responses = out->nunbalance ? options->draws < RESPONSES ? options->draws : RESPONSES : 0;
+    size_t curve = out->nunbalance ? (size_t)out->nunbalance * (size_t)out->unbalance->nspeed_rpm : 0;
+    double *work = POOL_ARRAY(pool, double, b.nsource + b.responses);
+    b.response = POOL_ARRAY(pool, float, (size_t)b.responses *curve);
+    if (!status && (!work || !b.response))
+        status = ROTID_ERROR_MEMORY;
     if (!status)
-        spread(&b, out);
+        spread(&b, out, work);
     if (!status)
         status = draw_all(&b);
     if (!status)
         status = find_watched(&b, &search->system);
     b.speed = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
+    b.ratio = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
     b.growth = POOL_ARRAY(pool, double, options->draws);
-    if (!status && (!b.speed || !b.growth))
+    if (!status && (!b.speed || !b.ratio || !b.growth))
         status = ROTID_ERROR_MEMORY;
     if (!status)
         status = parallel_for(options->threads, options->draws, one_draw, &b);
@@ -561,6 +707,7 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
     }
     if (status)
         return status;
+    spread_response(&b, out, work);
     out->draws = options->draws;
     if (b.nwatched) {
         int stable = 0;

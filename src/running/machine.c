@@ -132,27 +132,31 @@ int machine_rotor(struct pool *pool, const struct machine *machine, const struct
     return add_parts(pool, machine, rotor);
 }
 
-void bearing_at(const struct bearing *bearing, double speed, double k[4], double c[4], double dk[4], double dc[4])
+void coefficients_at(const struct coefficients *all, double speed, double k[4], double c[4], double dk[4], double dc[4])
 {
-    int last = bearing->count - 1, i = 0;
-    while (i + 1 < last && speed > bearing->speed[i + 1])
+    int last = all->count - 1, i = 0;
+    while (i < last && speed >= all->speed[i + 1])
         i++;
-    int inside =
-        last > 0 && speed > bearing->speed[0] && speed<bearing->speed[last], at = last> 0 && speed >= bearing->speed[last] ? last
-        : inside                                                                                                           ? i
-                                                                                                                           : 0;
-    double step = inside ? bearing->speed[i + 1] - bearing->speed[i] : 1, part = inside ? (speed - bearing->speed[i]) / step : 0;
+    int inside = last > 0 && i < last && speed > all->speed[0]; /* else constant, from row i */
+    double step = inside ? all->speed[i + 1] - all->speed[i] : 1, part = inside ? speed - all->speed[i] : 0;
     for (int j = 0; j < 4; j++) {
-        double rise[2] = {0, 0};
-        if (inside) {
-            rise[0] = bearing->k[4 * (i + 1) + j] - bearing->k[4 * i + j];
-            rise[1] = bearing->c[4 * (i + 1) + j] - bearing->c[4 * i + j];
-        }
-        k[j] = bearing->k[4 * at + j] + part * rise[0];
-        c[j] = bearing->c[4 * at + j] + part * rise[1];
+        const double *own_k = all->k + 4 * (ptrdiff_t)i + j, *own_c = all->c + 4 * (ptrdiff_t)i + j;
+        double rise_k = inside ? (own_k[4] - *own_k) / step : 0, rise_c = inside ? (own_c[4] - *own_c) / step : 0;
+        k[j] = *own_k + part * rise_k;
+        c[j] = *own_c + part * rise_c;
         if (dk) {
-            dk[j] = rise[0] / step;
-            dc[j] = rise[1] / step;
+            dk[j] = rise_k;
+            dc[j] = rise_c;
         }
     }
+}
+
+double bearing_on_pedestal(const struct bearing *bearing, double speed, double k)
+{
+    double under[4], c[4];
+    if (!bearing->pedestal.count || !(k > 0))
+        return k;
+    coefficients_at(&bearing->pedestal, speed, under, c, NULL, NULL);
+    double mean = (under[XX] + under[YY]) / 2;
+    return mean > 0 ? k * mean / (k + mean) : k; /* above a resonance of its own: as on rigid ground */
 }

@@ -37,6 +37,25 @@ double complex probe_motion(const struct system *s, int probe, const double comp
     return sum;
 }
 
+double response_rate(struct system *nominal, struct system side[2], double apart, int probe, double speed, double complex *work)
+{
+    size_t n = (size_t)nominal->size;
+    double complex *below = work, *above = work + n * n, *q = work + 2 * n * n, *change = q + n;
+    if (response_at(nominal, speed, q))
+        return NAN;
+    double complex motion = probe_motion(nominal, probe, q);
+    for (int i = 0; i < 2; i++) {
+        system_at(&side[i], speed);
+        system_dynamic(&side[i], I * speed, 0, i ? above : below);
+    }
+    memset(change, 0, n * sizeof *change);
+    for (size_t col = 0; col < n; col++)
+        for (size_t row = 0; row < n; row++)
+            change[row] -= (above[row + n * col] - below[row + n * col]) / apart * q[col];
+    complex_solve((int)n, 0, nominal->d, nominal->pivot, change); /* D is still factored */
+    return creal(probe_motion(nominal, probe, change) / motion);
+}
+
 static double amplitude(struct system *s, int probe, double speed)
 {
     return response_at(s, speed, s->right) ? INFINITY : cabs(probe_motion(s, probe, s->right));
@@ -117,7 +136,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     for (int j = 0; j < s->columns; j++)
         q[s->plane + j] = -GRAVITY * s->weight[j];
     for (int i = 0, at = s->plane + s->columns; i < machine->nbearing; i++)
-        if (machine->bearing[i].has_pedestal)
+        if (machine->bearing[i].pedestal.count)
             q[at++] = -GRAVITY * machine->bearing[i].m[1];
     system_at(s, speed);
     for (ptrdiff_t i = 0; i < (ptrdiff_t)s->size * s->size; i++)
@@ -128,12 +147,12 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
         const struct bearing *b = &machine->bearing[i];
         double k[4], c[4], x = 0, y = 0, f = machine_bearing_factor(s->machine, s->values, i, 0);
-        bearing_at(b, speed, k, c, NULL, NULL);
+        coefficients_at(&b->film, speed, k, c, NULL, NULL);
         for (int j = 0; j < s->columns; j++) {
             x += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
             y += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[s->plane + j]);
         }
-        if (b->has_pedestal) {
+        if (b->pedestal.count) {
             x -= creal(q[s->columns + pedestal]);
             y -= creal(q[s->plane + s->columns + pedestal]);
             pedestal++;
@@ -156,7 +175,7 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
 #define MAP_ROWS    17
 #define MAP_DECADES 4
 
-int map_make(struct pool *pool, struct system *s, double speed, double most, rotid_speeds *out)
+int map_make(struct pool *pool, struct system *s, double speed, double most, rotid_speeds *out, double complex ***vector)
 {
     const struct machine *machine = s->machine;
     int n = s->columns, status = ROTID_OK;
@@ -168,7 +187,8 @@ int map_make(struct pool *pool, struct system *s, double speed, double most, rot
     double complex *lambda = POOL_ARRAY(&scratch, double complex, 2 * (size_t)n),
                    *u = POOL_ARRAY(&scratch, double complex, 2 * square);
     out->map = POOL_ARRAY(pool, rotid_map_row, MAP_ROWS);
-    if (!m || !c || !k || !work || !lambda || !u || !out->map)
+    *vector = POOL_ARRAY(pool, double complex *, MAP_ROWS);
+    if (!m || !c || !k || !work || !lambda || !u || !out->map || !*vector)
         status = ROTID_ERROR_MEMORY;
     out->nmap = status ? 0 : MAP_ROWS;
     for (int row = 0; row < MAP_ROWS && !status; row++) {
@@ -178,10 +198,9 @@ int map_make(struct pool *pool, struct system *s, double speed, double most, rot
         for (int i = 0; i < machine->nbearing; i++) {
             const struct bearing *b = &machine->bearing[i];
             double kb[4], cb[4];
-            bearing_at(b, speed, kb, cb, NULL, NULL);
-            double stiff = (kb[XX] + kb[YY]) / 2 * machine_bearing_factor(s->machine, s->values, i, 0) * to->stiffness_factor,
-                   under = (b->kp[0] + b->kp[1]) / 2;
-            stiff = b->has_pedestal ? stiff * under / (stiff + under) : stiff;
+            coefficients_at(&b->film, speed, kb, cb, NULL, NULL);
+            double stiff = (kb[XX] + kb[YY]) / 2 * machine_bearing_factor(s->machine, s->values, i, 0) * to->stiffness_factor;
+            stiff = bearing_on_pedestal(b, speed, stiff);
             const double *v = s->bearing + (ptrdiff_t)n * i;
             for (int col = 0; col < n; col++)
                 for (int r = 0; r < n; r++)
@@ -194,18 +213,44 @@ int map_make(struct pool *pool, struct system *s, double speed, double most, rot
             m[i] = -s->p[i];
         for (int i = 0; i < n; i++)
             m[i + (ptrdiff_t)n * i] += 1;
-        to->speed_rpm = POOL_ARRAY(pool, double, n);
-        if (!to->speed_rpm)
+        to->speed_rpm = POOL_ARRAY(pool, double, 3 * (size_t)n);
+        to->from_rpm = to->speed_rpm + n;
+        to->to_rpm = to->from_rpm + n;
+        (*vector)[row] = POOL_ARRAY(pool, double complex, square);
+        if (!to->speed_rpm || !(*vector)[row])
             status = ROTID_ERROR_MEMORY;
         if (status || falls || quadratic_pairs(n, s->highest / 4, m, c, k, lambda, u, work, s->pivot))
             continue;
-        for (int i = 0; i < 2 * n; i++) {
-            double w = cimag(lambda[i]);
-            if (w > fabs(creal(lambda[i])) && w < most)
-                to->speed_rpm[to->nspeed_rpm++] = w / RPM;
+        for (;;) { /* by rising speed, of which there are few */
+            int next = -1;
+            double before = to->nspeed_rpm ? to->speed_rpm[to->nspeed_rpm - 1] * RPM : 0;
+            for (int i = 0; i < 2 * n; i++) {
+                double w = cimag(lambda[i]);
+                if (w > fabs(creal(lambda[i])) && w < most && w > before * (1 + 1e-12) && (next < 0 || w < cimag(lambda[next])))
+                    next = i;
+            }
+            if (next < 0 || to->nspeed_rpm == n)
+                break;
+            memcpy((*vector)[row] + (ptrdiff_t)n * to->nspeed_rpm, u + (ptrdiff_t)n * next, (size_t)n * sizeof *u);
+            to->from_rpm[to->nspeed_rpm] = to->to_rpm[to->nspeed_rpm] = NAN;
+            to->speed_rpm[to->nspeed_rpm++] = cimag(lambda[next]) / RPM;
         }
-        sort_doubles((size_t)to->nspeed_rpm, to->speed_rpm);
     }
     pool_close(&scratch);
     return status;
+}
+
+double map_rate(const struct system *nominal, struct system side[2], double apart, double speed, const double complex *q)
+{
+    int n = nominal->columns;
+    double above = 0, below = 0, square = speed * speed;
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            ptrdiff_t at = i + (ptrdiff_t)n * j;
+            double both = creal(conj(q[i]) * q[j]), k = side[1].k[at] - side[0].k[at],
+                   m = side[1].own_mass[at] - side[1].p[at] - side[0].own_mass[at] + side[0].p[at];
+            above += both * (k - square * m) / apart;
+            below += both * ((i == j) - nominal->p[at]);
+        }
+    return above / (2 * square * below);
 }

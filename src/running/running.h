@@ -8,7 +8,7 @@
  *   M q'' + (C_b + C_i + W [0 P; -P 0]) q' + (K + K_b + W [0 C_i; -C_i 0]) q = f
  *
  *   loss           loss.c (loss_of_test): losses from the damping ratios of the test
- *   machine        machine.c (machine_rotor): the rotor of the test with what the machine has; bearing_at: tables over speed
+ *   machine        machine.c (machine_rotor): the rotor of the test with what the machine has; coefficients_at: tables over speed
  *   matrices       system.c (system_build): K, M, P, losses and pull by src/model, on a basis of modes at rest with the static
  *                  motions by forces at the bearings and by gyroscopic moments; system_at: C(W), K(W)
  *   eigenpairs     pairs.c: all pairs at one speed (quadratic_pairs); pair_refine: inverse iteration; pair_follow: to another
@@ -42,17 +42,21 @@
 
 enum { XX, XY, YX, YY }; /* of a bearing: forces -(k q + c q') by rows */
 
+struct coefficients { /* over the speed: linear between the rows, constant outside */
+    int count;        /* 1: constants; 0: none */
+    double *speed;    /* [count] rad/s, increasing */
+    double *k, *c;    /* [4 * count] N/m, N.s/m */
+};
+
 struct bearing {
     const char *name;
-    double z;                  /* m */
-    int like;                  /* whose draws it shares: its own index, or that of a bearing before */
-    double std[2];             /* of ln of the factor on all of k, on all of c */
-    int count;                 /* speeds of the table; 1: constants */
-    double *speed;             /* [count] rad/s, increasing */
-    double *k, *c;             /* [4 * count] N/m, N.s/m */
-    int unknown[2];            /* which unknown of the machine is a factor on k, on c; -1: none */
-    int has_pedestal;          /* what carries it moves: */
-    double m[2], kp[2], cp[2]; /* kg, N/m, N.s/m of the pedestal in x and y */
+    double z;      /* m */
+    int like;      /* whose draws it shares: its own index, or that of a bearing before */
+    double std[2]; /* of ln of the factor on all of k, on all of c */
+    struct coefficients film;
+    int unknown[2];               /* which unknown of the machine is a factor on k, on c; -1: none */
+    struct coefficients pedestal; /* of what carries it, XX and YY alone; count 0: rigid */
+    double m[2];                  /* kg of the pedestal in x and y */
 };
 
 struct loss {           /* in the rotating part */
@@ -114,6 +118,9 @@ struct machine {
     double low, high; /* rad/s: running range */
     double margin;    /* relative, required; 0: none stated */
     int api617;       /* that of API 617 in its place, by the amplification factor */
+    double line_hz;   /* of the grid; 0: none */
+    double
+        poles; /* of the machine; 0: unknown. Without line_hz a converter feeds it, by a frequency of poles/2 times the speed */
 };
 
 /* The numbers that are uncertain: factors around the nominal values, all 1 there. */
@@ -153,9 +160,11 @@ struct loss_of_test {
 };
 int loss_of_test(struct pool *pool, const struct job *job, int group, struct loss_of_test *out);
 
-/* k, c [4] of a bearing at a speed [rad/s] >= 0, linear between those of its table, constant outside; their rates by speed, or
- * NULL. */
-void bearing_at(const struct bearing *bearing, double speed, double k[4], double c[4], double dk[4], double dc[4]);
+/* k, c [4] at a speed [rad/s] >= 0 with their rates by the speed, or NULL. */
+void coefficients_at(const struct coefficients *all, double speed, double k[4], double c[4], double dk[4], double dc[4]);
+
+/* k in series with the pedestal under a bearing, both the mean of x and y at a speed: k where there is none. */
+double bearing_on_pedestal(const struct bearing *bearing, double speed, double k);
 
 /* ---------------------------------------------------------------------------------------------------------------- system */
 
@@ -264,10 +273,11 @@ enum whirl pair_whirl(const struct system *system, const double complex *u);
 
 /* What is computed beside the machine. */
 struct speeds_options {
-    double from, to; /* rad/s; to = 0: by the running range, else to beyond the third critical speed */
-    int count;       /* speeds of the Campbell diagram */
-    double harmonic; /* 1: synchronous */
-    int draws;       /* of the bands; 0: none */
+    double from, to;     /* rad/s; to = 0: by the running range, else to beyond the third critical speed */
+    int count;           /* speeds of the Campbell diagram */
+    const double *speed; /* [count] rad/s, rising, in place of equal steps from `from` to `to`; or NULL */
+    double harmonic;     /* 1: synchronous */
+    int draws;           /* of the bands; 0: none */
     unsigned long seed;
     int threads; /* of the draws; the result does not depend on it */
 };
@@ -319,12 +329,14 @@ struct search {
     struct machine_values values;
     double from, harmonic; /* from: rad/s; harmonic: 1: synchronous */
     int count;             /* speeds at which modes are looked at */
+    const double *given;   /* [count] rad/s, rising; NULL: in equal steps */
     struct system system;
     struct basis_size basis;
     struct tracks tracks;
     double *speed; /* [count] rad/s */
     int ncritical;
     struct critical *critical; /* by rising speed */
+    double complex **map;      /* of map_make */
 };
 
 #define STANDSTILL 1e-8 /* of the highest speed: in place of 0, where forward and backward whirl are one */
@@ -361,6 +373,10 @@ int response_peak(struct system *system, int probe, double from, double near, do
 /* Weight, sag and loads at a speed into *out. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_STIFFNESS. */
 int static_loads(struct pool *pool, struct system *system, double speed, rotid_speeds *out);
 
+/* d ln |motion| of a probe at a speed by p, dD/dp from two machines as for pair_difference. work [2 size^2 + 2 size]. NaN where D
+ * is singular. */
+double response_rate(struct system *nominal, struct system side[2], double apart, int probe, double speed, double complex *work);
+
 /* The margin that is required of a critical speed with that amplification factor, NaN: none. API Std 617, 8th edition, 6.8.2.5,
  * as two programs quote it: none for a factor below 2.5; min(16, 17 (1 - 1/(AF - 1.5))) % of the lowest running speed below it,
  * min(26, 10 + 17 (1 - 1/(AF - 1.5))) % of the highest one above it; inside the range 0, which is not kept. */
@@ -368,6 +384,9 @@ double speeds_required(const struct machine *machine, double amplification, doub
 
 /* (low - W)/low below the running range, (W - high)/high above it, below 0 inside. */
 double speeds_margin(const struct machine *machine, double speed);
+
+/* The peak of a critical speed that is nearest to the running range, by which its margin is judged; NULL: it has none. */
+const rotid_response_peak *speeds_peak(const struct machine *machine, const rotid_critical_speed *critical);
 
 /* Bands, shares of variance and probabilities of the critical speeds in *out by draws of what is uncertain; nothing where nothing
  * is. fit: of the unknowns of the machine (machine_fit), or NULL. Statuses of system_build; ROTID_ERROR_FINITE where the
@@ -415,7 +434,12 @@ int runup_close(struct runup *runup);
 int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                   const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list);
 
-/* Critical speed map at the stiffness of a speed. ROTID_OK or ROTID_ERROR_MEMORY. */
-int map_make(struct pool *pool, struct system *system, double speed, double most, rotid_speeds *out);
+/* Critical speed map at the stiffness of a speed, K q = W^2 (M - P) q; (*vector)[row] [columns * nspeed_rpm] has the q. ROTID_OK
+ * or ROTID_ERROR_MEMORY. */
+int map_make(struct pool *pool, struct system *system, double speed, double most, rotid_speeds *out, double complex ***vector);
+
+/* d ln W/dp of such a speed [rad/s], from two machines on the basis of the nominal one: q' (dK - W^2 d(M - P)) q over
+ * 2 W^2 q' (M - P) q. */
+double map_rate(const struct system *nominal, struct system side[2], double apart, double speed, const double complex *q);
 
 #endif

@@ -69,7 +69,9 @@ static int find(struct pool *pool, struct search *s, double to)
 {
     s->speed = POOL_ARRAY(pool, double, s->count);
     for (int i = 0; i < s->count && s->speed; i++)
-        s->speed[i] = fmax(STANDSTILL * to, s->count > 1 ? s->from + (to - s->from) * i / (s->count - 1) : to);
+        s->speed[i] = fmax(STANDSTILL * to, s->given       ? s->given[i]
+                                            : s->count > 1 ? s->from + (to - s->from) * i / (s->count - 1)
+                                                           : to);
     int status = s->speed ? ROTID_OK : ROTID_ERROR_MEMORY;
     if (!status)
         status = tracks_make(pool, &s->system, s->count, s->speed, 2 * to * fmax(1, s->harmonic), &s->tracks);

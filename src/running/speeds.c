@@ -6,7 +6,7 @@
 
 #define BEYOND     1.3   /* times the running range */
 #define NO_DAMPING 1e-12 /* of |lambda| */
-#define CURVE      241   /* speeds of a response */
+#define CURVE      121   /* speeds of a response, beside those around critical speeds */
 #define pi         3.14159265358979323846
 
 struct run {
@@ -54,6 +54,7 @@ static int fill_campbell(struct run *r)
                                                                 {NAN, NAN},
                                                                 ratio(pair->lambda),
                                                                 decrement(pair->lambda),
+                                                                {NAN, NAN},
                                                                 whirl_words[pair_whirl(&r->search.system, pair->u)]};
         }
         if (!to->modes)
@@ -106,6 +107,15 @@ double speeds_margin(const struct machine *machine, double speed)
     if (speed > high)
         return (speed - high) / high;
     return -fmin((speed - low) / low, (high - speed) / high);
+}
+
+const rotid_response_peak *speeds_peak(const struct machine *machine, const rotid_critical_speed *critical)
+{
+    const rotid_response_peak *nearest = critical->npeaks ? &critical->peaks[0] : NULL;
+    for (int p = 1; p < critical->npeaks; p++)
+        if (speeds_margin(machine, critical->peaks[p].speed_rpm * RPM) < speeds_margin(machine, nearest->speed_rpm * RPM))
+            nearest = &critical->peaks[p];
+    return nearest;
 }
 
 double speeds_required(const struct machine *machine, double amplification, double speed)
@@ -161,6 +171,7 @@ static int fill_criticals(struct run *r)
                                      .ci95 = {NAN, NAN},
                                      .whirl = whirl_words[whirl],
                                      .log_decrement = decrement(pair->lambda),
+                                     .log_decrement_ci95 = {NAN, NAN},
                                      .damping_ratio = ratio(pair->lambda),
                                      .amplification = NAN,
                                      .margin = {NAN, {NAN, NAN}, NAN, NAN},
@@ -171,10 +182,8 @@ static int fill_criticals(struct run *r)
         int has_response = r->search.machine->nprobe && r->search.machine->nunbalance && to->damping_ratio > 0;
         if (!r->search.machine->has_operation || whirl == WHIRL_BACKWARD || (has_response && !to->npeaks))
             continue; /* what has no peak is no critical speed to be kept away from */
-        double judged = to->npeaks ? to->peaks[0].speed_rpm * RPM : r->search.critical[i].speed;
-        for (int p = 1; p < to->npeaks; p++) /* the peak that is nearest to the range */
-            if (speeds_margin(r->search.machine, to->peaks[p].speed_rpm * RPM) < speeds_margin(r->search.machine, judged))
-                judged = to->peaks[p].speed_rpm * RPM;
+        const rotid_response_peak *peak = speeds_peak(r->search.machine, to);
+        double judged = peak ? peak->speed_rpm * RPM : r->search.critical[i].speed;
         to->margin.value = speeds_margin(r->search.machine, judged);
         to->margin.required = speeds_required(r->search.machine, to->amplification, judged);
     }
@@ -206,10 +215,13 @@ static int fill_response(struct run *r)
     r->out->unbalance = POOL_ARRAY(r->pool, rotid_probe_response, machine->nprobe);
     for (int p = 0; p < machine->nprobe && r->out->unbalance; p++) {
         rotid_probe_response *own = &r->out->unbalance[p];
-        *own = (rotid_probe_response){machine->probe[p].name, count, speed, POOL_ARRAY(r->pool, double, count),
-                                      POOL_ARRAY(r->pool, double, count)};
-        if (!own->amplitude_m || !own->phase_deg)
+        double *all = POOL_ARRAY(r->pool, double, 4 * (size_t)count);
+        if (!all)
             return ROTID_ERROR_MEMORY;
+        *own = (rotid_probe_response){machine->probe[p].name,    count, speed, all, all + count, all + 2 * (ptrdiff_t)count,
+                                      all + 3 * (ptrdiff_t)count};
+        for (int i = 0; i < count; i++)
+            own->from_m[i] = own->to_m[i] = NAN;
     }
     for (int i = 0; i < count && r->out->unbalance; i++) {
         int singular = response_at(s, speed[i], q);
@@ -223,6 +235,22 @@ static int fill_response(struct run *r)
     for (int i = 0; i < count; i++)
         speed[i] /= RPM;
     return r->out->unbalance ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Once and twice a revolution, once and twice the line frequency: that of the grid, or of a converter. */
+static int fill_excitation(struct run *r)
+{
+    const struct machine *machine = r->search.machine;
+    double line = machine->line_hz > 0 ? 0 : machine->poles / 2;
+    const rotid_excitation all[] = {
+        {"1x", 1, 0}, {"2x", 2, 0}, {"line", line, machine->line_hz}, {"2x line", 2 * line, 2 * machine->line_hz}};
+    if (!(machine->line_hz > 0 || machine->poles > 0))
+        return ROTID_OK;
+    r->out->nexcitation = POOL_LIST(r->pool, r->out->excitation, 4);
+    if (!r->out->nexcitation)
+        return ROTID_ERROR_MEMORY;
+    memcpy(r->out->excitation, all, sizeof all);
+    return ROTID_OK;
 }
 
 /* The critical speeds once more with a larger basis. */
@@ -258,13 +286,16 @@ static int fill(struct run *r)
     double reference = r->search.machine->has_operation ? r->search.machine->low : r->search.speed[r->options->count - 1];
     int mode, status = fill_campbell(r);
     if (!status)
+        status = fill_excitation(r);
+    if (!status)
         status = fill_criticals(r);
     if (!status)
         status = fill_response(r);
     if (!status)
         status = static_loads(r->pool, &r->search.system, reference, r->out);
     if (!status)
-        status = map_make(r->pool, &r->search.system, reference, 2 * r->search.speed[r->options->count - 1], r->out);
+        status =
+            map_make(r->pool, &r->search.system, reference, 2 * r->search.speed[r->options->count - 1], r->out, &r->search.map);
     if (!status)
         status = check_basis(r);
     double onset = onset_find(&r->search.system, &r->search.tracks, &mode);
@@ -276,11 +307,15 @@ int speeds_run(struct pool *pool, const struct machine *machine, const struct jo
                const rotid_fit_result *fit, const struct speeds_options *options, const rotid_environment *environment,
                struct message_list *notes, rotid_speeds *out)
 {
-    struct run r = {
-        .pool = pool,
-        .options = options,
-        .search = {.machine = machine, .job = job, .from = options->from, .harmonic = options->harmonic, .count = options->count},
-        .out = out};
+    struct run r = {.pool = pool,
+                    .options = options,
+                    .search = {.machine = machine,
+                               .job = job,
+                               .from = options->from,
+                               .harmonic = options->harmonic,
+                               .count = options->count,
+                               .given = options->speed},
+                    .out = out};
     double to = options->to > 0 ? options->to : machine->has_operation ? BEYOND * machine->high : 0;
     *out = (rotid_speeds){.harmonic = options->harmonic,
                           .low_rpm = machine->has_operation ? machine->low / RPM : NAN,

@@ -102,14 +102,11 @@ static int hold(struct builder *b)
     matrix_combine(1, &b->k, 0, &b->k, &b->held);
     for (int i = 0; i < machine->nbearing; i++) {
         const struct bearing *bearing = &machine->bearing[i];
+        const struct coefficients *film = &bearing->film;
         double mean = 0;
-        for (int j = 0; j < bearing->count; j++)
-            mean += fmax(0, (bearing->k[4 * j + XX] + bearing->k[4 * j + YY]) / 2) / bearing->count;
-        mean *= machine_bearing_factor(machine, s->values, i, 0);
-        if (bearing->has_pedestal && mean > 0) {
-            double under = (bearing->kp[0] + bearing->kp[1]) / 2;
-            mean = mean * under / (mean + under);
-        }
+        for (int j = 0; j < film->count; j++)
+            mean += fmax(0, (film->k[4 * j + XX] + film->k[4 * j + YY]) / 2) / film->count;
+        mean = bearing_on_pedestal(bearing, film->speed[0], mean * machine_bearing_factor(machine, s->values, i, 0));
         add_spring(&b->held, mean, b->attached + (ptrdiff_t)s->n * i);
     }
     b->all = POOL_ARRAY(&b->scratch, int, s->n);
@@ -267,7 +264,7 @@ static int open_dense(struct pool *pool, struct system *s)
     const struct machine *machine = s->machine;
     int pedestals = 0;
     for (int i = 0; i < machine->nbearing; i++)
-        pedestals += machine->bearing[i].has_pedestal;
+        pedestals += machine->bearing[i].pedestal.count > 0;
     for (int i = 0; i < machine->nloss; i++)
         s->hysteretic |= !machine->loss[i].viscous;
     s->plane = s->columns + pedestals;
@@ -297,7 +294,7 @@ static int open_dense(struct pool *pool, struct system *s)
                 s->mass[first + i + (ptrdiff_t)s->size * (first + j)] =
                     s->own_mass ? s->own_mass[i + (ptrdiff_t)s->columns * j] : i == j;
         for (int i = 0; i < machine->nbearing; i++)
-            if (machine->bearing[i].has_pedestal) {
+            if (machine->bearing[i].pedestal.count) {
                 s->mass[at + (ptrdiff_t)s->size * at] = machine->bearing[i].m[plane];
                 at++;
             }
@@ -404,17 +401,21 @@ void system_at(struct system *s, double speed)
         const struct bearing *bearing = &machine->bearing[i];
         const double *v = s->bearing + (ptrdiff_t)s->columns * i;
         double k[4], c[4], dk[4], dc[4];
-        int at = bearing->has_pedestal ? s->columns + pedestal++ : -1;
+        int at = bearing->pedestal.count ? s->columns + pedestal++ : -1;
         double of_k = machine_bearing_factor(machine, s->values, i, 0), of_c = machine_bearing_factor(machine, s->values, i, 1);
-        bearing_at(bearing, speed, k, c, dk, dc);
+        coefficients_at(&bearing->film, speed, k, c, dk, dc);
         add_bearing(s, v, at, k, of_k, s->stiff);
         add_bearing(s, v, at, c, of_c, s->c);
         add_bearing(s, v, at, dk, of_k, s->dk);
         add_bearing(s, v, at, dc, of_c, s->dc);
+        if (at >= 0)
+            coefficients_at(&bearing->pedestal, speed, k, c, dk, dc);
         for (int plane = 0; plane < 2 && at >= 0; plane++) {
             ptrdiff_t diagonal = (ptrdiff_t)(s->size + 1) * (at + plane * s->plane);
-            s->stiff[diagonal] += bearing->kp[plane];
-            s->c[diagonal] += bearing->cp[plane];
+            s->stiff[diagonal] += k[plane ? YY : XX];
+            s->c[diagonal] += c[plane ? YY : XX];
+            s->dk[diagonal] += dk[plane ? YY : XX];
+            s->dc[diagonal] += dc[plane ? YY : XX];
         }
     }
 }
