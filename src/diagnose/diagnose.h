@@ -52,7 +52,8 @@ struct candidate {
     const int *in;
     const char *state_name; /* of the one state in which it acts, NULL: in all that have its target */
     const char *target;     /* "core", "core|right", name of a spring or tie rod, "" */
-    int nparameter;         /* of the effect, in use */
+    int nparameter;         /* of the effect, in use; values of a fault of the measurement stand in `effect` likewise */
+    int sensor[2];          /* ids, of a fault of one or two channels, else 0 */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
     double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
@@ -89,6 +90,8 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     struct candidate member[MOST_MEMBERS];
     const struct refit *refit; /* its fit; NULL: none, but the line of the scan */
     const struct scan *scan;   /* at that fit; NULL: not scanned */
+    struct evidence_data *data; /* with its faults of the measurement put right */
+    double outside;             /* of these, see struct fault_proposal */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
 };
@@ -96,7 +99,8 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
 struct posterior {
     int count, room, nkind;
     struct explanation *item; /* most probable first, behind posterior_run */
-    struct evidence_data *data;
+    struct evidence_data *data; /* as judged */
+    const struct states *states;
     const struct scan *base;
     int nown;
     double length;                 /* of the rotor */
@@ -492,8 +496,7 @@ struct round_result {
     int nsingle;    /* the first fits are of these candidates; those of the search for explanations follow */
     int *candidate; /* [nsingle] */
     int nrefit, room;
-    struct refit *refit;     /* [nrefit] */
-    struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
+    struct refit *refit; /* [nrefit] */
 };
 
 /* Scan and fits of single causes. Statuses of the fits. */
@@ -617,8 +620,8 @@ void candidate_values(const struct refit *refit, const struct state *state, int 
 struct candidate candidate_listed(const struct scan *scan, int index);
 
 /* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
- * does not count. */
-int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
+ * does not count. data: of the fit, from which faults may have taken rows of the scan. */
+int fit_explains(const struct scan *scan, const struct evidence_data *data, const rotid_fit_result *fit);
 /* The candidates of the search, the most probable first. ROTID_OK or ROTID_ERROR_MEMORY. */
 int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,
                      struct diagnosis_round *round);
@@ -645,71 +648,18 @@ int far_starts_search(struct engine *engine, const struct round_result *result, 
 /* Gives the scan's candidate the start that was found. */
 void far_starts_mark(const struct engine *engine, struct scan *scan);
 
-/* ---------------------------------------------------------------------------------------------------------- sensor check */
+/* ------------------------------------------------------------------------------------------------------------ shape data */
 
-/* Faults of the measurement chain, found from the shapes alone: physics moves a shape smoothly along the axis, a bad channel
- * makes a spike. A sensor is compared with what its neighbours say it should read, prediction plus the smooth part of the
- * residual. */
-
-struct shape_data {
-    int nsensor, nmode;
-    const double *z;     /* [nsensor] positions, increasing [m] */
-    const double *shape; /* [nsensor * nmode] measured, NaN where not measured */
-    const double *std;   /* [nsensor * nmode] of the same scale */
-    const double *read;  /* [nsensor * nmode] the shape with the digits it was read with, of any scale */
+struct shape_data { /* deflections of a model along the axis */
     int naxis;
-    const double *axis_z;     /* [naxis] nodes of the model, increasing */
-    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there, times the best scale to the measured */
+    const double *axis_z;     /* [naxis] nodes of the model, increasing [m] */
+    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there */
 };
 
 /* Mode k of the model at z [m], from the first node to the last, cubic between the nodes (Lagrange, on the four around z). */
 double shape_data_model(const struct shape_data *data, int k, double z);
 
-enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
-
-struct sensor_fault {
-    enum sensor_fault_kind kind;
-    int sensor, other; /* indices; other: the partner of a swap, the source of a copy; else -1 */
-    double value, std; /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
-    double chi2_drop;  /* twice the gain in log likelihood of all sensors over this one being sound */
-};
-
-/* Finds up to `most` faults, the worst first, each judged with all others taken out. `false_alarm`: family-wise probability of
- * any fault in sound data, about 0.005. A fault also has to beat a joint or a soft zone at that place, so small ones go unnamed
- * where the model is badly wrong. Noise up to five times the stated one is allowed for. Below 8 sensors only
- * copies are found: FAULT_DUPLICATE is a channel that agrees with another one to the last digit, whatever the model is. fault
- * [most], *nfault. ROTID_OK or ROTID_ERROR_MEMORY. */
-int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
-                 int *nfault);
-
-/* ------------------------------------------------------------------------------------------------------------ line check */
-
-/* Positions of all sensors at once, from the shapes: counted from the other end (flip), from a wrong origin (shift), with a wrong
- * length (scale). */
-
-struct line_fault {
-    struct sensor_line line;
-    double shift_std, scale_std; /* NaN where as stated */
-    double chi2_drop;            /* of the shapes beside the model as it is */
-};
-
-/* The line that explains the shapes best beside this model: for both flips, and shift and scale free or as stated,
- *
- *     chi2 = sum_k min_a |a P_k(z') - m_k|^2/s_k^2
- *
- * is minimised from a grid by Gauss-Newton; the one of the least chi2 + 12 a parameter counts, so that nothing is off by what the
- * model or noise may do. *found nonzero where it gains as much, in units of what is left for a degree of freedom where noise does
- * not explain that, and moves a sensor by half a millimetre. Where turning the line alone gains as much it is turned alone: shift
- * and scale are for a model that was fitted to shapes the right way round. Copies and other faults of channels are not looked at.
- * ROTID_OK or ROTID_ERROR_MEMORY. */
-int line_check(struct pool *pool, const struct shape_data *data, double length, struct line_fault *fault, int *found);
-
-/* Faults of channels as rivals of the physical causes: a sensor that looks wrong beside one model may be sound beside another.
- * Behind the refits of a round, while nothing is named. The model without a cause and the best refits each say which channels
- * they find faulty, and are fitted again with these put right. The best of these explanations by score counts: its faults are
- * taken out of the judged data, each with a finding, if every explanation within the margin of a name has them too; *changed
- * then, and the round has to be repeated. A fault that stays open beside a physical cause goes to result->fault. */
-int faults_settle(struct engine *engine, struct round_result *result, int *changed);
+/* -------------------------------------------------------------------------------------------------------------- finalise */
 
 /* The final model, the gain, the verdict in words. last: the round that named nothing more, or NULL. */
 int finalise(struct engine *engine, const struct round_result *last);
@@ -783,25 +733,6 @@ struct weighing {
     int hammer;     /* sensor, -1 where not known */
 };
 
-/* ----------------------------------------------------------------------------------------------------------- noise check */
-
-/* Is the noise of the shapes as stated? From the part of the residual that no cause of the catalogue can produce. */
-
-struct noise_estimate {
-    int usable;           /* enough rows for an estimate: 60 beside the directions of physics */
-    double factor;        /* estimated over stated standard deviation */
-    double std;           /* of that factor */
-    int misstated;        /* it differs from 1 beyond chance (two-sided 0.001) and by more than 15 % */
-    int coloured;         /* the smooth part is noisier than the rest: neighbouring sensors share their noise */
-    double smooth_factor; /* level of the smooth part alone over the stated one, real effects taken out; NaN without columns */
-};
-
-/* residual [nrow]: whitened shape residuals of the fit, NaN never. column [nrow * ncolumn]: whitened columns of every cause and
- * of the free parameters, any scale (they span what physics can do to the shapes). Robust against some sensors with faults and
- * against one or two real effects hidden in the residual. work on `pool`. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_LIBRARY. */
-int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual, const double *column,
-                struct noise_estimate *estimate);
-
 /* --------------------------------------------------------------------------------------------------------------- pairing */
 
 /* Which mode of the model each measured mode is, as long as the model is not the right one. */
@@ -823,111 +754,80 @@ int pairing_note_again(struct engine *engine);
  * instead. */
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
 
-/* ---------------------------------------------------------------------------------------------------------- sensor field */
-
-/* The residual of the shapes as a random field along the axis, to predict one sensor from the others.
- *
- * Sensor i reads m_ik = P_k(z_i) + e_k(z_i) + noise in mode k. P_k is the model's shape, e_k what the model gets wrong. Stiffness
- * that is wrong somewhere bends a shape by e'' = d(M/EI), so e is taken as twice integrated white noise of intensity q (a cubic
- * smoothing spline, Wahba 1978), which leaves its slope as rough as a joint makes it, plus what mixes the modes:
- *
- *     cov(e(z), e(z')) = c (1 + x x') + b^2 sum_j P_j(z) P_j(z') + q int (z - u)+ (z' - u)+ du
- *
- * How wrong the model is, (b, q), is not known: every mode has its own mixture over a grid of them, weighted by how well each
- * explains the other sensors. On a bad model the prediction is therefore wide by itself, and sound sensors are not accused.
- * With A = cov^-1 and w = A (m - P), sensor i is predicted from the others as m_i - w_i/A_ii with variance 1/A_ii, noise
- * included, and is left out of everything that follows by A - a_i a_i'/A_ii. Shapes are scaled to a largest deflection of the
- * model of 1. */
-
-#define FIELD_MOST_GRID  40
-#define FIELD_MOST_MODES 64
-
-struct sensor_field {
-    const struct shape_data *data;
-    int n, nmode, ngrid, nclass;
-    double noise_factor;         /* in variance */
-    double origin, middle, half; /* of the axis [m] */
-    double q[FIELD_MOST_GRID], b2[FIELD_MOST_GRID];
-    double *unit;                       /* [nmode] scale of the measured shape over that used here; 0: mode without data */
-    double *scale;                      /* [nmode] axis_shape times this is P */
-    double *model, *reading, *variance; /* [n * nmode] P, m and the variance of the noise at the sensors */
-    int *present;                       /* [n * nmode] measured */
-    int *masked;                        /* [n] left out */
-    int *class_of, *leader;             /* [nmode] modes with the same noise at the same sensors share A; the first of each */
-    double *inverse;                    /* [n * n * ngrid * nclass] A; rows of sensors that are left out or absent are zero */
-    double *weight;                     /* [n * ngrid * nmode] w */
-    double *evidence;                   /* [ngrid * nmode] log likelihood of what is not masked, but for constants */
-    double *part[3];                    /* [n * n] parts of the covariance, to be added up with c, b^2 and q */
-    double *packed;                     /* [n * n] */
-    int *row;                           /* [n] */
-};
-
-/* Sizes, scales and grid of the data; every mode is scaled afresh by the weighted median of the ratios measured/model, which a
- * few bad sensors do not move. ROTID_OK or ROTID_ERROR_MEMORY. */
-int field_new(struct pool *pool, const struct shape_data *data, struct sensor_field *field);
-
-/* All sensors in, noise times `noise_factor`. Returns 0, or 1 where the covariance is singular to working precision. */
-int field_start(struct sensor_field *field, double noise_factor);
-
-/* Leaves sensor s out of all that follows. */
-void field_mask(struct sensor_field *field, int s);
-
-/* Lets sensors s and t change their readings. Both must have been measured in the same modes. */
-void field_exchange(struct sensor_field *field, int s, int t);
-
-/* Log likelihood of the sensors that are in. */
-double field_evidence(const struct sensor_field *field);
-
-/* Where sensor s would be at z: mean and variance of the deflection there [ngrid * nmode] predicted by the sensors that are in
- * but s, for the grid points with wanted [ngrid * nmode] nonzero. Workspace: vector [4 n]. */
-void field_predict(const struct sensor_field *field, int s, double z, const int *wanted, double *mean, double *variance,
-                   double *vector);
-
-/* A [n * n] of a grid point and a class, w [n] of a grid point and a mode. */
-double *field_inverse(const struct sensor_field *field, int g, int c);
-double *field_weight(const struct sensor_field *field, int g, int k);
-
-/* -------------------------------------------------------------------------------------------------------- sensor explain */
-
-/* How well each kind of fault explains what one sensor reads, given the field that the other sensors predict. */
-
-#define FAULT_KINDS 6
-
-struct fault_likelihood {
-    double drop;  /* twice the gain in log likelihood over a sound sensor; -INFINITY where the kind does not apply */
-    double score; /* drop less what the search and the parameter cost */
-    int other;
-    double value, std;
-};
-
-struct sensor_likelihood { /* one sensor at a time */
-    const struct sensor_field *field;
-    int s;
-    double sound;            /* log likelihood, no fault */
-    double *others;          /* [ngrid * nmode] log likelihood of the other sensors */
-    double *mean, *variance; /* [ngrid * nmode] of the deflection at its own place, predicted by them */
-    int *wanted;             /* [ngrid * nmode] grid points that matter: the others' likelihood is not lost against the best */
-    double *there_mean, *there_variance; /* elsewhere */
-    double *vector;
-};
-
 /* --------------------------------------------------------------------------------------------------------------- laplace */
 
 /* The evidence of an explanation (laplace.c). */
 
-struct evidence_data; /* rows and noise of the data, fields over the sensors */
+/* Rows of the shape of a mode and the field over its sensors: C = U diag(value) U'. */
+struct evidence_block {
+    int row, count, state, mode;
+    const int *sensor; /* [count] indices in its state */
+    double *vector, *value;
+};
+
+struct evidence_data {
+    struct pool *pool;
+    int nrow, nline, nscale, nblock;
+    char *is_line;    /* [nrow] the row is that of a frequency */
+    double *noise;    /* [nrow] as stated, relative */
+    double *measured; /* [nrow] components over their noise */
+    struct evidence_block *block;
+    double deviation; /* of ln of the noise */
+};
+
+struct fault_column { /* how the residual moves with a parameter of a fault of the measurement */
+    const struct cause_kind *cause;
+    int parameter;
+    double value, lower, upper;
+    double *column;   /* [nrow] d r/d value, free of the scales of the shapes */
+    double step, std; /* of its value, by evidence_of_fit: to the best one in the metric of the fit, and its deviation */
+};
 
 double log_sum(double a, double b); /* ln(e^a + e^b) */
 
 /* Of the data in the states with this pairing. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_LIBRARY. */
 int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                   struct evidence_data **data);
-/* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise.
+/* Of a fit of states whose first nown unknowns are the deck's; member [nmember]: causes whose approximation adds to the noise;
+ * fault [nfault]: parameters of faults of the measurement, at whose values the data were corrected before the fit.
  * out->mean and out->std [nown] are filled. ROTID_OK, ROTID_ERROR_MEMORY; ROTID_ERROR_ARGUMENT where the fit is of other data. */
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
-                    int nmember, const struct candidate *member, const struct scan *else_scan, struct evidence *out);
+                    int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
+                    const struct scan *else_scan, struct evidence *out);
 /* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
 double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
+
+/* ---------------------------------------------------------------------------------------------------------------- faults */
+
+/* Faults of the measurement chain as explanations (faults.c). */
+
+#define FAULT_MOST_MODES 100 /* of a state */
+
+struct fault_proposal {
+    struct candidate fault;
+    double gain;    /* of ln Z over the explanation beside which it was found, as it is linearised */
+    double outside; /* ln of the likelihood of the readings that it takes out of the data, over their noise as stated */
+};
+
+/* The `most` faults that promise most beside a fit of the states with its scan and its data, [*count] best first. number and
+ * holdout of all modes. ROTID_OK, ROTID_ERROR_MEMORY; statuses of columns_open. */
+int faults_propose(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                   const rotid_fit_result *fit, const struct evidence_data *data, const struct scan *scan, int most,
+                   struct fault_proposal *proposal, int *count);
+
+/* Its parameters as columns beside the fit of states in whose data it was put right, behind the *count there are. */
+int fault_columns(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                  const rotid_fit_result *fit, const struct evidence_data *data, const struct candidate *fault,
+                  struct fault_column *column, int *count);
+
+/* Fits of the states, whose fit is `from`, with the fault put right in data of their own, *data, until its numbers stay; they and
+ * their deviations go to `fault`. refit->fit NULL where there is none. Statuses of memory and cancellation only. */
+int fault_refit(struct pool *pool, const struct states *states, int nown, const int *number, const int *holdout,
+                const rotid_fit_result *from, const rotid_environment *environment, struct candidate *fault, struct refit *refit,
+                struct evidence_data **data);
+
+/* Takes it out of the judged data, with a finding. Statuses of correction_apply. */
+int fault_correct(struct engine *engine, const struct candidate *fault);
 
 /* ------------------------------------------------------------------------------------------------------------- posterior */
 
@@ -936,9 +836,9 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
 /* Probability of a cause, alone or with others; 0 where it is below LEAST_MARGINAL. */
 double posterior_of_cause(const struct posterior *posterior, const struct candidate *cause);
-/* One more explanation: a fault of a channel that was found beside the model of the deck, `result` its chi2 and drop, nparameter
- * its numbers; by the leading terms of its evidence, drop/2 - nparameter ln(rows)/2. ROTID_OK or ROTID_ERROR_MEMORY. */
-int posterior_add_fault(struct engine *engine, const struct candidate *fault, struct posterior *posterior);
+/* Takes the faults of the measurement with a probability of VERDICT_NAMED out of the judged data, *changed: there were any. The
+ * search has to be repeated then. */
+int posterior_take_faults(struct engine *engine, const struct posterior *posterior, int *changed);
 /* The verdict of it into the engine: what is named becomes part of the model. */
 int posterior_verdict(struct engine *engine, struct posterior *posterior);
 

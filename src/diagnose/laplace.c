@@ -20,6 +20,8 @@
 
 #define NOISE_STATED  0.15 /* deviation of ln of the noise: stated by the user, */
 #define NOISE_ASSUMED 1.5  /* or assumed */
+#define MISSTATED     0.1  /* probability that the stated noise of the shapes is wrong, */
+#define MISTAKE       0.7  /* and the deviation of its ln then */
 #define ELSE_LEAST    2.0  /* times the noise */
 #define ELSE_MOST     1000.0
 #define ELSE_SHAPES   16 /* amplitudes tried */
@@ -149,33 +151,18 @@ static struct unknown unknown_of(const struct states *states, int p, double x)
 
 /* ---- the data */
 
-/* Rows of the shape of a mode and the field over its sensors: C = U diag(value) U'. */
-struct block {
-    int row, count;
-    double *vector, *value;
-};
-
-struct evidence_data {
-    struct pool *pool;
-    int nrow, nline, nscale, nblock;
-    char *is_line;    /* [nrow] */
-    double *noise;    /* [nrow] as stated, relative */
-    double *measured; /* [nrow] components over their noise */
-    struct block *block;
-    double deviation; /* of ln of the noise */
-};
-
 /* Half a wavelength of elastic mode `number`. */
 static double correlation_length(const struct job *job, int number)
 {
     return 0.3 * rotor_length(&job->rotor) / (number + 1);
 }
 
-static int add_block(struct evidence_data *d, const struct job *job, int k, int number)
+static int add_block(struct evidence_data *d, const struct states *states, int state, int k, int number)
 {
+    const struct job *job = &states->state[state].job;
     const struct job_measurement *m = &job->measurement;
     int nsensor = job->rotor.nsensor, count = 0;
-    struct block *block = &d->block[d->nblock];
+    struct evidence_block *block = &d->block[d->nblock];
     int *sensor = POOL_ARRAY(d->pool, int, nsensor);
     double largest = 0, length = correlation_length(job, number);
     if (!sensor)
@@ -187,8 +174,11 @@ static int add_block(struct evidence_data *d, const struct job *job, int k, int 
         }
     if (!count)
         return ROTID_OK;
-    *block = (struct block){.row = d->nrow,
+    *block = (struct evidence_block){.row = d->nrow,
                             .count = count,
+                            .state = state,
+                            .mode = k,
+                            .sensor = sensor,
                             .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count),
                             .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
     if (!block->vector || !block->value)
@@ -220,7 +210,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
                                 .is_line = POOL_ARRAY(pool, char, rows),
                                 .noise = POOL_ARRAY(pool, double, rows),
                                 .measured = POOL_ARRAY(pool, double, rows),
-                                .block = POOL_ARRAY(pool, struct block, modes),
+                                .block = POOL_ARRAY(pool, struct evidence_block, modes),
                                 .deviation = NOISE_STATED};
     if (!d->is_line || !d->noise || !d->measured || !d->block)
         return ROTID_ERROR_MEMORY;
@@ -236,7 +226,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
             }
         for (int k = 0; k < job->measurement.nmode && !status; k++)
             if (!holdout[mode + k] && job_fits_shapes(job))
-                status = add_block(d, job, k, number[mode + k]);
+                status = add_block(d, states, s, k, number[mode + k]);
     }
     return status;
 }
@@ -284,12 +274,19 @@ static double integrate(struct normal *w, double line, double shape)
     return isfinite(sum) ? sum : -INFINITY;
 }
 
+/* ln of a normal at x, but for ln of its density at 0 with deviation 1. */
+static double log_normal(double x, double deviation)
+{
+    return -x * x / (2 * deviation * deviation) - log(deviation);
+}
+
 /* ln of the integral over the unknowns at noise e^a and e^b times as stated, with the prior of a and b. */
 static double integrate_at(const struct evidence_data *d, struct normal *w, double a, double b)
 {
-    double variance = d->deviation * d->deviation;
-    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b -
-           (a * a + b * b) / (2 * variance);
+    double wrong = fmax(MISTAKE, d->deviation),
+           shapes = d->nrow == d->nline ? 0
+                                        : log_sum(log1p(-MISSTATED) + log_normal(b, d->deviation), log(MISSTATED) + log_normal(b, wrong));
+    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b + log_normal(a, d->deviation) + shapes;
 }
 
 /* Mode of a function of one factor, the other held, and the deviation about it, by points and a parabola. */
@@ -323,17 +320,17 @@ static double integrate_noise(const struct evidence_data *d, struct normal *w, d
     static const double node[] = {-2.856970013872806, -1.355626179974266, 0, 1.355626179974266, 2.856970013872806};
     static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264,
                                     0.011257411327720689};
-    double spread[2], sum = -INFINITY, variance = d->deviation * d->deviation, b0 = 0;
+    double spread[2], sum = -INFINITY, b0 = 0;
     int shapes = d->nrow > d->nline;
-    *one = integrate_at(d, w, 0, 0);
+    *one = integrate(w, 1, 1);
     if (shapes)
         b0 = find_mode(d, w, 1, 0, &spread[1]);
     double a0 = find_mode(d, w, 0, b0, &spread[0]);
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < (shapes ? 5 : 1); j++) {
             double a = a0 + node[i] * spread[0], b = shapes ? b0 + node[j] * spread[1] : 0, z = integrate_at(d, w, a, b);
-            z += node[i] * node[i] / 2 + log(weight[i] * spread[0]) - log(variance) / 2;
-            z += shapes ? node[j] * node[j] / 2 + log(weight[j] * spread[1]) - log(variance) / 2 : 0;
+            z += node[i] * node[i] / 2 + log(weight[i] * spread[0]);
+            z += shapes ? node[j] * node[j] / 2 + log(weight[j] * spread[1]) : 0;
             sum = log_sum(sum, z);
         }
     factor[0] = exp(a0);
@@ -416,7 +413,7 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
         for (int p = 0; p <= n && d->is_line[i]; p++)
             turned[i + (ptrdiff_t)(p < n ? p : total) * nrow] = rows[i + (ptrdiff_t)p * nrow];
     for (int k = 0; k < d->nblock; k++) {
-        const struct block *block = &d->block[k];
+        const struct evidence_block *block = &d->block[k];
         double length = 0, *scale = turned + (ptrdiff_t)(n + k) * nrow + block->row;
         for (int i = 0; i < block->count; i++) {
             double predicted = rows[block->row + i + (ptrdiff_t)n * nrow] + d->measured[block->row + i];
@@ -556,11 +553,12 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
 }
 
 int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit,
-                    int nmember, const struct candidate *member, const struct scan *else_scan, struct evidence *out)
+                    int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
+                    const struct scan *else_scan, struct evidence *out)
 {
     struct pool pool;
     struct normal w;
-    int n = fit->n, nrow = d->nrow;
+    int n = fit->n + nfault, nrow = d->nrow;
     if (fit->nresidual != nrow)
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
@@ -568,9 +566,11 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
     double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1));
     int status = !u || !rows ? ROTID_ERROR_MEMORY : normal_new(&pool, n, u, &w);
     for (int p = 0; p < n && !status; p++) {
-        u[p] = unknown_of(states, p, fit->x[p]);
+        const struct fault_column *f = p < fit->n ? NULL : fault + p - fit->n;
+        const double *column = f ? f->column : fit->jacobian + (ptrdiff_t)p * nrow;
+        u[p] = f ? unknown_of_cause(f->cause, f->parameter, f->value, f->lower, f->upper) : unknown_of(states, p, fit->x[p]);
         for (int i = 0; i < nrow; i++)
-            rows[i + (ptrdiff_t)p * nrow] = u[p].step * fit->jacobian[i + (ptrdiff_t)p * nrow];
+            rows[i + (ptrdiff_t)p * nrow] = u[p].step * column[i];
     }
     double known[2] = {0, 0}, field;
     for (int m = 0; m < nmember; m++) {
@@ -591,6 +591,10 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
         for (int p = 0; p < nown; p++) {
             out->mean[p] = w.step[p];
             out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]);
+        }
+        for (int f = 0, p = fit->n; f < nfault; f++, p++) {
+            fault[f].step = u[p].step * w.step[p];
+            fault[f].std = fabs(u[p].step) * sqrt(w.work[p + (ptrdiff_t)p * n]);
         }
     }
     if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */

@@ -15,7 +15,8 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
-#define DATA_KINDS     8   /* of faults of the measurement */
+#define DATA_KINDS     7   /* of faults of channels: gain, sign, place, line, swap, copy, dead */
+#define FAULTS         24  /* proposed beside a set */
 #define BEAM           4   /* sets expanded in a pass */
 #define FITTED         8   /* fits of a pass, the first twice as many */
 #define WITHIN         7.0 /* of the best, in ln P */
@@ -36,14 +37,23 @@ static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
 /* ---- sets */
 
 /* One name: whatever its variant, and whoever asked for it. */
+static int is_fault(const struct candidate *c)
+{
+    return c->cause->class == CAUSE_DATA;
+}
+
 static int same_cause(const struct candidate *a, const struct candidate *b)
 {
-    return a->cause == b->cause && a->state == b->state && !strcmp(a->target, b->target);
+    int same = a->cause == b->cause && a->state == b->state;
+    if (!same || !is_fault(a)) /* of two channels that are one, whichever is the copy */
+        return same && !strcmp(a->target, b->target);
+    return (a->sensor[0] == b->sensor[0] && a->sensor[1] == b->sensor[1]) ||
+           (a->sensor[0] == b->sensor[1] && a->sensor[1] == b->sensor[0]);
 }
 
 static int same_model(const struct candidate *a, const struct candidate *b)
 {
-    return same_cause(a, b) && a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
+    return same_cause(a, b) && !strcmp(a->target, b->target) && !memcmp(a->fixed, b->fixed, sizeof a->fixed) && a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
            (!a->result.suspect || !strcmp(a->effect.name, b->effect.name));
 }
 
@@ -84,11 +94,28 @@ static struct explanation *find(const struct posterior *p, const struct explanat
 
 /* ---- priors */
 
+/* How many faults of its kind there are; *kinds: of all that channels can have. */
+static int faults_alike(const struct posterior *p, const struct candidate *c)
+{
+    int count = 0;
+    for (int s = 0; s < p->states->nstate; s++) {
+        const struct job *job = &p->states->state[s].job;
+        int n = job_fits_shapes(job) ? job->rotor.nsensor : 0;
+        count += !c->sensor[0]                              ? 4 * (n > 0) /* shift, scale, both, from the other end */
+                 : !c->sensor[1]                            ? n
+                 : strcmp(c->cause->id, "sensor_swap") == 0 ? n * (n - 1) / 2
+                                                            : n * (n - 1);
+    }
+    return count > 0 ? count : 1;
+}
+
 /* ln of the probability of a cause among all single ones. */
 static double cause_prior(const struct posterior *p, const struct candidate *c)
 {
     const struct scan *scan = p->base;
     int targets = 0, alone = 0;
+    if (is_fault(c))
+        return -log((double)p->nkind * faults_alike(p, c));
     for (int i = 0; i < scan->ncandidate; i++) {
         const struct scan_candidate *s = &scan->candidate[i];
         if (s->cause != c->cause || s->suspect)
@@ -139,10 +166,20 @@ static const struct states *states_of_explanation(const struct engine *engine, c
 
 static int score(struct engine *engine, struct posterior *p, const struct scan *else_scan, struct explanation *e)
 {
-    int status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
+    struct fault_column column[2 * MOST_MEMBERS];
+    const struct states *states = states_of_explanation(engine, e);
+    int nfault = 0, status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
+    for (int m = 0; m < e->nmember && !status; m++)
+        if (is_fault(&e->member[m]))
+            status = fault_columns(engine->pool, states, engine->number, engine->holdout, fit_of(engine, e), e->data,
+                                   &e->member[m], column, &nfault);
     if (!status)
-        status = evidence_of_fit(p->data, states_of_explanation(engine, e), engine->nown, fit_of(engine, e), e->nmember,
-                                 e->member, else_scan, &e->evidence);
+        status = evidence_of_fit(e->data, states, engine->nown, fit_of(engine, e), e->nmember, e->member, nfault, column,
+                                 else_scan, &e->evidence);
+    e->evidence.log_z += e->outside;
+    e->evidence.log_stated += e->outside;
+    e->evidence.log_exact += e->outside;
+    e->evidence.log_else += e->outside;
     if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
@@ -166,6 +203,8 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
     c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
     c->other_chi2 = refit->other_chi2;
     c->other_place = refit->other_place;
+    if (is_fault(c))
+        return;
     const struct state *home = &refit->states.state[c->home];
     for (int e = 0; e < home->job.rotor.neffect && c->effect.name; e++)
         if (home->job.rotor.effect[e].name && !strcmp(home->job.rotor.effect[e].name, c->effect.name)) {
@@ -177,7 +216,7 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
 /* ---- proposals */
 
 struct proposal {
-    int parent, candidate; /* number in the list; of the parent's scan */
+    int parent, candidate; /* number in the list; of the parent's scan, -1: a fault of the measurement */
     struct scan *scan;
     double gain; /* of ln Z over the parent, linear */
     struct explanation set;
@@ -244,6 +283,45 @@ static int is_common(const struct engine *engine, const struct scan *scan, int i
     return all && !others;
 }
 
+/* A channel has one fault. */
+static int has_fault_there(const struct explanation *e, const struct candidate *c)
+{
+    int found = 0;
+    for (int m = 0; m < e->nmember; m++)
+        for (int k = 0; k < 2 && is_fault(&e->member[m]) && e->member[m].home == c->home; k++)
+            found |= e->member[m].sensor[k] == c->sensor[0] || (c->sensor[1] && e->member[m].sensor[k] == c->sensor[1]);
+    return found;
+}
+
+/* Faults of the measurement as additions to a set. */
+static int propose_faults(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal,
+                          int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    struct fault_proposal fault[FAULTS];
+    int found, status = faults_propose(engine->pool, states_of_explanation(engine, from), engine->number, engine->holdout,
+                                       fit_of(engine, from), from->data, scan, FAULTS, fault, &found);
+    for (int i = 0; i < found && *count < most && !status; i++) {
+        struct proposal one = {.parent = parent, .candidate = -1, .scan = scan, .gain = fault[i].gain, .set = *from};
+        struct explanation *set = &one.set;
+        if (has_fault_there(from, &fault[i].fault))
+            continue;
+        set->member[set->nmember++] = fault[i].fault;
+        set->outside += fault[i].outside;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = prior_of(p, set);
+        set->evidence.log_z += one.gain;
+        set->evidence.log_stated = set->evidence.log_exact = from->evidence.log_exact + one.gain;
+        set->evidence.log_else = -INFINITY;
+        set->log_posterior = set->evidence.log_exact + set->log_prior;
+        if (!find(p, set))
+            proposal[(*count)++] = one;
+    }
+    return status;
+}
+
 /* The additions to a set, behind the *count there are. */
 static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most,
                    int *count)
@@ -295,6 +373,7 @@ struct task {
     struct posterior *p;
     struct proposal *proposal;
     struct refit *refit;
+    struct evidence_data **data; /* of its own where a fault was put right */
     struct pool *pool;
 };
 
@@ -309,6 +388,10 @@ static int fit_task(void *context, int index, int worker)
     (void)worker;
     if (!deck)
         return ROTID_ERROR_MEMORY;
+    t->data[index] = parent->data;
+    if (proposal->candidate < 0)
+        return fault_refit(&t->pool[index], states, e->nown, e->number, e->holdout, fit_of(e, parent), e->environment,
+                           &t->proposal[index].set.member[proposal->set.nmember - 1], &t->refit[index], &t->data[index]);
     const double *x = fit_of(e, parent)->x;
     for (int p = 0; p < states->nparameter; p++)
         deck[p] = p < e->nown ? e->deck_start[p] : x[p];
@@ -321,8 +404,9 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
                          int count)
 {
     struct refit *refit = result->refit + result->nrefit;
-    struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct pool, count)};
-    if (result->nrefit + count > result->room || !task.pool)
+    struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct evidence_data *, count),
+                        POOL_ARRAY(engine->pool, struct pool, count)};
+    if (result->nrefit + count > result->room || !task.pool || !task.data)
         return ROTID_ERROR_MEMORY;
     result->nrefit += count;
     for (int i = 0; i < count; i++)
@@ -335,11 +419,12 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
         if (!refit[i].fit)
             continue;
         e.refit = &refit[i];
+        e.data = task.data[i];
         e.evidence = (struct evidence){0};
         for (int m = 0; m < e.nmember; m++)
             take_values(engine, &refit[i], &e.member[m]);
         status = score(engine, p, NULL, &e);
-        if (!status)
+        if (!status && proposal[i].candidate >= 0)
             prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
                            &p->item[proposal[i].parent], &e);
         if (!status && !append(p, &e))
@@ -361,7 +446,7 @@ static double best_stated(const struct posterior *p)
 
 static int explains(const struct engine *engine, const struct posterior *p, const struct explanation *e)
 {
-    return fit_explains(p->base, fit_of(engine, e));
+    return fit_explains(p->base, e->data, fit_of(engine, e));
 }
 
 /* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too.
@@ -388,7 +473,7 @@ static int next_parent(const struct engine *engine, const struct posterior *p, i
 static int enter_singles(struct engine *engine, const struct round_result *result, struct posterior *p)
 {
     const struct scan *scan = &result->scan;
-    struct explanation e = {0};
+    struct explanation e = {.data = p->data};
     int status = score(engine, p, NULL, &e);
     if (!status)
         append(p, &e);
@@ -397,7 +482,7 @@ static int enter_singles(struct engine *engine, const struct round_result *resul
         int index = result->candidate[i];
         if (!refit->fit || is_common(engine, scan, index))
             continue;
-        e = (struct explanation){.nmember = 1, .refit = refit, .member = {candidate_listed(scan, index)}};
+        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data, .member = {candidate_listed(scan, index)}};
         struct candidate *member = &e.member[0];
         const struct rotor *rotor = &refit->states.state[member->home].job.rotor;
         if (!member->cause->solid)
@@ -431,7 +516,7 @@ static int keep_first(struct proposal *proposal, int count)
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
 {
     struct pool *pool = engine->pool;
-    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8), status = ROTID_OK;
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS), status = ROTID_OK;
     struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
     if (!proposal)
         return ROTID_ERROR_MEMORY;
@@ -448,6 +533,8 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
             status = scan_run(pool, &from->refit->states, engine->number, engine->holdout, from->refit->fit->x, scan);
         if (!status)
             status = propose(engine, p, parent, scan, proposal, most, &count);
+        if (!status)
+            status = propose_faults(engine, p, parent, scan, proposal, most, &count);
     }
     if (status || !count)
         return status;
@@ -620,12 +707,15 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     *p = (struct posterior){.room = ROOM,
                             .base = &result->scan,
                             .item = POOL_ARRAY(engine->pool, struct explanation, ROOM),
-                            .nkind = DATA_KINDS,
+                            .states = &engine->states,
                             .nown = engine->nown,
                             .length = rotor_length(&engine->job->rotor),
                             .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
     if (!p->item)
         return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < engine->states.nstate; s++)
+        if (job_fits_shapes(&engine->states.state[s].job))
+            p->nkind = DATA_KINDS;
     for (int i = 0; i < catalogue_count(); i++) {
         int listed = 0;
         for (int j = 0; j < result->scan.ncandidate; j++)
@@ -649,21 +739,6 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     return weigh(engine, p);
 }
 
-int posterior_add_fault(struct engine *engine, const struct candidate *fault, struct posterior *p)
-{
-    int sensors = engine->job->rotor.nsensor, base = 0;
-    while (base < p->count && (p->item[base].nmember || p->item[base].something_else))
-        base++;
-    if (base == p->count)
-        return ROTID_OK;
-    struct explanation e = {.nmember = 1, .member = {*fault}, .evidence = p->item[base].evidence};
-    double more = fault->result.chi2_drop / 2 - fault->nparameter * log(p->base->nrow) / 2;
-    e.evidence.log_z = fmax(e.evidence.log_z, e.evidence.log_stated + more);
-    e.log_prior = log(set_prior[1]) - log(p->nkind) - log(sensors > 0 ? sensors : 1) + log1p(-ELSE_PRIOR);
-    e.log_posterior = e.evidence.log_z + e.log_prior;
-    return append(p, &e) ? weigh(engine, p) : ROTID_ERROR_MEMORY;
-}
-
 /* ---- the verdict */
 
 /* Whether nearly all of the place lies in one interval. */
@@ -678,13 +753,15 @@ static int is_placed(const struct engine *engine, const struct explanation *e, c
     return !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length;
 }
 
-/* The likeliest explanation with a fit that has all of these, and no more where `only`. */
+/* The likeliest explanation with a fit that has all of these, and no more where `only`; physical ones beside no fault. */
 static const struct explanation *model_with(const struct posterior *p, int count, const struct candidate *named, int only)
 {
     for (int i = 0; i < p->count; i++) {
-        int all = p->item[i].refit != NULL && !p->item[i].something_else && (!only || p->item[i].nmember == count);
+        int all = p->item[i].refit != NULL && (!only || p->item[i].nmember == count);
         for (int j = 0; j < count && all; j++)
             all = has(p, &p->item[i], &named[j]);
+        for (int m = 0; m < p->item[i].nmember && all && !is_fault(&named[0]); m++)
+            all = !is_fault(&p->item[i].member[m]);
         if (all)
             return &p->item[i];
     }
@@ -706,10 +783,10 @@ static int choose_names(const struct engine *engine, const struct posterior *p, 
     int count = 0;
     for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && count < MOST_MEMBERS; i++) {
         const struct candidate *c = &p->marginal[i].cause;
-        int joint = 1;
+        int joint = !is_fault(c);
         for (int j = 0; j < count; j++)
             joint &= together(p, &named[j], c) >= VERDICT_NAMED;
-        const struct explanation *with = model_with(p, 1, c, 0);
+        const struct explanation *with = joint ? model_with(p, 1, c, 0) : NULL;
         for (int m = 0; with && m < with->nmember; m++)
             if (same_name(p, &with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {
                 named[count++] = with->member[m];
@@ -717,6 +794,24 @@ static int choose_names(const struct engine *engine, const struct posterior *p, 
             }
     }
     return count;
+}
+
+int posterior_take_faults(struct engine *engine, const struct posterior *p, int *changed)
+{
+    int status = ROTID_OK;
+    *changed = 0;
+    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && !status; i++) {
+        const struct candidate *c = &p->marginal[i].cause;
+        const struct explanation *with = is_fault(c) ? model_with(p, 1, c, 0) : NULL;
+        for (int m = 0; with && m < with->nmember; m++)
+            if (same_cause(&with->member[m], c) && !status) {
+                status = fault_correct(engine, &with->member[m]);
+                *changed = 1;
+            }
+        if (with && !c->sensor[0])
+            break; /* where the sensors are decides what else they say */
+    }
+    return status;
 }
 
 /* What was named becomes part of the model. */

@@ -12,8 +12,9 @@
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */
 
 #define MUCH_LESS 0.7  /* of the stated noise */
-#define WHOLE     1.5  /* chi2 a degree of freedom: with more, noise is not all that is left */
 #define NOISIER   3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
+#define MISJUDGED 1.15 /* times the stated noise: less is no finding */
+#define CERTAIN   3.29 /* standard deviations, two-sided 0.001 */
 #define SHARED    0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
 #define LITTLE    2.0  /* chi2 a residual: with more, it is not noise that is left */
 #define SLIGHT    0.05 /* excess of the smooth part of the noise that changes no verdict */
@@ -31,31 +32,14 @@ static int allows_for_more(const struct rotor *rotor)
     return 0;
 }
 
-/* Not where the best model leaves more than that noise: then it is the model that is wrong. The stated noise is kept where it is
- * a little too large: a user may have allowed for what a model leaves. chi2: of the shapes, a degree of freedom. */
-static int is_misstated(const struct engine *engine, const struct noise_estimate *noise, double chi2)
+/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. rows: of the shapes. */
+static int is_misstated(const struct engine *engine, double factor, int rows)
 {
-    if (!noise->usable || !noise->misstated || chi2 > WHOLE * noise->factor * noise->factor)
+    if (rows < 1 || !(fabs(log(factor)) > CERTAIN / sqrt(2.0 * rows)))
         return 0;
-    if (noise->factor < 1)
-        return noise->factor < MUCH_LESS && !engine->job->measurement.has_noise_floor && !allows_for_more(&engine->job->rotor);
-    return noise->factor < NOISIER;
-}
-
-/* The level of the noise by what no cause can produce. */
-static int check_noise(struct engine *engine, const struct scan *scan, const double *r, struct noise_estimate *noise)
-{
-    int first = scan->nfrequency, rows = scan->nrow - first, columns = scan->nbasis + scan->nitem;
-    *noise = (struct noise_estimate){.factor = 1};
-    double *part = POOL_ARRAY(engine->pool, double, (size_t)(rows > 0 ? rows : 0) * (size_t)columns);
-    if (!part)
-        return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < columns && rows > 0; j++) {
-        const double *column = j < scan->nbasis ? scan->basis + (ptrdiff_t)j * scan->nrow
-                                                : scan->column + (ptrdiff_t)(j - scan->nbasis) * scan->nrow;
-        memcpy(part + (ptrdiff_t)j * rows, column + first, (size_t)rows * sizeof *part);
-    }
-    return rows > 0 ? noise_check(engine->pool, rows, columns, r + first, part, noise) : ROTID_OK;
+    if (factor < 1)
+        return factor < MUCH_LESS && !engine->job->measurement.has_noise_floor && !allows_for_more(&engine->job->rotor);
+    return factor > MISJUDGED && factor < NOISIER;
 }
 
 /* Correlation between neighbours and level of the noise from differences, which a smooth misfit hardly touches: first differences
@@ -102,29 +86,29 @@ static double shared_noise(const struct engine *engine, const double *r, double 
     return fmin(fmax(1, sigma * sqrt((1 + rho) / (1 - rho))), NOISIER);
 }
 
-/* r [nrow of the scan] is the residual that the best candidate leaves, or that of the base. Where the noise differs from the
- * stated one beyond chance, or neighbouring sensors share it, which looks like physics to the scan, the judged data get the level
- * that is there, with a finding: the round has to be repeated, *changed. Behind the fits: the second-order part of a large effect
- * looks like noise. */
-static int noise_settle(struct engine *engine, const struct scan *scan, const double *r, int *changed)
+/* Where the noise of the shapes is not as stated beside the likeliest explanation, or neighbouring sensors share it, which looks
+ * like physics to the scan, the judged data get the level that is there, with a finding: the search has to be repeated, *changed.
+ * Nothing where something else explains the data better: it is no noise then. */
+static int noise_settle(struct engine *engine, const struct posterior *p, int *changed)
 {
-    struct noise_estimate noise;
     const struct job *job = engine->job;
+    const struct explanation *lead = NULL;
+    for (int i = 0; i < p->count && !lead; i++)
+        if (p->item[i].refit || !p->item[i].nmember)
+            lead = &p->item[i];
     *changed = 0;
-    if (engine->coloured || !job_fits_shapes(job))
+    if (engine->coloured || !job_fits_shapes(job) || !lead || lead->something_else || p->something_else > 0.5)
         return ROTID_OK;
-    int status = check_noise(engine, scan, r, &noise);
-    if (status)
-        return status;
-    int dof = scan->dof - scan->nfrequency;
-    double chi2 = 0;
-    for (int i = scan->nfrequency; i < scan->nrow; i++)
-        chi2 += r[i] * r[i] / (dof > 0 ? dof : 1);
-    double shared = shared_noise(engine, r, chi2);
-    int coloured = shared > 1 + SLIGHT;
-    if (!coloured && !is_misstated(engine, &noise, chi2))
+    const rotid_fit_result *fit = lead->refit ? lead->refit->fit : engine->fit;
+    int rows = lead->data->nrow - lead->data->nline - lead->data->nscale;
+    double chi2 = 0, level = lead->evidence.noise[1], std = level / sqrt(2.0 * (rows > 0 ? rows : 1));
+    for (int i = 0; i < lead->data->nrow; i++)
+        chi2 += lead->data->is_line[i] ? 0 : fit->r[i] * fit->r[i] / (rows > 0 ? rows : 1);
+    double shared = lead->data->nrow == p->data->nrow ? shared_noise(engine, fit->r, chi2) : 1;
+    int coloured = shared > 1 + SLIGHT, status;
+    if (!coloured && !is_misstated(engine, level, rows))
         return ROTID_OK;
-    double factor = coloured ? shared : noise.factor;
+    double factor = coloured ? shared : level;
     const char *text = pool_format(
         engine->pool,
         coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
@@ -136,14 +120,14 @@ static int noise_settle(struct engine *engine, const struct scan *scan, const do
                        .shape_std; /* another array where a cause has added its discrepancy to the judged one */
     for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode && base != job->measurement.shape_std; i++)
         base[i] *= factor;
-    status = data_correct_noise(engine, "SHAPE", factor, coloured ? NAN : noise.std, text);
+    status = data_correct_noise(engine, "SHAPE", factor, coloured ? NAN : std, text);
     engine->out->judged.state->job.measurement.correction = job->measurement.correction;
     engine->out->judged.state->job.measurement.ncorrection = job->measurement.ncorrection;
     return status;
 }
 
 #define MOST_REFITS 16
-#define MOST_PASSES 5    /* of a round, each with better data */
+#define MOST_PASSES 6    /* of a round, each with better data */
 #define WORTH       3.0  /* a promised drop below this is noise */
 #define SHARE       0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
@@ -210,17 +194,16 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
     return status;
 }
 
-/* The data judged by the best refits: pairing, channels, noise; the round is to be repeated where something was at fault. */
-static int settle_data(struct engine *engine, struct round_result *result, int channels, int *changed)
+/* Pairing, faults of channels and, of the only state, noise as the explanations have them; the search is to be repeated where
+ * something was at fault. */
+static int settle_data(struct engine *engine, struct round_result *result, const struct posterior *posterior, int noise,
+                       int *changed)
 {
-    int best = -1, status = pairing_settle(engine, result, changed);
-    if (!status && !*changed && channels)
-        status = faults_settle(engine, result, changed);
-    for (int i = 0; i < result->nrefit; i++)
-        if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
-            best = i;
-    if (!status && !*changed && channels)
-        status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
+    int status = pairing_settle(engine, result, changed);
+    if (!status && !*changed)
+        status = posterior_take_faults(engine, posterior, changed);
+    if (!status && !*changed && noise)
+        status = noise_settle(engine, posterior, changed);
     if (!status && *changed)
         status = base_again(engine);
     return status || !*changed ? status : pairing_note_again(engine);
@@ -300,10 +283,10 @@ int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, s
             status = posterior_run(engine, result, posterior);
         engine_step(engine, "posterior");
         if (!status && pass < MOST_PASSES)
-            status = settle_data(engine, result, doubt, &again);
+            status = settle_data(engine, result, posterior, doubt, &again);
         engine_step(engine, "data");
     }
-    return status || !result->fault ? status : posterior_add_fault(engine, result->fault, posterior);
+    return status;
 }
 
 void round_free(struct round_result *result)

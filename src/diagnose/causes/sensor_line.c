@@ -36,7 +36,10 @@ const struct cause_kind cause_sensor_line = {
     .id = "sensor_line",
     .class = CAUSE_DATA,
     .target = TARGET_NONE,
-    .parameter = {{.neutral = 0, .typical = 0.02}, {.neutral = 1, .typical = 1.02}, {.neutral = 0, .typical = 1}},
+    /* an origin off by a flange or two, a length by a tape read wrongly */
+    .parameter = {{.neutral = 0, .typical = 0.02, PRIOR_OF_BOUND(0.03)},
+                  {.neutral = 1, .typical = 1.02, PRIOR_LOGNORMAL(0.03)},
+                  {.neutral = 0, .typical = 1}},
     .place = -1,
     .width = -1,
     .bounds = bounds,
