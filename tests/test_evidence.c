@@ -9,7 +9,8 @@
 #include "support.h"
 
 #define CLOSE  0.3
-#define STATED 0.15 /* deviation of ln of a noise that is stated */
+#define STATED 0.15 /* deviation of ln of a noise that is stated, */
+#define WRONG  0.7  /* and of one of the shapes that is stated wrongly, one in ten */
 
 static struct job job;
 static int number[16], holdout[16];
@@ -59,8 +60,9 @@ static double evidence(const char *id, const double *value, double *log_else, do
     struct evidence e = {.mean = mean, .std = std};
     fit_with(id, value, &states, &state, &fit);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
-    assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, log_else ? &(struct scan){0} : NULL, &e),
-                  ROTID_OK);
+    assert_status(
+        evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, 0, NULL, log_else ? &(struct scan){0} : NULL, &e),
+        ROTID_OK);
     if (log_else)
         *log_else = e.log_else;
     memcpy(x, fit->x, (size_t)fit->n * sizeof *x);
@@ -91,6 +93,11 @@ static double sum_logs(double a, double b)
     return a > b ? a + log1p(exp(b - a)) : b + log1p(exp(a - b));
 }
 
+static double normal(double x, double deviation)
+{
+    return -x * x / (2 * deviation * deviation) - log(deviation) - log(2 * acos(-1)) / 2;
+}
+
 /* ln of the integral over both factors of the noise, by points 0.02 deviations apart. */
 static double over_noise(double lines, int nline, double shapes, int nshape)
 {
@@ -98,10 +105,11 @@ static double over_noise(double lines, int nline, double shapes, int nshape)
     const double square[2] = {lines, shapes};
     const int count[2] = {nline, nshape};
     for (int part = 0; part < 2; part++)
-        for (int i = -400; i <= 400; i++) {
-            double a = i * step;
-            sum[part] = sum_logs(sum[part], -square[part] * exp(-2 * a) / 2 - count[part] * a - a * a / (2 * STATED * STATED) +
-                                                log(step / STATED) - log(2 * acos(-1)) / 2);
+        for (int i = -1000; i <= 1000; i++) {
+            double a = i * step, prior = normal(a, STATED);
+            if (part && nshape)
+                prior = sum_logs(log(0.9) + prior, log(0.1) + normal(a, WRONG));
+            sum[part] = sum_logs(sum[part], -square[part] * exp(-2 * a) / 2 - count[part] * a + prior + log(step));
         }
     return sum[0] + sum[1];
 }
@@ -145,11 +153,6 @@ static double of_modulus(double x)
 {
     (void)x;
     return -log(log(e_upper / e_lower));
-}
-
-static double normal(double x, double deviation)
-{
-    return -x * x / (2 * deviation * deviation) - log(deviation) - log(2 * acos(-1)) / 2;
 }
 
 static double of_gradient(double x)
@@ -245,6 +248,243 @@ static void a_size_at_its_bound(void **state)
     rotid_fit_free(fit);
 }
 
+/* ---- faults of channels: put right by faults.c, beside integrals over data that are put right here */
+
+/* The fault of an id at a sensor as it is proposed beside the base, its fit, and its evidence. */
+static double fault_evidence(const char *id, int sensor, int other, struct candidate *fault)
+{
+    struct state one;
+    struct states states = states_of(&job, &one);
+    struct evidence_data *data;
+    struct scan scan;
+    struct refit refit;
+    struct fault_proposal *list = POOL_ARRAY(&test_pool, struct fault_proposal, 200);
+    struct fault_column column[2];
+    double mean[16], std[16];
+    struct evidence e = {.mean = mean, .std = std};
+    rotid_fit_result *fit;
+    int found = 0, at = 0, count = 0;
+    assert_status(refit_until(&test_pool, &states, number, holdout, 0, NULL, &fit), ROTID_OK);
+    assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
+    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, &scan), ROTID_OK);
+    assert_status(faults_propose(&test_pool, &states, number, holdout, fit, data, &scan, 200, list, &found), ROTID_OK);
+    while (at < found &&
+           (strcmp(list[at].fault.cause->id, id) != 0 || list[at].fault.sensor[0] != sensor || list[at].fault.sensor[1] != other))
+        at++;
+    assert_true(at < found);
+    *fault = list[at].fault;
+    assert_status(fault_refit(&test_pool, &states, job.unknowns.nparameter, number, holdout, fit, NULL, fault, &refit, &data),
+                  ROTID_OK);
+    assert_non_null(refit.fit);
+    assert_status(fault_columns(&test_pool, &refit.states, number, holdout, refit.fit, data, fault, column, &count), ROTID_OK);
+    assert_status(evidence_of_fit(data, &refit.states, job.unknowns.nparameter, refit.fit, 0, NULL, count, column, NULL, &e),
+                  ROTID_OK);
+    rotid_fit_free(refit.fit);
+    rotid_fit_free(fit);
+    return e.log_z + list[at].outside;
+}
+
+/* ln Z of the base beside shapes of its own, [nsensor * nmode] and their noise relative to the largest one. */
+static double grid_of_shapes(double *shape, double *std, double from, double to)
+{
+    struct job with = job;
+    struct likelihood l;
+    with.measurement.shape = shape;
+    with.measurement.shape_std = std;
+    open_likelihood(&with, &l);
+    e_lower = job.unknowns.bounds[0].lower;
+    e_upper = job.unknowns.bounds[0].upper;
+    const struct axis axis[1] = {{120, 1, from, to, of_modulus}};
+    return over_grid(&l, 1, axis);
+}
+
+static double *copy_of(const double *values)
+{
+    size_t count = (size_t)job.rotor.nsensor * (size_t)job.measurement.nmode;
+    double *copy = POOL_ARRAY(&test_pool, double, count);
+    memcpy(copy, values, count * sizeof *copy);
+    return copy;
+}
+
+static double largest_of(const double *shape, int k)
+{
+    double most = 0;
+    for (int s = 0; s < job.rotor.nsensor; s++)
+        most = fmax(most, isfinite(shape[s + k * job.rotor.nsensor]) ? fabs(shape[s + k * job.rotor.nsensor]) : 0);
+    return most;
+}
+
+/* What sensor s reads times a factor, with its noise; the noise of all others stays what it is in absolute terms. */
+static void multiply(double *shape, double *std, int s, double factor)
+{
+    for (int k = 0; k < job.measurement.nmode; k++) {
+        int n = job.rotor.nsensor;
+        double before = largest_of(shape, k);
+        shape[s + k * n] *= factor;
+        double after = largest_of(shape, k);
+        for (int i = 0; i < n; i++)
+            std[i + k * n] *= before / after;
+        if (isfinite(factor))
+            std[s + k * n] *= fabs(factor);
+    }
+}
+
+#define SENSOR 2
+
+static double modulus_of_base(void)
+{
+    double x[8];
+    (void)evidence(NULL, NULL, NULL, x);
+    return x[0];
+}
+
+static void a_wrong_sign(void **state)
+{
+    struct candidate fault;
+    (void)state;
+    open_bar(1);
+    multiply(job.measurement.shape, job.measurement.shape_std, SENSOR, -1);
+    double *shape = copy_of(job.measurement.shape), *std = copy_of(job.measurement.shape_std), x = modulus_of_base();
+    multiply(shape, std, SENSOR, -1);
+    check("a sign", fault_evidence("sensor_sign", job.rotor.sensor[SENSOR].id, 0, &fault),
+          grid_of_shapes(shape, std, x * 0.9, x * 1.1));
+}
+
+static void a_gain(void **state)
+{
+    struct candidate fault;
+    double sum = -INFINITY;
+    const int points = 80;
+    (void)state;
+    open_bar(1);
+    double x = modulus_of_base();
+    multiply(job.measurement.shape, job.measurement.shape_std, SENSOR, 1.3);
+    double z = fault_evidence("sensor_gain", job.rotor.sensor[SENSOR].id, 0, &fault);
+    for (int i = 0; i < points; i++) { /* normal of deviation 0.5 in ln of the gain */
+        double width = 0.24 / points, t = log(1.3) - 0.12 + (i + 0.5) * width, *shape = copy_of(job.measurement.shape),
+               *std = copy_of(job.measurement.shape_std);
+        multiply(shape, std, SENSOR, exp(-t));
+        sum = sum_logs(sum, grid_of_shapes(shape, std, x * 0.97, x * 1.03) + normal(t, 0.5) + log(width));
+    }
+    assert_close(fault.effect.value[0], 1.3, 0.03, 0);
+    check("a gain", z, sum);
+}
+
+/* y of the sensor is normal about `of` (NULL: about 0), with a deviation that is log-uniform between two multiples of its noise.
+ */
+static double scatter(const double *of, double least, double most)
+{
+    double sum = -INFINITY, square = 0;
+    const int points = 4000;
+    for (int k = 0; k < job.measurement.nmode; k++) {
+        int at = SENSOR + k * job.rotor.nsensor;
+        double off = (job.measurement.shape[at] - (of ? of[at] : 0)) /
+                     (largest_of(job.measurement.shape, k) * job.measurement.shape_std[at]);
+        square += off * off;
+    }
+    for (int i = 0; i < points; i++) {
+        double t = least * pow(most / least, (i + 0.5) / points);
+        sum = sum_logs(sum, -square / (2 * t * t) - job.measurement.nmode * log(t) - log(points));
+    }
+    return sum;
+}
+
+static void a_dead_channel_and_a_copy(void **state)
+{
+    (void)state;
+    for (int copy = 0; copy < 2; copy++) {
+        struct candidate fault;
+        open_bar(1);
+        double x = modulus_of_base(), most = 2;
+        int n = job.rotor.nsensor, other = copy ? SENSOR + 1 : -1;
+        double *source = copy_of(job.measurement.shape);
+        for (int k = 0; k < job.measurement.nmode; k++) {
+            int at = SENSOR + k * n;
+            source[at] = copy ? source[at + 1] : 0;
+            job.measurement.shape[at] = copy ? source[at + 1] * (1 + 1e-6 * (k % 3 - 1)) : 0.01 * sin(1 + 3 * k);
+        }
+        for (int k = 0; k < job.measurement.nmode && !copy; k++)
+            for (int s = 0; s < n; s++)
+                most = fmax(most, fabs(job.measurement.shape[s + k * n]) /
+                                      (largest_of(job.measurement.shape, k) * job.measurement.shape_std[s + k * n]));
+        double *shape = copy_of(job.measurement.shape), *std = copy_of(job.measurement.shape_std);
+        multiply(shape, std, SENSOR, NAN);
+        double grid = grid_of_shapes(shape, std, x * 0.97, x * 1.03) + (copy ? scatter(source, 1e-6, 1) : scatter(NULL, 1, most));
+        check(copy ? "a copy" : "a dead channel",
+              fault_evidence("duplicate_channel", job.rotor.sensor[SENSOR].id, copy ? job.rotor.sensor[other].id : 0, &fault),
+              grid);
+    }
+}
+
+/* ---- something else: covariance 1 + A^2 C in every shape and 1 + B^2 on every frequency, by a dense factor of it at each
+ * modulus */
+
+static double log_normal_rows(int n, double *covariance, const double *r, const double *u)
+{
+    /* ln of the integral over the scale of u, known to 1/|u| and better, by the covariance of r with it in: its part of ln det is
+     * that of the base, which has none */
+    double determinant, *inverse = covariance, square = 0, ru = 0, uu = 0, length = 0;
+    assert_int_equal(positive_invert(n, inverse, &determinant), 0);
+    for (int i = 0; i < n; i++) {
+        length += u[i] * u[i];
+        for (int j = 0; j < n; j++) {
+            double a = inverse[i + j * n];
+            square += r[i] * a * r[j];
+            ru += r[i] * a * u[j];
+            uu += u[i] * a * u[j];
+        }
+    }
+    return -(square - ru * ru / uu) / 2 - determinant / 2 - log(uu / length) / 2;
+}
+
+static double else_at(struct likelihood *l, const double *x, double shapes, double lines)
+{
+    double sum = 0;
+    if (columns_residual(&l->columns, x, l->r))
+        return -INFINITY;
+    for (int i = 0; i < l->nline; i++)
+        sum -= (l->r[i] * l->r[i] / (1 + lines * lines) + log(1 + lines * lines)) / 2;
+    for (int m = 0, row = l->nline; m < l->columns.nmode; m++) {
+        int n = l->columns.mode[m].sensors;
+        double *c = POOL_ARRAY(&test_pool, double, (size_t)n *(size_t)n), *u = POOL_ARRAY(&test_pool, double, n);
+        double length = 0.3 * rotor_length(&job.rotor) / (number[l->columns.mode[m].k] + 1);
+        for (int i = 0; i < n; i++) {
+            int s = l->columns.mode[m].sensor[i];
+            u[i] = l->r[row + i] + job.measurement.shape[s + l->columns.mode[m].k * job.rotor.nsensor] /
+                                       (largest_of(job.measurement.shape, l->columns.mode[m].k) *
+                                        job.measurement.shape_std[s + l->columns.mode[m].k * job.rotor.nsensor]);
+            for (int j = 0; j < n; j++) {
+                double apart = (job.rotor.sensor[s].position - job.rotor.sensor[l->columns.mode[m].sensor[j]].position) / length;
+                c[i + j * n] = (i == j) + shapes * shapes * exp(-apart * apart / 2);
+            }
+        }
+        sum += log_normal_rows(n, c, l->r + row, u);
+        row += n;
+    }
+    return sum;
+}
+
+static void something_else(void **state)
+{
+    double log_else, x[8], sum = -INFINITY;
+    struct likelihood l;
+    const int points = 24;
+    (void)state;
+    open_bar(0.3); /* the noise stated too small: there is something else to find */
+    (void)evidence(NULL, NULL, &log_else, x);
+    open_likelihood(&job, &l);
+    for (int a = 0; a < points; a++)
+        for (int b = 0; b < points; b++)
+            for (int i = 0; i < 30; i++) {
+                const double shapes = 2 * pow(500, (a + 0.5) / points), lines = 2 * pow(500, (b + 0.5) / points), half = 0.1,
+                             at = x[0] * exp(half * (2 * (i + 0.5) / 30 - 1));
+                e_lower = job.unknowns.bounds[0].lower;
+                e_upper = job.unknowns.bounds[0].upper;
+                sum = sum_logs(sum, else_at(&l, &at, shapes, lines) + of_modulus(at) + log(2 * half / 30) - 2 * log(points));
+            }
+    check("something else", log_else, sum);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 /* What a cause that is an approximation leaves is noise behind it, in arrays of its own. */
@@ -270,7 +510,13 @@ static void what_an_approximation_leaves_is_noise(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(nothing_but_a_modulus), TEST(a_size_with_a_sign), TEST(a_size_at_its_bound),
+    const struct CMUnitTest tests[] = {TEST(nothing_but_a_modulus),
+                                       TEST(a_size_with_a_sign),
+                                       TEST(a_size_at_its_bound),
+                                       TEST(a_wrong_sign),
+                                       TEST(a_gain),
+                                       TEST(a_dead_channel_and_a_copy),
+                                       TEST(something_else),
                                        TEST(what_an_approximation_leaves_is_noise)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
