@@ -118,11 +118,25 @@ static void the_sentence_says_what_was_found(void **state)
             fail_msg("%s: '%s' lacks '%s'", table[i].effect, seen[i].text, table[i].text);
 }
 
+static void a_line_has_to_stay_on_the_rotor(void **state)
+{
+    const double z[] = {0, 0.5, 1};
+    (void)state;
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0, 1}, 1, 3, z), 1);
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){1, 0, 1}, 1, 3, z), 1);
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0.019, 1}, 1, 3, z), 1); /* as well as a line is known */
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0.021, 1}, 1, 3, z), 0);
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){1, 0.021, 1}, 1, 3, z), 0);
+    assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0, 1e-4}, 1, 3, z), 0); /* all on one place */
+    assert_close(sensor_line_place(&(struct sensor_line){1, 0.1, 0.5}, 2, 0.4), 1.7, 1e-15, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faults_are_found_by_number_and_not_taken_for_physics),
         cmocka_unit_test(the_sentence_says_what_was_found),
+        cmocka_unit_test(a_line_has_to_stay_on_the_rotor),
     };
     return cmocka_run_group_tests(tests, run_all, NULL);
 }

@@ -475,6 +475,8 @@ static int settle(struct engine *engine)
     engine->job->rotor = own.job->rotor;
     engine->job->measurement = own.job->measurement;
     engine->coloured |= own.coloured;
+    engine->nfault = own.nfault;
+    engine->fault = own.fault;
     return take_findings(engine, &alone.result);
 }
 

@@ -88,17 +88,22 @@ struct evidence_data;
 struct explanation { /* a set of causes, perhaps with something else beside it */
     int nmember, something_else, expanded;
     struct candidate member[MOST_MEMBERS];
-    const struct refit *refit; /* its fit; NULL: none, but the line of the scan */
-    const struct scan *scan;   /* at that fit; NULL: not scanned */
+    const struct refit *refit;  /* its fit; NULL: none, but the line of the scan */
+    const struct scan *scan;    /* at that fit; NULL: not scanned */
     struct evidence_data *data; /* with its faults of the measurement put right */
     double outside;             /* of these, see struct fault_proposal */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
 };
 
+struct marginal {
+    struct candidate cause; /* as in the likeliest explanation that has it */
+    double probability;
+};
+
 struct posterior {
     int count, room, nkind;
-    struct explanation *item; /* most probable first, behind posterior_run */
+    struct explanation *item;   /* most probable first, behind posterior_run */
     struct evidence_data *data; /* as judged */
     const struct states *states;
     const struct scan *base;
@@ -107,10 +112,7 @@ struct posterior {
     double nothing, nothing_prior; /* probability that nothing is wrong, after and before */
     double something_else;         /* of all explanations with something else */
     int nmarginal;
-    struct marginal {
-        struct candidate cause; /* as in the likeliest explanation that has it */
-        double probability;
-    } * marginal; /* above LEAST_MARGINAL, largest first */
+    struct marginal *marginal; /* above LEAST_MARGINAL, largest first */
     int naveraged;
     rotid_averaged_parameter *averaged; /* [naveraged] the deck's unknowns over all explanations */
 };
@@ -342,6 +344,8 @@ struct engine {
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
     struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
+    int nfault;                          /* faults of the measurement that were taken out of the data, */
+    struct marginal *fault;              /* as they were named */
     int searched_far;                    /* far starts were looked for, once */
     const struct far_start *far;         /* the one that led farther than the others, NULL */
     double clock;

@@ -8,9 +8,9 @@
  *
  * With u the predicted shape over its noise at the rows of a fit, Q what is fitted and r the residual behind it, every fault is a
  * column c (u, -2u, du/dz, ...): it lowers chi2 by (c'r)^2/|c_perp|^2, or by 2 a c'r - a^2 |c_perp|^2 at a fixed amplitude a; a
- * row that goes out of the data takes its part r_R'M^-1 r_R with it, M = I - Q_R Q_R'. What promises most is put right in the data
- * (correction_apply, which leaves the likelihood that of a prediction with the fault in it), fitted, and weighed by laplace.c with
- * its numbers as unknowns. */
+ * row that goes out of the data takes its part r_R'M^-1 r_R with it, M = I - Q_R Q_R'. What promises most is put right in the
+ * data (correction_apply, which leaves the likelihood that of a prediction with the fault in it), fitted, and weighed by
+ * laplace.c with its numbers as unknowns. */
 #include "diagnose/diagnose.h"
 
 #include <math.h>
@@ -22,14 +22,14 @@
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 
-#define LEAST_SENSORS 5     /* fewer cannot tell a channel from the rotor */
-#define LEAST_COPY    1e-6  /* of the noise: the last digit of a reading, */
-#define MOST_COPY     1.0   /* and where a copy is none */
-#define POINTS        32    /* of a log-uniform deviation */
-#define STEPS         4     /* of Gauss-Newton in the numbers of a fault */
-#define STEP_DONE     0.1   /* standard deviations */
-#define DIFFERENCE    1e-3  /* of the length: step of a slope */
-#define LEAST_SHIFT   5e-4  /* m: nobody glues a sensor more closely than that */
+#define LEAST_SENSORS 5    /* fewer cannot tell a channel from the rotor */
+#define LEAST_COPY    1e-6 /* of the noise: the last digit of a reading, */
+#define MOST_COPY     1.0  /* and where a copy is none */
+#define POINTS        32   /* of a log-uniform deviation */
+#define STEPS         4    /* of Gauss-Newton in the numbers of a fault */
+#define STEP_DONE     0.1  /* standard deviations */
+#define DIFFERENCE    1e-3 /* of the length: step of a slope */
+#define LEAST_SHIFT   5e-4 /* m: nobody glues a sensor more closely than that */
 #define NORMAL_95     1.96
 
 /* ---- the readings of a state beside a fit */
@@ -81,8 +81,8 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
         return ROTID_OK;
     out->row = POOL_ARRAY(pool, int, (size_t)n *(size_t)out->nblock);
     out->u = POOL_ARRAY(pool, double, 3 * (size_t)d->nrow);
-    int status = x && out->row && out->u ? columns_open(pool, job, number + mode, holdout + mode, NULL, x, &columns)
-                                         : ROTID_ERROR_MEMORY;
+    int status =
+        x && out->row && out->u ? columns_open(pool, job, number + mode, holdout + mode, NULL, x, &columns) : ROTID_ERROR_MEMORY;
     if (!status)
         status = axis_shapes(pool, &columns, &data);
     if (status)
@@ -178,7 +178,8 @@ static double gain_without(struct pool *pool, const struct scan *scan, const str
     return (drop - determinant) / 2;
 }
 
-/* ln of the likelihood of differences [n] over the noise whose deviation is log-uniform from `least` to `most` times the noise. */
+/* ln of the likelihood of differences [n] over the noise whose deviation is log-uniform from `least` to `most` times the noise.
+ */
 static double log_scatter(int n, const double *x, double least, double most)
 {
     double square = 0, sum = -INFINITY;
@@ -209,7 +210,7 @@ static int offer(struct fault_list *list, const char *id, int s, int t, const do
     int one = s < 0 ? 0 : sensor[s].id, two = t < 0 ? 0 : sensor[t].id, at = list->count;
     if (!isfinite(gain) || (list->count == list->most && gain <= list->item[list->most - 1].gain))
         return ROTID_OK;
-    const char *target = !one   ? ""
+    const char *target = !one  ? ""
                          : two ? pool_format(list->pool, "sensors %d,%d", one, two)
                                : pool_format(list->pool, "sensor %d", one);
     if (!target)
@@ -225,8 +226,7 @@ static int offer(struct fault_list *list, const char *id, int s, int t, const do
     made->state_name = c->states->state[c->state].name;
     made->sensor[0] = one;
     made->sensor[1] = two;
-    for (int p = 0; correction_parameter(cause, p); p++, made->nparameter++)
-    {
+    for (int p = 0; correction_parameter(cause, p); p++, made->nparameter++) {
         made->effect.value[p] = value[p];
         made->fixed[p] = fixed && fixed[p];
     }
@@ -253,11 +253,13 @@ static int offer_single(struct fault_list *list, int s)
     struct column own = of_sensor(c, s, c->u, 1), place = of_sensor(c, s, c->slope, 1), turned = of_sensor(c, s, c->u, -2);
     if (!own.count)
         return ROTID_OK;
-    double gain = gain_of_size(list->scan, &own, 10, &amplitude), factor = 1 + amplitude, along, square = project(list->scan, &own, &along);
+    double gain = gain_of_size(list->scan, &own, 10, &amplitude), factor = 1 + amplitude, along,
+           square = project(list->scan, &own, &along);
     int status = ROTID_OK;
     if (factor > 0.01) { /* normal in ln of the gain */
         double off = log(factor) / gain_deviation;
-        gain = along * along / (2 * square) - off * off / 2 - log1p(square * factor * factor * gain_deviation * gain_deviation) / 2;
+        gain =
+            along * along / (2 * square) - off * off / 2 - log1p(square * factor * factor * gain_deviation * gain_deviation) / 2;
         status = offer(list, "sensor_gain", s, -1, &factor, NULL, 0, gain);
     }
     if (!status)
@@ -485,10 +487,11 @@ int fault_columns(struct pool *pool, const struct states *states, const int *num
                 double z = job->rotor.sensor[own].position; /* as it is now */
                 if (!line && own != s)
                     continue;
-                to->column[row] = line && p ? c.slope[row] * (z - (end < 0 ? rotor_length(&job->rotor) : 0) - end * fault->effect.value[0]) /
+                to->column[row] = line && p ? c.slope[row] *
+                                                  (z - (end < 0 ? rotor_length(&job->rotor) : 0) - end * fault->effect.value[0]) /
                                                   fault->effect.value[1]
                                   : line || !strcmp(fault->cause->id, "sensor_position") ? end * c.slope[row]
-                                                                                           : c.u[row] / fault->effect.value[0];
+                                                                                         : c.u[row] / fault->effect.value[0];
                 along += c.u[row] * to->column[row];
             }
             for (int i = 0; i < block->count; i++)
@@ -557,7 +560,8 @@ static const char *describe(struct pool *pool, const struct candidate *fault)
     const int *sensor = fault->sensor;
     double value = fault->effect.value[0];
     if (!strcmp(id, "sensor_gain"))
-        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", sensor[0], value);
+        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", sensor[0],
+                           value);
     if (!strcmp(id, "sensor_sign"))
         return pool_format(pool, "sensor %d has the wrong sign; it is turned", sensor[0]);
     if (!strcmp(id, "sensor_swap"))

@@ -175,12 +175,12 @@ static int add_block(struct evidence_data *d, const struct states *states, int s
     if (!count)
         return ROTID_OK;
     *block = (struct evidence_block){.row = d->nrow,
-                            .count = count,
-                            .state = state,
-                            .mode = k,
-                            .sensor = sensor,
-                            .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count),
-                            .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
+                                     .count = count,
+                                     .state = state,
+                                     .mode = k,
+                                     .sensor = sensor,
+                                     .vector = POOL_ARRAY(d->pool, double, (size_t)count *(size_t)count),
+                                     .value = POOL_ARRAY(d->pool, double, 4 * (size_t)count)};
     if (!block->vector || !block->value)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < count; i++, d->nrow++) {
@@ -284,9 +284,11 @@ static double log_normal(double x, double deviation)
 static double integrate_at(const struct evidence_data *d, struct normal *w, double a, double b)
 {
     double wrong = fmax(MISTAKE, d->deviation),
-           shapes = d->nrow == d->nline ? 0
-                                        : log_sum(log1p(-MISSTATED) + log_normal(b, d->deviation), log(MISSTATED) + log_normal(b, wrong));
-    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b + log_normal(a, d->deviation) + shapes;
+           shapes = d->nrow == d->nline
+                        ? 0
+                        : log_sum(log1p(-MISSTATED) + log_normal(b, d->deviation), log(MISSTATED) + log_normal(b, wrong));
+    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b +
+           log_normal(a, d->deviation) + shapes;
 }
 
 /* Mode of a function of one factor, the other held, and the deviation about it, by points and a parabola. */

@@ -53,7 +53,8 @@ static int same_cause(const struct candidate *a, const struct candidate *b)
 
 static int same_model(const struct candidate *a, const struct candidate *b)
 {
-    return same_cause(a, b) && !strcmp(a->target, b->target) && !memcmp(a->fixed, b->fixed, sizeof a->fixed) && a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
+    return same_cause(a, b) && !strcmp(a->target, b->target) && !memcmp(a->fixed, b->fixed, sizeof a->fixed) &&
+           a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
            (!a->result.suspect || !strcmp(a->effect.name, b->effect.name));
 }
 
@@ -404,7 +405,11 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
                          int count)
 {
     struct refit *refit = result->refit + result->nrefit;
-    struct task task = {engine, p, proposal, refit, POOL_ARRAY(engine->pool, struct evidence_data *, count),
+    struct task task = {engine,
+                        p,
+                        proposal,
+                        refit,
+                        POOL_ARRAY(engine->pool, struct evidence_data *, count),
                         POOL_ARRAY(engine->pool, struct pool, count)};
     if (result->nrefit + count > result->room || !task.pool || !task.data)
         return ROTID_ERROR_MEMORY;
@@ -804,8 +809,15 @@ int posterior_take_faults(struct engine *engine, const struct posterior *p, int 
         const struct candidate *c = &p->marginal[i].cause;
         const struct explanation *with = is_fault(c) ? model_with(p, 1, c, 0) : NULL;
         for (int m = 0; with && m < with->nmember; m++)
-            if (same_cause(&with->member[m], c) && !status) {
-                status = fault_correct(engine, &with->member[m]);
+            if (same_cause(&with->member[m], c)) {
+                struct marginal *more = POOL_ARRAY(engine->pool, struct marginal, engine->nfault + 1);
+                status = more ? fault_correct(engine, &with->member[m]) : ROTID_ERROR_MEMORY;
+                if (status)
+                    return status;
+                if (engine->nfault)
+                    memcpy(more, engine->fault, (size_t)engine->nfault * sizeof *more);
+                more[engine->nfault++] = (struct marginal){with->member[m], p->marginal[i].probability};
+                engine->fault = more;
                 *changed = 1;
             }
         if (with && !c->sensor[0])
@@ -880,6 +892,21 @@ static const char *advice(struct engine *engine, const struct posterior *p)
     return advise_between(engine, count, model);
 }
 
+/* Faults that were taken out of the data before the last search stand among the marginals. */
+static int list_faults(const struct engine *engine, struct posterior *p)
+{
+    struct marginal *all = POOL_ARRAY(engine->pool, struct marginal, engine->nfault + p->nmarginal + 1);
+    if (!all)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < engine->nfault; i++)
+        all[i] = engine->fault[i];
+    for (int i = 0; i < p->nmarginal; i++)
+        all[engine->nfault + i] = p->marginal[i];
+    p->marginal = all;
+    p->nmarginal += engine->nfault;
+    return ROTID_OK;
+}
+
 int posterior_verdict(struct engine *engine, struct posterior *p)
 {
     struct diagnosis *out = engine->out;
@@ -894,7 +921,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     count = verdict->confident ? choose_names(engine, p, named) : 0;
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
-    verdict->something_else = p->something_else;
+    verdict->something_else = fmin(1, p->something_else); /* rounding */
     verdict->kind = p->something_else > 0.5 ? ROTID_UNEXPLAINED
                     : model                 ? ROTID_NAMED
                     : !lead->nmember && !lead->something_else && (!p->nmarginal || p->marginal[0].probability <= HARMLESS) &&
@@ -906,5 +933,6 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
         list_alternatives(out, p);
     if (!verdict->adequate_after && !(verdict->next_measurement = advice(engine, p)))
         return ROTID_ERROR_MEMORY;
-    return verdict->kind == ROTID_NAMED ? accept(engine, model) : ROTID_OK;
+    int status = verdict->kind == ROTID_NAMED ? accept(engine, model) : ROTID_OK;
+    return status ? status : list_faults(engine, p);
 }

@@ -32,7 +32,8 @@ static int allows_for_more(const struct rotor *rotor)
     return 0;
 }
 
-/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. rows: of the shapes. */
+/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. rows: of the shapes.
+ */
 static int is_misstated(const struct engine *engine, double factor, int rows)
 {
     if (rows < 1 || !(fabs(log(factor)) > CERTAIN / sqrt(2.0 * rows)))
