@@ -628,6 +628,7 @@ static int find_marginals(struct engine *engine, struct posterior *p)
                 p->marginal[p->nmarginal++] = (struct marginal){e->member[m], e->probability};
         }
     }
+    p->something_else = fmin(1, p->something_else); /* rounding */
     qsort(p->marginal, (size_t)p->nmarginal, sizeof *p->marginal, by_probability);
     while (p->nmarginal && p->marginal[p->nmarginal - 1].probability < LEAST_MARGINAL)
         p->nmarginal--;
@@ -921,7 +922,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     count = verdict->confident ? choose_names(engine, p, named) : 0;
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
-    verdict->something_else = fmin(1, p->something_else); /* rounding */
+    verdict->something_else = p->something_else;
     verdict->kind = p->something_else > 0.5 ? ROTID_UNEXPLAINED
                     : model                 ? ROTID_NAMED
                     : !lead->nmember && !lead->something_else && (!p->nmarginal || p->marginal[0].probability <= HARMLESS) &&
