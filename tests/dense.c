@@ -8,22 +8,6 @@
 
 #include "linalg/linalg.h"
 
-int pool_setup(void **state)
-{
-    struct pool *pool = malloc(sizeof *pool);
-    if (pool)
-        pool_open(pool, NULL);
-    *state = pool;
-    return pool == NULL;
-}
-
-int pool_teardown(void **state)
-{
-    pool_close(*state);
-    free(*state);
-    return 0;
-}
-
 double *numbers(struct pool *pool, ptrdiff_t count)
 {
     double *array = POOL_ARRAY(pool, double, count);

@@ -7,11 +7,6 @@
 
 #include "base/base.h"
 
-/* A pool as the state of a cmocka test. */
-int pool_setup(void **state);
-int pool_teardown(void **state);
-#define WITH_POOL(test) cmocka_unit_test_setup_teardown(test, pool_setup, pool_teardown)
-
 /* [count] zeros; the test fails when memory is out. */
 double *numbers(struct pool *pool, ptrdiff_t count);
 

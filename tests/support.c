@@ -52,7 +52,7 @@ struct pool test_pool;
 
 int open_test_pool(void **state)
 {
-    (void)state;
+    *state = &test_pool;
     pool_open(&test_pool, NULL);
     return 0;
 }

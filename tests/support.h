@@ -30,10 +30,34 @@ struct failing_allocator {
 };
 void failing_allocator_open(struct failing_allocator *failing, long fail_at);
 
-/* A pool for one test at a time, as setup and teardown of cmocka. */
+/* A pool for one test at a time, as setup and teardown of cmocka; the state of the test. */
 extern struct pool test_pool;
 int open_test_pool(void **state);
 int close_test_pool(void **state);
+
+/* A test is its definition, UNIT_TEST(name) { ... }: it runs in the order of the file, by the main of tests/main.c, which takes a
+ * pattern for those that are wanted. POOL_TEST has test_pool, FIXTURE_TEST a setup and teardown of its own; TEST_GROUP are those
+ * around all of them. */
+#define FIXTURE_TEST(name, setup, teardown)                                                                                      \
+    static void name(void **state);                                                                                              \
+    __attribute__((constructor)) static void enter_##name(void)                                                                  \
+    {                                                                                                                            \
+        test_enter(#name, name, setup, teardown);                                                                                \
+    }                                                                                                                            \
+    static void name(__attribute__((unused)) void **state)
+#define UNIT_TEST(name) FIXTURE_TEST(name, NULL, NULL)
+#define POOL_TEST(name) FIXTURE_TEST(name, open_test_pool, close_test_pool)
+#define TEST_GROUP(setup, teardown)                                                                                              \
+    __attribute__((constructor)) static void enter_group(void)                                                                   \
+    {                                                                                                                            \
+        test_enter_group(setup, teardown);                                                                                       \
+    }                                                                                                                            \
+    void test_enter_group(CMFixtureFunction setup_all, CMFixtureFunction teardown_all)
+void test_enter(const char *name, CMUnitTestFunction test, CMFixtureFunction setup, CMFixtureFunction teardown);
+void test_enter_group(CMFixtureFunction setup_all, CMFixtureFunction teardown_all);
+
+/* What has been entered, or of it what matches argv[1]; for a main of its own. The number that failed. */
+int test_main(int argc, char **argv);
 
 /* Threads of the BLAS, where it has any to set, as OpenBLAS does; 0 where not. */
 void set_blas_threads(int threads);

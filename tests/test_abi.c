@@ -35,9 +35,8 @@ static const char *text_of(struct pool *pool, const char *source)
     return abi_text(pool, &header);
 }
 
-static void hosts_of_this_major_version_still_run(void **state)
+POOL_TEST(hosts_of_this_major_version_still_run)
 {
-    (void)state;
     struct header header;
     const char *report, *snapshot = read_snapshot(&test_pool);
     if (header_read(&test_pool, HEADER, &header))
@@ -60,9 +59,8 @@ static void hosts_of_this_major_version_still_run(void **state)
     }
 }
 
-static void all_version_numbers_agree(void **state)
+POOL_TEST(all_version_numbers_agree)
 {
-    (void)state;
     struct header header;
     char *end;
     assert_int_equal(header_read(&test_pool, HEADER, &header), 0);
@@ -74,9 +72,8 @@ static void all_version_numbers_agree(void **state)
     assert_string_equal(rotid_version(), ROTID_VERSION);
 }
 
-static void structs_that_may_grow_are_handed_out_one_at_a_time(void **state)
+POOL_TEST(structs_that_may_grow_are_handed_out_one_at_a_time)
 {
-    (void)state;
     struct header header;
     const char *why;
     int count = 0;
@@ -95,9 +92,8 @@ static void structs_that_may_grow_are_handed_out_one_at_a_time(void **state)
 }
 
 /* What a host fills says its size, or it stands in the list of what never grows. */
-static void structs_of_hosts_say_their_size(void **state)
+POOL_TEST(structs_of_hosts_say_their_size)
 {
-    (void)state;
     static const char *const fixed[] = {"rotid_allocator", "rotid_parameter", "rotid_matrix", "rotid_lm_result"};
     static const char *const sized[] = {
         "rotid_environment", "rotid_diagnose_options", "rotid_suggest_options", "rotid_speeds_options",
@@ -137,9 +133,8 @@ static const char *changed(const char *old, const char *new)
     return pool_format(&test_pool, "%.*s%s%s", (int)(at - small), small, new, at + strlen(old));
 }
 
-static void every_kind_of_change_is_told(void **state)
+POOL_TEST(every_kind_of_change_is_told)
 {
-    (void)state;
     static const struct {
         const char *old, *new;
         enum abi_change change;
@@ -232,12 +227,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "--write") == 0)
         return write_snapshot(argc > 2 && strcmp(argv[2], "--unreleased") == 0);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(hosts_of_this_major_version_still_run, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(all_version_numbers_agree, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(structs_that_may_grow_are_handed_out_one_at_a_time, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(structs_of_hosts_say_their_size, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_kind_of_change_is_told, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_main(argc, argv);
 }

@@ -5,10 +5,10 @@
 
 #include "fit/fit.h"
 #include "paper_fit.h"
+#include "support.h"
 
-static void test_pool_says_when_memory_is_out_and_stays_usable(void **state)
+UNIT_TEST(test_pool_says_when_memory_is_out_and_stays_usable)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     failing_allocator_open(&failing, 3);
@@ -28,9 +28,8 @@ static void test_pool_says_when_memory_is_out_and_stays_usable(void **state)
     assert_int_equal(failing.in_use, 0);
 }
 
-static void test_pool_refuses_a_size_that_overflows(void **state)
+UNIT_TEST(test_pool_refuses_a_size_that_overflows)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     failing_allocator_open(&failing, 0);
@@ -42,9 +41,8 @@ static void test_pool_refuses_a_size_that_overflows(void **state)
     pool_close(&pool);
 }
 
-static void test_array_that_cannot_grow_keeps_what_it_has(void **state)
+UNIT_TEST(test_array_that_cannot_grow_keeps_what_it_has)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     size_t capacity = 0, count = 0;
@@ -64,9 +62,8 @@ static void test_array_that_cannot_grow_keeps_what_it_has(void **state)
     assert_int_equal(failing.in_use, 0);
 }
 
-static void test_model_of_a_rotor_survives_every_failing_allocation(void **state)
+UNIT_TEST(test_model_of_a_rotor_survives_every_failing_allocation)
 {
-    (void)state;
     int status = ROTID_ERROR_MEMORY, n = 0;
     while (status == ROTID_ERROR_MEMORY) {
         struct failing_allocator failing;
@@ -120,7 +117,7 @@ static int sweep(struct paper_fit *fit)
     return 0;
 }
 
-static void test_fit_survives_every_failing_allocation(void **state)
+UNIT_TEST(test_fit_survives_every_failing_allocation)
 {
     static const rotid_fit_options options[] = {
         {.size = sizeof *options, .functional = ROTID_LIKELIHOOD, .reduction = ROTID_REDUCTION_NONE},
@@ -128,7 +125,6 @@ static void test_fit_survives_every_failing_allocation(void **state)
         {.size = sizeof *options, .functional = ROTID_HYBRID, .reduction = ROTID_IRS, .derivative = ROTID_NELSON},
         {.size = sizeof *options, .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN, .baseline = 1},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof options / sizeof *options; k++) {
         struct paper_fit fit;
         paper_fit_open(&fit, BUNDLE_TUBE);
@@ -145,9 +141,8 @@ static void test_fit_survives_every_failing_allocation(void **state)
 }
 
 /* Memory is a matter of the sizes, not of the number of iterations (the history has its place from the beginning). */
-static void test_iterations_allocate_nothing(void **state)
+UNIT_TEST(test_iterations_allocate_nothing)
 {
-    (void)state;
     struct paper_fit fit;
     long served[2];
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -177,9 +172,8 @@ static int cancelled(void *context)
 }
 
 /* The best point so far, with everything that is said about it. */
-static void test_cancelled_fit_returns_the_best_point_so_far(void **state)
+UNIT_TEST(test_cancelled_fit_returns_the_best_point_so_far)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     fit.options.baseline = 1;
@@ -212,9 +206,8 @@ static void test_cancelled_fit_returns_the_best_point_so_far(void **state)
 }
 
 /* Cancelled while NLopt runs: the fit itself was done, and nothing is said of a baseline. */
-static void test_cancelled_baseline_leaves_the_finished_fit(void **state)
+UNIT_TEST(test_cancelled_baseline_leaves_the_finished_fit)
 {
-    (void)state;
     if (!baseline_count(2))
         skip(); /* built without NLopt */
     struct paper_fit fit;
@@ -231,19 +224,4 @@ static void test_cancelled_baseline_leaves_the_finished_fit(void **state)
         rotid_fit_free(result);
     }
     paper_fit_close(&fit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pool_says_when_memory_is_out_and_stays_usable),
-        cmocka_unit_test(test_pool_refuses_a_size_that_overflows),
-        cmocka_unit_test(test_array_that_cannot_grow_keeps_what_it_has),
-        cmocka_unit_test(test_model_of_a_rotor_survives_every_failing_allocation),
-        cmocka_unit_test(test_fit_survives_every_failing_allocation),
-        cmocka_unit_test(test_iterations_allocate_nothing),
-        cmocka_unit_test(test_cancelled_fit_returns_the_best_point_so_far),
-        cmocka_unit_test(test_cancelled_baseline_leaves_the_finished_fit),
-    };
-    return cmocka_run_group_tests_name("allocation", tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "api_bench.h"
 #include "deck/deck.h"
 #include "folder.h"
+#include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
@@ -17,12 +18,11 @@
 
 /* ------------------------------------------------------------------------------------------------ decks */
 
-static void a_deck_shows_what_was_read(void **state)
+UNIT_TEST(a_deck_shows_what_was_read)
 {
     struct pool pool;
     struct message_list messages;
     struct job job;
-    (void)state;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
     assert_status(deck_read(&pool, SOLID, 0, NULL, &messages, &job), ROTID_OK);
@@ -54,9 +54,8 @@ static void a_deck_shows_what_was_read(void **state)
     pool_close(&pool);
 }
 
-static void mass_and_centre_are_those_at_the_start_of_the_parameters(void **state)
+UNIT_TEST(mass_and_centre_are_those_at_the_start_of_the_parameters)
 {
-    (void)state;
     const double area = 3.14159265358979323846 / 4 * 0.1 * 0.1;
     rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR));
     assert_close(deck->length, 1.2, 1e-15, 0);
@@ -79,12 +78,11 @@ static void mass_and_centre_are_those_at_the_start_of_the_parameters(void **stat
     rotid_deck_free(deck);
 }
 
-static void overrides_act_and_those_of_another_form_are_refused(void **state)
+UNIT_TEST(overrides_act_and_those_of_another_form_are_refused)
 {
     static const char *const good[] = {"FIT.MODES=1-4", "fit.holdout=2"}, *const none[] = {NULL},
                              *const bad[] = {"FIT.MODES", "=", "FIT=3", ".MODES=1", "SHAFTS.NAME=a", "FIT.MODES=fish"};
     rotid_deck *deck;
-    (void)state;
     assert_status(rotid_deck_read(PAPER, 2, good, NULL, NULL, &deck), ROTID_OK);
     assert_int_equal(deck->nmode, 6);
     for (int k = 0; k < 6; k++) /* those not fitted are predicted */
@@ -103,9 +101,8 @@ static void overrides_act_and_those_of_another_form_are_refused(void **state)
 
 /* ------------------------------------------------------------------------------------------------ modes */
 
-static void modes_follow_the_parameters(void **state)
+UNIT_TEST(modes_follow_the_parameters)
 {
-    (void)state;
     const double four = 8e11;
     rotid_spectrum *one, *two;
     rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
@@ -143,9 +140,8 @@ static void modes_follow_the_parameters(void **state)
     rotid_deck_free(deck);
 }
 
-static void a_model_with_few_modes_gives_what_it_has(void **state)
+UNIT_TEST(a_model_with_few_modes_gives_what_it_has)
 {
-    (void)state;
     rotid_spectrum *s;
     rotid_deck *deck = bench_deck(ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp");
     assert_status(rotid_spectrum_compute(deck, NULL, 1000000000, NULL, NULL, &s), ROTID_OK);
@@ -156,9 +152,8 @@ static void a_model_with_few_modes_gives_what_it_has(void **state)
 
 /* ------------------------------------------------------------------------------------------------ identification */
 
-static void with_nothing_to_identify_the_model_is_compared(void **state)
+UNIT_TEST(with_nothing_to_identify_the_model_is_compared)
 {
-    (void)state;
     rotid_spectrum *s;
     rotid_identification *r;
     rotid_deck *deck = bench_deck(folder_write("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
@@ -174,9 +169,8 @@ static void with_nothing_to_identify_the_model_is_compared(void **state)
     rotid_deck_free(deck);
 }
 
-static void an_identification_says_what_its_fit_found(void **state)
+UNIT_TEST(an_identification_says_what_its_fit_found)
 {
-    (void)state;
     rotid_identification *r;
     rotid_spectrum *s;
     rotid_deck *deck = bench_deck(PAPER);
@@ -219,9 +213,8 @@ static void an_identification_says_what_its_fit_found(void **state)
     rotid_deck_free(deck);
 }
 
-static void verdicts_have_names(void **state)
+UNIT_TEST(verdicts_have_names)
 {
-    (void)state;
     assert_string_equal(rotid_verdict_name(ROTID_ADEQUATE), "adequate");
     assert_string_equal(rotid_verdict_name(ROTID_NAMED), "named");
     assert_string_equal(rotid_verdict_name(ROTID_AMBIGUOUS), "ambiguous");
@@ -236,17 +229,4 @@ static int open_folder(void **state)
     return folder_make(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_deck_shows_what_was_read),
-        cmocka_unit_test(mass_and_centre_are_those_at_the_start_of_the_parameters),
-        cmocka_unit_test(overrides_act_and_those_of_another_form_are_refused),
-        cmocka_unit_test(modes_follow_the_parameters),
-        cmocka_unit_test(a_model_with_few_modes_gives_what_it_has),
-        cmocka_unit_test(with_nothing_to_identify_the_model_is_compared),
-        cmocka_unit_test(an_identification_says_what_its_fit_found),
-        cmocka_unit_test(verdicts_have_names),
-    };
-    return cmocka_run_group_tests_name("api", tests, open_folder, folder_remove);
-}
+TEST_GROUP(open_folder, folder_remove);

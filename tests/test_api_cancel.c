@@ -13,6 +13,7 @@
 #include "fit/fit.h"
 #include "folder.h"
 #include "paper_fit.h"
+#include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
@@ -75,9 +76,8 @@ static int derivatives(void *user, const double *x, int p, rotid_matrix *stiffne
     return host->model->derivatives(host->model->user, x, p, stiffness, mass);
 }
 
-static void a_fit_evaluates_nothing_more(void **state)
+UNIT_TEST(a_fit_evaluates_nothing_more)
 {
-    (void)state;
     int ended = 0, in_baseline = 0, most = 0;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -110,9 +110,8 @@ static void a_fit_evaluates_nothing_more(void **state)
 
 /* ------------------------------------------------------------------------------------------------ decks */
 
-static void an_identification_ends_with_the_best_point_so_far(void **state)
+UNIT_TEST(an_identification_ends_with_the_best_point_so_far)
 {
-    (void)state;
     rotid_deck *deck = bench_deck(PAPER);
     rotid_identification *whole, *r;
     double longest = 0;
@@ -157,9 +156,8 @@ static void an_identification_ends_with_the_best_point_so_far(void **state)
     rotid_deck_free(deck);
 }
 
-static void a_diagnosis_shows_what_was_finished(void **state)
+UNIT_TEST(a_diagnosis_shows_what_was_finished)
 {
-    (void)state;
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     for (int threads = 1; threads <= 2; threads++) {
         const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100, .threads = threads};
@@ -209,9 +207,8 @@ static void a_diagnosis_shows_what_was_finished(void **state)
 }
 
 /* Broken off while the final models are fitted: each is there whole or not at all. */
-static void a_broken_off_model_is_no_result(void **state)
+UNIT_TEST(a_broken_off_model_is_no_result)
 {
-    (void)state;
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     rotid_diagnosis *r;
@@ -243,13 +240,4 @@ static int open_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_fit_evaluates_nothing_more),
-        cmocka_unit_test(an_identification_ends_with_the_best_point_so_far),
-        cmocka_unit_test(a_diagnosis_shows_what_was_finished),
-        cmocka_unit_test(a_broken_off_model_is_no_result),
-    };
-    return cmocka_run_group_tests_name("api cancel", tests, open_folder, folder_remove);
-}
+TEST_GROUP(open_folder, folder_remove);

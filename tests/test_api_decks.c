@@ -119,11 +119,10 @@ static void try_deck(const char *name, struct tally *tally)
     rotid_deck_free(deck);
 }
 
-static void wrong_decks_are_told_by_their_messages_alone(void **state)
+UNIT_TEST(wrong_decks_are_told_by_their_messages_alone)
 {
     struct tally tally = {0};
     int files = 0;
-    (void)state;
     DIR *stream = opendir(CORPUS);
     assert_non_null(stream);
     listen_in();
@@ -145,9 +144,8 @@ static void wrong_decks_are_told_by_their_messages_alone(void **state)
     assert_true(tally.section > 0);
 }
 
-static void a_file_that_is_not_there_is_named(void **state)
+UNIT_TEST(a_file_that_is_not_there_is_named)
 {
-    (void)state;
     rotid_deck *deck;
     char failure[512];
     rotid_identification *result;
@@ -164,9 +162,8 @@ static void a_file_that_is_not_there_is_named(void **state)
     rotid_deck_free(deck);
 }
 
-static void of_many_errors_the_number_is_kept(void **state)
+UNIT_TEST(of_many_errors_the_number_is_kept)
 {
-    (void)state;
     static char text[30000];
     size_t used = 0;
     for (int i = 0; i < 1000; i++)
@@ -179,9 +176,8 @@ static void of_many_errors_the_number_is_kept(void **state)
     rotid_deck_free(deck);
 }
 
-static void arguments_out_of_range_are_refused(void **state)
+UNIT_TEST(arguments_out_of_range_are_refused)
 {
-    (void)state;
     static const char *const text[] = {"FIT.FUNCTIONAL=HYBRID"};
     const struct {
         rotid_diagnose_options options;
@@ -252,9 +248,8 @@ static void arguments_out_of_range_are_refused(void **state)
     rotid_deck_free(deck);
 }
 
-static void runs_say_why_they_failed(void **state)
+UNIT_TEST(runs_say_why_they_failed)
 {
-    (void)state;
     char failure[512] = "not touched";
     rotid_deck *deck;
     rotid_identification *identification;
@@ -277,9 +272,8 @@ static void runs_say_why_they_failed(void **state)
 }
 
 /* A message longer than the buffer is cut off between two characters. */
-static void a_long_reason_is_cut_off_between_characters(void **state)
+UNIT_TEST(a_long_reason_is_cut_off_between_characters)
 {
-    (void)state;
     char name[3][260], path[1200], text[] = MODEL;
     size_t used = (size_t)snprintf(path, sizeof path, "%s", folder);
     for (int i = 0; i < 3; i++) { /* three folders of a hundred letters with two bytes each, the last begins with one more byte */
@@ -320,15 +314,4 @@ static void a_long_reason_is_cut_off_between_characters(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_decks_are_told_by_their_messages_alone),
-        cmocka_unit_test(a_file_that_is_not_there_is_named),
-        cmocka_unit_test(of_many_errors_the_number_is_kept),
-        cmocka_unit_test(arguments_out_of_range_are_refused),
-        cmocka_unit_test(runs_say_why_they_failed),
-        cmocka_unit_test(a_long_reason_is_cut_off_between_characters),
-    };
-    return cmocka_run_group_tests_name("api decks", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -8,6 +8,7 @@
 #include "api_bench.h"
 #include "api_dump.h"
 #include "folder.h"
+#include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
@@ -154,9 +155,8 @@ static const char machine[] =
     "100\n*BEARING, NAME=q, STD=0.1\nend, 5e6, 100\n*UNBALANCE\n0.5, 0.001\n*PROBE, NAME=x\n0.4\n*OPERATION, "
     "MARGIN=0.1\n1000, 3000\n*RUNUP\n1, 4200, 50\n*IDENTIFY\np.k, 0.1, 10, 1\n";
 
-static void every_allocation_may_fail(void **state)
+UNIT_TEST(every_allocation_may_fail)
 {
-    (void)state;
     rotid_deck *deck = bench_deck(folder_path("deck.inp")), *bar = bench_deck(folder_path("bar.inp"));
     sweep("rotid_deck_read", NULL, try_read, free_deck, 100000, 1);
     sweep("rotid_deck_read of a wrong deck", NULL, try_read_wrong, free_deck, 300, 1.1);
@@ -188,9 +188,8 @@ static void check_identification(const struct bench_memory *owner, const rotid_i
 }
 
 /* The allocator spoils what it gets back, so a pointer into the deck, from any member that a result has, would show. */
-static void results_outlive_the_deck_and_live_on_the_allocator(void **state)
+UNIT_TEST(results_outlive_the_deck_and_live_on_the_allocator)
 {
-    (void)state;
     struct bench_memory memory;
     rotid_deck *deck;
     rotid_spectrum *spectrum;
@@ -233,9 +232,8 @@ static void results_outlive_the_deck_and_live_on_the_allocator(void **state)
 }
 
 /* What a result keeps, against what its run took: the scratch is gone when the call returns. */
-static void results_are_small(void **state)
+UNIT_TEST(results_are_small)
 {
-    (void)state;
     struct bench_memory memory;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
@@ -269,12 +267,4 @@ static int open_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(results_outlive_the_deck_and_live_on_the_allocator),
-        cmocka_unit_test(results_are_small),
-    };
-    return cmocka_run_group_tests_name("api memory", tests, open_folder, folder_remove);
-}
+TEST_GROUP(open_folder, folder_remove);

@@ -8,6 +8,7 @@
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "model/model.h"
+#include "support.h"
 
 #define N 37
 
@@ -19,7 +20,7 @@ static void rows_of(int n, int nfar, const int *far, int *row)
 
 /* Bands of 1 to 6 with no, four, six, nine full rows, and the last two, which keep their places; shifts below, between and above
  * eigenvalues. */
-static void solutions_and_counts_are_those_of_dense_matrices(void **state)
+POOL_TEST(solutions_and_counts_are_those_of_dense_matrices)
 {
     struct random_stream stream = {91};
     const int spread[9] = {0, 1, 7, 11, 12, 20, 24, 25, 36}, ends[2] = {N - 2, N - 1}, nfars[5] = {0, 4, 6, 9, 2};
@@ -63,7 +64,7 @@ static void solutions_and_counts_are_those_of_dense_matrices(void **state)
 }
 
 /* [0 1; 1 0] has no pivot to begin with, and [1 1; 1 1 + 1e-9] loses nine digits: told of that shift, and of no other. */
-static void a_lost_pivot_is_told_for_its_shift_alone(void **state)
+POOL_TEST(a_lost_pivot_is_told_for_its_shift_alone)
 {
     struct arrow a;
     int negative[ARROW_SHIFTS];
@@ -83,7 +84,7 @@ static void a_lost_pivot_is_told_for_its_shift_alone(void **state)
 
 /* Modes of the coarse mesh at the nodes of the refined one: rigid motions as they are, and modes but for the error of the mesh.
  */
-static void modes_of_a_refined_mesh_are_near(void **state)
+POOL_TEST(modes_of_a_refined_mesh_are_near)
 {
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
         struct rotor_model coarse, fine;
@@ -115,14 +116,4 @@ static void modes_of_a_refined_mesh_are_near(void **state)
             assert_close(fine.equations.modes[2 * i + 1], 2, 1e-12, 0);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(solutions_and_counts_are_those_of_dense_matrices),
-        WITH_POOL(a_lost_pivot_is_told_for_its_shift_alone),
-        WITH_POOL(modes_of_a_refined_mesh_are_near),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static void guarded_open(struct guarded *guarded, int fail_at)
 
 /* ---- pool */
 
-static void blocks_are_zeroed_aligned_and_apart(void **state)
+UNIT_TEST(blocks_are_zeroed_aligned_and_apart)
 {
-    (void)state;
     struct guarded guarded;
     struct pool pool;
     guarded_open(&guarded, 0);
@@ -76,9 +75,8 @@ static void blocks_are_zeroed_aligned_and_apart(void **state)
     pool_close(&pool); /* a closed pool is an empty one */
 }
 
-static void a_product_that_overflows_asks_for_nothing(void **state)
+UNIT_TEST(a_product_that_overflows_asks_for_nothing)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     failing_allocator_open(&failing, 0);
@@ -99,9 +97,8 @@ static void a_product_that_overflows_asks_for_nothing(void **state)
     assert_int_equal(failing.in_use, 0);
 }
 
-static void a_growing_array_keeps_its_elements(void **state)
+UNIT_TEST(a_growing_array_keeps_its_elements)
 {
-    (void)state;
     struct guarded guarded;
     struct pool pool;
     guarded_open(&guarded, 0);
@@ -123,9 +120,8 @@ static void a_growing_array_keeps_its_elements(void **state)
     assert_int_equal(guarded.overwritten, 0);
 }
 
-static void an_array_that_cannot_grow_stays_valid(void **state)
+UNIT_TEST(an_array_that_cannot_grow_stays_valid)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     failing_allocator_open(&failing, 2);
@@ -144,9 +140,8 @@ static void an_array_that_cannot_grow_stays_valid(void **state)
     assert_int_equal(failing.in_use, 0);
 }
 
-static void texts_are_copied_and_formatted_at_any_length(void **state)
+UNIT_TEST(texts_are_copied_and_formatted_at_any_length)
 {
-    (void)state;
     struct pool pool;
     char source[] = "core.E", longest[5000];
     pool_open(&pool, NULL);
@@ -179,9 +174,8 @@ static int use_pool(struct pool *pool)
     return 1;
 }
 
-static void nothing_is_left_behind_whichever_allocation_fails(void **state)
+UNIT_TEST(nothing_is_left_behind_whichever_allocation_fails)
 {
-    (void)state;
     int completed = 0, failures = 0;
     for (long n = 1; !completed; n++) {
         struct failing_allocator failing;
@@ -199,9 +193,8 @@ static void nothing_is_left_behind_whichever_allocation_fails(void **state)
 
 /* ---- messages */
 
-static void messages_are_kept_in_order_with_their_place(void **state)
+UNIT_TEST(messages_are_kept_in_order_with_their_place)
 {
-    (void)state;
     struct pool pool;
     struct message_list list;
     char file[] = "deck.inp", word[] = "MESH";
@@ -226,9 +219,8 @@ static void messages_are_kept_in_order_with_their_place(void **state)
     pool_close(&pool);
 }
 
-static void messages_past_the_limit_are_counted_only(void **state)
+UNIT_TEST(messages_past_the_limit_are_counted_only)
 {
-    (void)state;
     struct failing_allocator failing;
     struct pool pool;
     struct message_list list;
@@ -255,9 +247,8 @@ static void messages_past_the_limit_are_counted_only(void **state)
     pool_close(&pool);
 }
 
-static void a_long_message_is_cut_not_overrun(void **state)
+UNIT_TEST(a_long_message_is_cut_not_overrun)
 {
-    (void)state;
     struct pool pool;
     struct message_list list;
     char text[3000];
@@ -273,9 +264,8 @@ static void a_long_message_is_cut_not_overrun(void **state)
 }
 
 /* Memory that fails once and comes back: the list stays sound, keeps what it can and says that something is missing. */
-static void messages_survive_a_failed_allocation(void **state)
+UNIT_TEST(messages_survive_a_failed_allocation)
 {
-    (void)state;
     for (int n = 1; n <= 45; n++) {
         struct guarded guarded;
         struct pool pool;
@@ -316,9 +306,8 @@ static const struct status statuses[] = {
 
 enum { nstatus = sizeof statuses / sizeof *statuses };
 
-static void every_status_has_its_own_name_and_text(void **state)
+UNIT_TEST(every_status_has_its_own_name_and_text)
 {
-    (void)state;
     assert_int_equal(ROTID_OK, 0);
     for (int i = 0; i < nstatus; i++) {
         assert_string_equal(rotid_status_name(statuses[i].value), statuses[i].name);
@@ -332,16 +321,14 @@ static void every_status_has_its_own_name_and_text(void **state)
     }
 }
 
-static void three_statuses_tell_a_minimum(void **state)
+UNIT_TEST(three_statuses_tell_a_minimum)
 {
-    (void)state;
     for (int i = 0; i < nstatus; i++)
         assert_int_equal(rotid_status_converged(statuses[i].value), statuses[i].value >= 1 && statuses[i].value <= 3);
 }
 
-static void other_values_are_unknown_statuses(void **state)
+UNIT_TEST(other_values_are_unknown_statuses)
 {
-    (void)state;
     const int value[] = {INT_MIN, -1000, -16, 7, 1000, INT_MAX};
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
         assert_string_equal(rotid_status_text(value[i]), "unknown status");
@@ -349,30 +336,8 @@ static void other_values_are_unknown_statuses(void **state)
     }
 }
 
-static void the_median_is_the_middle_one_or_the_mean_of_the_middle_two(void **state)
+UNIT_TEST(the_median_is_the_middle_one_or_the_mean_of_the_middle_two)
 {
     double odd[] = {7, -1, 3}, even[] = {10, 1, 2, 4};
-    (void)state;
     assert_true(median_of(3, odd) == 3 && median_of(4, even) == 3 && isnan(median_of(0, odd)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_zeroed_aligned_and_apart),
-        cmocka_unit_test(a_product_that_overflows_asks_for_nothing),
-        cmocka_unit_test(a_growing_array_keeps_its_elements),
-        cmocka_unit_test(an_array_that_cannot_grow_stays_valid),
-        cmocka_unit_test(texts_are_copied_and_formatted_at_any_length),
-        cmocka_unit_test(nothing_is_left_behind_whichever_allocation_fails),
-        cmocka_unit_test(messages_are_kept_in_order_with_their_place),
-        cmocka_unit_test(messages_past_the_limit_are_counted_only),
-        cmocka_unit_test(a_long_message_is_cut_not_overrun),
-        cmocka_unit_test(messages_survive_a_failed_allocation),
-        cmocka_unit_test(every_status_has_its_own_name_and_text),
-        cmocka_unit_test(three_statuses_tell_a_minimum),
-        cmocka_unit_test(other_values_are_unknown_statuses),
-        cmocka_unit_test(the_median_is_the_middle_one_or_the_mean_of_the_middle_two),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -126,9 +126,8 @@ static void assert_wave_numbers(const struct rotor *rotor, const double *lambda,
     }
 }
 
-static void slender_free_beam_has_the_euler_bernoulli_frequencies(void **state)
+POOL_TEST(slender_free_beam_has_the_euler_bernoulli_frequencies)
 {
-    (void)state;
     struct rotor rotor = bar(10, 1e-3, 60, 1);
     double lambda[6];
     eigenvalues(&rotor, 6, lambda);
@@ -137,9 +136,8 @@ static void slender_free_beam_has_the_euler_bernoulli_frequencies(void **state)
         assert_close(lambda[j], 0, 0, 1e-9 * lambda[2]);
 }
 
-static void slender_cantilever_on_stiff_springs_has_the_euler_bernoulli_frequencies(void **state)
+POOL_TEST(slender_cantilever_on_stiff_springs_has_the_euler_bernoulli_frequencies)
 {
-    (void)state;
     struct rotor rotor = bar(10, 1e-3, 60, 1);
     struct element e = properties(&rotor);
     rotor.nspring = 1;
@@ -150,9 +148,8 @@ static void slender_cantilever_on_stiff_springs_has_the_euler_bernoulli_frequenc
     assert_wave_numbers(&rotor, lambda, 4, free_or_fixed, -1, (double[]){1, pi, 2 * pi, 3 * pi, 4 * pi}, 1e-5);
 }
 
-static void cantilever_with_a_tip_mass_follows_its_frequency_equation(void **state)
+POOL_TEST(cantilever_with_a_tip_mass_follows_its_frequency_equation)
 {
-    (void)state;
     struct rotor rotor = bar(10, 1e-3, 60, 1);
     struct element e = properties(&rotor);
     rotor.nspring = rotor.ndisk = 1;
@@ -166,9 +163,8 @@ static void cantilever_with_a_tip_mass_follows_its_frequency_equation(void **sta
     }
 }
 
-static void slender_pinned_beam_has_the_euler_bernoulli_frequencies(void **state)
+POOL_TEST(slender_pinned_beam_has_the_euler_bernoulli_frequencies)
 {
-    (void)state;
     struct rotor rotor = bar(10, 1e-3, 40, 1);
     struct element e = properties(&rotor);
     double lambda[5];
@@ -177,9 +173,8 @@ static void slender_pinned_beam_has_the_euler_bernoulli_frequencies(void **state
         assert_close(lambda[k], pow((k + 1) * pi / e.length, 4) * e.ei / e.rhos, 1e-4, 0);
 }
 
-static void stiff_springs_approach_the_pinned_beam(void **state)
+POOL_TEST(stiff_springs_approach_the_pinned_beam)
 {
-    (void)state;
     struct rotor rotor = bar(1, 0.05, 24, 0);
     double pinned[3], sprung[3];
     pinned_eigenvalues(&rotor, 3, pinned);
@@ -193,9 +188,8 @@ static void stiff_springs_approach_the_pinned_beam(void **state)
 }
 
 /* A stubby bar a hundred times stiffer than steel: it translates with 2k/m and turns with k L^2/2 + 2 k_rot over its inertia. */
-static void rigid_bar_on_soft_springs_translates_and_turns(void **state)
+POOL_TEST(rigid_bar_on_soft_springs_translates_and_turns)
 {
-    (void)state;
     struct rotor rotor = bar(1, 0.5, 4, 0);
     shaft.material.e *= 100;
     struct element e = properties(&rotor);
@@ -221,9 +215,8 @@ static double timoshenko_pinned(const struct element *e, int n)
     return 2 * c / (b + sqrt(b * b - 4 * a * c));
 }
 
-static void thick_pinned_beam_has_the_timoshenko_frequencies_with_and_without_tension(void **state)
+POOL_TEST(thick_pinned_beam_has_the_timoshenko_frequencies_with_and_without_tension)
 {
-    (void)state;
     const double force[] = {0, 4e7, -4e7};
     for (int f = 0; f < 3; f++) {
         struct rotor rotor = bar(1, 0.2, 60, 0);
@@ -252,9 +245,8 @@ static double error_of(double diameter, int elements, int mode)
     return error;
 }
 
-static void order_of_convergence_is_two_for_thick_elements_and_rises_to_four_for_slender_ones(void **state)
+POOL_TEST(order_of_convergence_is_two_for_thick_elements_and_rises_to_four_for_slender_ones)
 {
-    (void)state;
     const double diameter[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
     double order[6];
     for (int i = 0; i < 6; i++) {
@@ -271,9 +263,8 @@ static void order_of_convergence_is_two_for_thick_elements_and_rises_to_four_for
     assert_close(order[5], 4, 0, 0.05);
 }
 
-static void rotor_like_mesh_converges_with_order_two_at_every_level(void **state)
+POOL_TEST(rotor_like_mesh_converges_with_order_two_at_every_level)
 {
-    (void)state;
     double last = error_of(0.3, 8, 2);
     for (int elements = 16; elements <= 64; elements *= 2) {
         double error = error_of(0.3, elements, 2);
@@ -309,9 +300,8 @@ static double critical_load(struct rotor *rotor)
     return low;
 }
 
-static void pinned_column_buckles_at_engessers_load(void **state)
+POOL_TEST(pinned_column_buckles_at_engessers_load)
 {
-    (void)state;
     const double diameter[] = {0.02, 0.1, 0.2, 0.4, 0.8};
     for (int i = 0; i < 5; i++) {
         struct rotor coarse = bar(1, diameter[i], 20, 0);
@@ -324,23 +314,4 @@ static void pinned_column_buckles_at_engessers_load(void **state)
         assert_close(on_fine, engesser, 1e-3, 0);
         assert_true(on_coarse > on_fine && on_fine > engesser * (1 - 1e-9));
     }
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(slender_free_beam_has_the_euler_bernoulli_frequencies),
-        TEST(slender_cantilever_on_stiff_springs_has_the_euler_bernoulli_frequencies),
-        TEST(cantilever_with_a_tip_mass_follows_its_frequency_equation),
-        TEST(slender_pinned_beam_has_the_euler_bernoulli_frequencies),
-        TEST(stiff_springs_approach_the_pinned_beam),
-        TEST(rigid_bar_on_soft_springs_translates_and_turns),
-        TEST(thick_pinned_beam_has_the_timoshenko_frequencies_with_and_without_tension),
-        TEST(order_of_convergence_is_two_for_thick_elements_and_rises_to_four_for_slender_ones),
-        TEST(rotor_like_mesh_converges_with_order_two_at_every_level),
-        TEST(pinned_column_buckles_at_engessers_load),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

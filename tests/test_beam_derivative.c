@@ -152,9 +152,8 @@ static void differentiate_all(enum bundle_model model, int self_equilibrated, in
     }
 }
 
-static void every_kind_of_parameter_agrees_with_differences_for_rods_and_tube(void **state)
+POOL_TEST(every_kind_of_parameter_agrees_with_differences_for_rods_and_tube)
 {
-    (void)state;
     double worst[CASES] = {0};
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++)
         for (int balanced = 0; balanced < 2; balanced++)
@@ -166,9 +165,8 @@ static void every_kind_of_parameter_agrees_with_differences_for_rods_and_tube(vo
 }
 
 /* K is of first degree in all moduli, forces and springs together, M of first degree in what has mass (Euler's theorem). */
-static void derivatives_times_values_sum_up_to_the_matrices(void **state)
+POOL_TEST(derivatives_times_values_sum_up_to_the_matrices)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         static const char *const name[] = {"left.E",       "core.E",    "core.G",      "right.E",    "ties.E",
                                            "ties.tension", "start.k",   "start.k_rot", "right.k",    "left.rho",
@@ -213,9 +211,8 @@ static void derivatives_times_values_sum_up_to_the_matrices(void **state)
     }
 }
 
-static void parameters_move_the_beams_own_copy_of_the_rotor(void **state)
+POOL_TEST(parameters_move_the_beams_own_copy_of_the_rotor)
 {
-    (void)state;
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     struct beam beam;
     int failed;
@@ -228,9 +225,8 @@ static void parameters_move_the_beams_own_copy_of_the_rotor(void **state)
     assert_close(rotor->group[1].material.g, paper_start[1], 0, 0);
 }
 
-static void names_find_their_parameter_without_case_and_tell_what_is_wrong(void **state)
+POOL_TEST(names_find_their_parameter_without_case_and_tell_what_is_wrong)
 {
-    (void)state;
     struct rotor *rotor = workshop(BUNDLE_RODS, 1, 1);
     struct parameter parameter;
     const char *unit = NULL;
@@ -253,9 +249,8 @@ static void names_find_their_parameter_without_case_and_tell_what_is_wrong(void 
     assert_int_equal(parameter_find(rotor, "core.", &parameter, &unit), 2);
 }
 
-static void impossible_sections_name_their_group_or_bundle(void **state)
+POOL_TEST(impossible_sections_name_their_group_or_bundle)
 {
-    (void)state;
     struct beam beam;
     int failed;
     struct rotor *rotor = workshop(BUNDLE_TUBE, 1, 1);
@@ -272,9 +267,8 @@ static void impossible_sections_name_their_group_or_bundle(void **state)
     assert_int_equal(failed, rotor->ngroup + rotor->ntierod);
 }
 
-static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
+POOL_TEST(no_memory_is_reported_at_every_allocation_of_a_build)
 {
-    (void)state;
     const struct rotor *rotor = workshop(BUNDLE_TUBE, 1, 3);
     int status = ROTID_ERROR_MEMORY, n;
     for (n = 1; status; n++) {
@@ -294,19 +288,4 @@ static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
         assert_true(n < 200);
     }
     assert_true(n > 20);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(every_kind_of_parameter_agrees_with_differences_for_rods_and_tube),
-        TEST(derivatives_times_values_sum_up_to_the_matrices),
-        TEST(parameters_move_the_beams_own_copy_of_the_rotor),
-        TEST(names_find_their_parameter_without_case_and_tell_what_is_wrong),
-        TEST(impossible_sections_name_their_group_or_bundle),
-        TEST(no_memory_is_reported_at_every_allocation_of_a_build),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

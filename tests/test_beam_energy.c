@@ -74,9 +74,8 @@ static double energy(const rotid_matrix *a, const double *u)
     return matrix_product(a, u, u, work);
 }
 
-static void paper_rotor_has_its_mass_and_centre(void **state)
+POOL_TEST(paper_rotor_has_its_mass_and_centre)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct mass_properties p;
         assemble(paper_rotor((enum bundle_model)model, 1), 0, NULL, NULL);
@@ -86,9 +85,8 @@ static void paper_rotor_has_its_mass_and_centre(void **state)
     }
 }
 
-static void rigid_motion_carries_the_mass_and_inertia_of_everything(void **state)
+POOL_TEST(rigid_motion_carries_the_mass_and_inertia_of_everything)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++)
         for (int elements = 1; elements <= 3; elements += 2) {
             struct mass_properties p, bare;
@@ -108,9 +106,8 @@ static void rigid_motion_carries_the_mass_and_inertia_of_everything(void **state
 }
 
 /* Rods at pitch radius e have the moment of inertia of their own discs and of S e^2/2, whichever way they couple. */
-static void rods_and_tube_have_the_same_mass_properties(void **state)
+POOL_TEST(rods_and_tube_have_the_same_mass_properties)
 {
-    (void)state;
     struct mass_properties rods, tube;
     assemble(dressed(BUNDLE_RODS, 1, 3), 0, NULL, NULL);
     beam_mass_properties(&beam, &rods);
@@ -121,9 +118,8 @@ static void rods_and_tube_have_the_same_mass_properties(void **state)
     assert_close(rods.inertia, tube.inertia, 1e-13, 0);
 }
 
-static void limited_stiffness_diameter_weakens_the_shaft_and_leaves_its_mass(void **state)
+POOL_TEST(limited_stiffness_diameter_weakens_the_shaft_and_leaves_its_mass)
 {
-    (void)state;
     struct mass_properties whole, limited;
     struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
     assemble(rotor, 0, NULL, NULL);
@@ -159,9 +155,8 @@ static double largest_force(const double *u)
     return worst;
 }
 
-static void rigid_motion_of_a_free_rotor_meets_no_force_when_its_tension_is_balanced(void **state)
+POOL_TEST(rigid_motion_of_a_free_rotor_meets_no_force_when_its_tension_is_balanced)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++)
         for (int elements = 1; elements <= 3; elements += 2) {
             struct rotor *rotor = dressed((enum bundle_model)model, 1, elements);
@@ -174,9 +169,8 @@ static void rigid_motion_of_a_free_rotor_meets_no_force_when_its_tension_is_bala
 
 /* Tension that nothing balances: a rotation theta stores N T L theta^2/2, held by two lateral forces N T theta at the rods' ends.
  * A free rotor then swings like a pendulum with omega^2 = N T L/J, where the balanced one has a rigid mode at zero. */
-static void unbalanced_tension_stores_force_times_length_in_a_rotation(void **state)
+POOL_TEST(unbalanced_tension_stores_force_times_length_in_a_rotation)
 {
-    (void)state;
     for (int elements = 1; elements <= 3; elements += 2) {
         struct rotor *rotor = dressed(BUNDLE_RODS, 0, elements);
         struct eigen_band eigen;
@@ -220,9 +214,8 @@ static void rods_alone(enum bundle_model model, int elements, rotid_matrix *rods
 
 /* Ends turned against each other by one radian, the rods bent to a parabola: E (I_own + S e^2/2)/L, for the tube the same E I/L.
  */
-static void relative_rotation_of_the_ends_stretches_and_bends_the_rods(void **state)
+POOL_TEST(relative_rotation_of_the_ends_stretches_and_bends_the_rods)
 {
-    (void)state;
     double area, own, pitch;
     section_rods(12, 0.032, 0.13364, &area, &own, &pitch);
     assert_true(pitch > 100 * own); /* it is the stretch that couples */
@@ -244,9 +237,8 @@ static void relative_rotation_of_the_ends_stretches_and_bends_the_rods(void **st
 }
 
 /* Ends shifted against each other without turning: the tube resists as a short thick beam, rods only with their own bending. */
-static void relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods(void **state)
+POOL_TEST(relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods)
 {
-    (void)state;
     double area, own, pitch, outer, inner, stored[2];
     section_rods(12, 0.032, 0.13364, &area, &own, &pitch);
     assert_status(rotid_equivalent_cylinder(area, own + pitch, NULL, &outer, &inner), ROTID_OK);
@@ -267,9 +259,8 @@ static void relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods(void *
 }
 
 /* Bars that follow their centre without bending store nothing, however the axis bends: they are fixed there only. */
-static void bars_add_mass_but_no_stiffness_to_the_axis(void **state)
+POOL_TEST(bars_add_mass_but_no_stiffness_to_the_axis)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct rotor *rotor = dressed((enum bundle_model)model, 1, 1);
         assemble(rotor, 0, NULL, NULL);
@@ -297,9 +288,8 @@ static void bars_add_mass_but_no_stiffness_to_the_axis(void **state)
     }
 }
 
-static void sling_springs_follow_from_the_models_own_mass_and_centre(void **state)
+POOL_TEST(sling_springs_follow_from_the_models_own_mass_and_centre)
 {
-    (void)state;
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     struct mass_properties p;
     rotor->nspring = 0;
@@ -334,9 +324,8 @@ static int count_with_springs(double lateral_left, double rotational_left, doubl
     return count_rigid(rotor);
 }
 
-static void rigid_modes_are_those_that_the_supports_leave(void **state)
+POOL_TEST(rigid_modes_are_those_that_the_supports_leave)
 {
-    (void)state;
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     assert_int_equal(count_rigid(rotor), 2);
     rotor->nspring = 0;
@@ -352,9 +341,8 @@ static void rigid_modes_are_those_that_the_supports_leave(void **state)
     assert_int_equal(count_with_springs(1e12, 0, 1e12), 0); /* simply supported */
 }
 
-static void rigid_modes_become_bending_modes_one_by_one_as_springs_stiffen(void **state)
+POOL_TEST(rigid_modes_become_bending_modes_one_by_one_as_springs_stiffen)
 {
-    (void)state;
     int last = 2;
     for (double stiffness = 1e3; stiffness < 2e12; stiffness *= 10) {
         int now = count_with_springs(stiffness, 0, stiffness);
@@ -362,25 +350,4 @@ static void rigid_modes_become_bending_modes_one_by_one_as_springs_stiffen(void 
         last = now;
     }
     assert_int_equal(last, 0);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(paper_rotor_has_its_mass_and_centre),
-        TEST(rigid_motion_carries_the_mass_and_inertia_of_everything),
-        TEST(rods_and_tube_have_the_same_mass_properties),
-        TEST(limited_stiffness_diameter_weakens_the_shaft_and_leaves_its_mass),
-        TEST(rigid_motion_of_a_free_rotor_meets_no_force_when_its_tension_is_balanced),
-        TEST(unbalanced_tension_stores_force_times_length_in_a_rotation),
-        TEST(relative_rotation_of_the_ends_stretches_and_bends_the_rods),
-        TEST(relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods),
-        TEST(bars_add_mass_but_no_stiffness_to_the_axis),
-        TEST(sling_springs_follow_from_the_models_own_mass_and_centre),
-        TEST(rigid_modes_are_those_that_the_supports_leave),
-        TEST(rigid_modes_become_bending_modes_one_by_one_as_springs_stiffen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

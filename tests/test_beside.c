@@ -41,9 +41,8 @@ static int messages_with(int count, const rotid_message *message, const char *te
 }
 
 /* A slender bar is what a beam is made for; steel leaves no modulus of its own to compare. */
-static void a_slender_bar_is_the_same_as_both(void **state)
+UNIT_TEST(a_slender_bar_is_the_same_as_both)
 {
-    (void)state;
     rotid_spectrum *s = beside(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.5, 0.05, 0, 60\n");
     assert_non_null(s->beside);
     assert_int_equal(s->beside->nmodes, 4);
@@ -61,9 +60,8 @@ static void a_slender_bar_is_the_same_as_both(void **state)
     rotid_spectrum_free(s);
 }
 
-static void a_beam_that_follows_a_stepped_solid_is_softer(void **state)
+UNIT_TEST(a_beam_that_follows_a_stepped_solid_is_softer)
 {
-    (void)state;
     rotid_spectrum *solid = beside(STEEL SHEETS STEPPED SOLID), *beam = beside(STEEL SHEETS STEPPED);
     const rotid_beam_beside_solid *b = solid->beside;
     double before = 0;
@@ -89,9 +87,8 @@ static void a_beam_that_follows_a_stepped_solid_is_softer(void **state)
 }
 
 /* A step of two to one: no moduli of the core make up for what the beam counts in full. */
-static void where_no_beam_follows_none_is_stated(void **state)
+UNIT_TEST(where_no_beam_follows_none_is_stated)
 {
-    (void)state;
     rotid_spectrum *s = beside(STEEL SHEETS STEPPED_TWICE);
     assert_int_equal(s->beside->nmodes, 4);
     assert_int_equal(s->beside->nmoduli, 0);
@@ -100,9 +97,8 @@ static void where_no_beam_follows_none_is_stated(void **state)
     rotid_spectrum_free(s);
 }
 
-static void what_is_no_solid_is_refused_with_its_reason(void **state)
+UNIT_TEST(what_is_no_solid_is_refused_with_its_reason)
 {
-    (void)state;
     static const struct {
         const char *deck, *place, *reason;
     } cases[] = {
@@ -127,9 +123,8 @@ static void what_is_no_solid_is_refused_with_its_reason(void **state)
     }
 }
 
-static void a_solid_tells_its_mesh_and_what_it_takes_for_granted(void **state)
+UNIT_TEST(a_solid_tells_its_mesh_and_what_it_takes_for_granted)
 {
-    (void)state;
     rotid_check *check;
     rotid_deck *deck = read("*MATERIAL, NAME=core\n*ELASTIC, TYPE=SHEAR\n1e11, 0.3e11, 0.3\n*DENSITY\n7600\n" STEEL
                             "*SHAFT, NAME=left, MATERIAL=steel\n0.2, 0.06, 0, 5\n"
@@ -148,9 +143,8 @@ static void a_solid_tells_its_mesh_and_what_it_takes_for_granted(void **state)
     rotid_deck_free(deck);
 }
 
-static void a_mesh_that_exceeds_a_third_of_the_noise_is_named(void **state)
+UNIT_TEST(a_mesh_that_exceeds_a_third_of_the_noise_is_named)
 {
-    (void)state;
     for (int fine = 0; fine < 2; fine++) {
         char text[2048];
         rotid_spectrum *s;
@@ -164,9 +158,8 @@ static void a_mesh_that_exceeds_a_third_of_the_noise_is_named(void **state)
     }
 }
 
-static void the_meridian_weighs_what_the_rotor_weighs(void **state)
+UNIT_TEST(the_meridian_weighs_what_the_rotor_weighs)
 {
-    (void)state;
     rotid_check *check;
     rotid_spectrum *s;
     rotid_deck *deck = read(STEEL SHEETS STEPPED SOLID, ROTID_OK);
@@ -198,18 +191,4 @@ static void the_meridian_weighs_what_the_rotor_weighs(void **state)
     rotid_check_free(check);
     rotid_spectrum_free(s);
     rotid_deck_free(deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_slender_bar_is_the_same_as_both),
-        cmocka_unit_test(a_beam_that_follows_a_stepped_solid_is_softer),
-        cmocka_unit_test(where_no_beam_follows_none_is_stated),
-        cmocka_unit_test(what_is_no_solid_is_refused_with_its_reason),
-        cmocka_unit_test(a_solid_tells_its_mesh_and_what_it_takes_for_granted),
-        cmocka_unit_test(a_mesh_that_exceeds_a_third_of_the_noise_is_named),
-        cmocka_unit_test(the_meridian_weighs_what_the_rotor_weighs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

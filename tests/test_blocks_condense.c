@@ -1,5 +1,6 @@
 /* Building blocks for hosts: condensation and its derivatives against dense elimination written out. */
 #include "dense.h"
+#include "support.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +15,7 @@ static void open_structure(struct pool *pool, struct random_stream *stream, size
     random_positive(pool, stream, structures[s][0], structures[s][1], structures[s][2], far, 1, a);
 }
 
-static void condensed_matrices_are_those_of_dense_elimination(void **state)
+POOL_TEST(condensed_matrices_are_those_of_dense_elimination)
 {
     static const int some[4] = {0, 3, 7, 8}, one[1] = {5};
     struct random_stream stream = {1};
@@ -43,7 +44,7 @@ static void condensed_matrices_are_those_of_dense_elimination(void **state)
             }
 }
 
-static void masters_everywhere_leave_the_matrices_as_they_are(void **state)
+POOL_TEST(masters_everywhere_leave_the_matrices_as_they_are)
 {
     struct random_stream stream = {2};
     for (size_t s = 0; s < 5; s++)
@@ -73,7 +74,7 @@ static void masters_everywhere_leave_the_matrices_as_they_are(void **state)
 
 /* Springs in series between two masters, the chain free at both ends: 1/k = sum 1/k_i, and of the masses each end takes what the
  * linear shape of the displacement gives it. */
-static void springs_in_series(void **state)
+POOL_TEST(springs_in_series)
 {
     enum { n = 30 };
     rotid_matrix k = {.n = n, .kd = 1, .band = numbers(*state, 2 * n)}, m = {.n = n, .kd = 0, .band = numbers(*state, n)};
@@ -105,7 +106,7 @@ static void springs_in_series(void **state)
 }
 
 /* dKc = T' dK T because K T has no slave rows; dT = -K_ii^-1 (dK T)_i and dMc = dT' M T + T' dM T + T' M dT. */
-static void derivatives_of_guyan_are_those_of_dense_elimination(void **state)
+POOL_TEST(derivatives_of_guyan_are_those_of_dense_elimination)
 {
     static const int master[4] = {0, 3, 7, 8};
     struct random_stream stream = {3};
@@ -144,7 +145,7 @@ static void derivatives_of_guyan_are_those_of_dense_elimination(void **state)
 }
 
 /* Condensed matrices at K + h dK, M + h dM; differences of sixth order. */
-static void derivatives_of_irs_match_differences(void **state)
+POOL_TEST(derivatives_of_irs_match_differences)
 {
     static const int master[3] = {0, 4, 8};
     static const double at[6] = {-3, -2, -1, 1, 2, 3}, weight[6] = {-1.0 / 60, 3.0 / 20, -0.75, 0.75, -3.0 / 20, 1.0 / 60};
@@ -183,7 +184,7 @@ static void derivatives_of_irs_match_differences(void **state)
         }
 }
 
-static void what_cannot_be_condensed_is_named(void **state)
+POOL_TEST(what_cannot_be_condensed_is_named)
 {
     struct random_stream stream = {5};
     const int master[2] = {0, 1};
@@ -213,7 +214,7 @@ static void what_cannot_be_condensed_is_named(void **state)
         }
 }
 
-static void arguments_out_of_range_are_refused(void **state)
+POOL_TEST(arguments_out_of_range_are_refused)
 {
     static const int backwards[2] = {5, 3}, twice[2] = {5, 5}, beyond[2] = {3, 20}, below[2] = {-1, 4}, good[2] = {3, 5};
     struct random_stream stream = {6};
@@ -258,7 +259,7 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_status(rotid_condense_derivative(&k, &m, &k, &other, 2, good, ROTID_GUYAN, NULL, NULL, kc, mc), ROTID_ERROR_ARGUMENT);
 }
 
-static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
+POOL_TEST(memory_that_runs_out_is_an_error_and_none_is_kept)
 {
     static const int master[3] = {0, 4, 8};
     struct random_stream stream = {7};
@@ -281,19 +282,4 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
             }
             assert_status(status, ROTID_ERROR_MEMORY);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(condensed_matrices_are_those_of_dense_elimination),
-        WITH_POOL(masters_everywhere_leave_the_matrices_as_they_are),
-        WITH_POOL(springs_in_series),
-        WITH_POOL(derivatives_of_guyan_are_those_of_dense_elimination),
-        WITH_POOL(derivatives_of_irs_match_differences),
-        WITH_POOL(what_cannot_be_condensed_is_named),
-        WITH_POOL(arguments_out_of_range_are_refused),
-        WITH_POOL(memory_that_runs_out_is_an_error_and_none_is_kept),
-    };
-    return cmocka_run_group_tests_name("blocks_condense", tests, NULL, NULL);
 }

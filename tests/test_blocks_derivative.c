@@ -1,5 +1,6 @@
 /* Building blocks for hosts: derivatives of eigenpairs, by closed forms, by their own equations, and beside differences. */
 #include "dense.h"
+#include "support.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,7 +35,7 @@ static void move(const rotid_matrix *a, double h, const rotid_matrix *b, rotid_m
 }
 
 /* (dK - dlambda M - lambda dM) phi + (K - lambda M) dphi = 0 and 2 phi'M dphi + phi'dM phi = 0 determine both. */
-static void derivatives_satisfy_the_differentiated_equations(void **state)
+POOL_TEST(derivatives_satisfy_the_differentiated_equations)
 {
     struct random_stream stream = {1};
     for (size_t s = 0; s < 5; s++) {
@@ -68,7 +69,7 @@ static void derivatives_satisfy_the_differentiated_equations(void **state)
 }
 
 /* Pairs at K + h dK, M + h dM; differences of sixth order. */
-static void derivatives_match_differences(void **state)
+POOL_TEST(derivatives_match_differences)
 {
     static const double at[6] = {-3, -2, -1, 1, 2, 3}, weight[6] = {-1.0 / 60, 3.0 / 20, -0.75, 0.75, -3.0 / 20, 1.0 / 60};
     struct random_stream stream = {2};
@@ -104,7 +105,7 @@ static void derivatives_match_differences(void **state)
 }
 
 /* K = x K0: dlambda = lambda/x, dphi = 0. M = x M0: dlambda = -lambda/x, dphi = -phi/(2 x). */
-static void scaled_matrices_have_scaled_pairs(void **state)
+POOL_TEST(scaled_matrices_have_scaled_pairs)
 {
     struct random_stream stream = {3};
     for (size_t s = 0; s < 5; s++) {
@@ -149,7 +150,7 @@ static void twins(double x, struct pencil *p)
     }
 }
 
-static void vectors_of_neighbours_are_not_differentiated(void **state)
+POOL_TEST(vectors_of_neighbours_are_not_differentiated)
 {
     static const double at[] = {1, 1 + 1e-9, 1.3};
     for (int a = 0; a < 3; a++)
@@ -173,7 +174,7 @@ static void vectors_of_neighbours_are_not_differentiated(void **state)
 }
 
 /* Translation and rotation of a free beam are equal but for rounding, however far apart that puts them. */
-static void rigid_modes_are_neighbours(void **state)
+POOL_TEST(rigid_modes_are_neighbours)
 {
     enum { elements = 20, n = 2 * (elements + 1) };
     struct pencil p;
@@ -199,7 +200,7 @@ static void rigid_modes_are_neighbours(void **state)
     }
 }
 
-static void arguments_out_of_range_are_refused(void **state)
+POOL_TEST(arguments_out_of_range_are_refused)
 {
     struct random_stream stream = {4};
     struct pencil p, other;
@@ -234,7 +235,7 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_status(derive(&p, 3, lambda, phi, 0, &dlambda, dphi), ROTID_ERROR_FINITE);
 }
 
-static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
+POOL_TEST(memory_that_runs_out_is_an_error_and_none_is_kept)
 {
     struct random_stream stream = {5};
     struct pencil p;
@@ -255,18 +256,4 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
             }
             assert_status(status, ROTID_ERROR_MEMORY);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(derivatives_satisfy_the_differentiated_equations),
-        WITH_POOL(derivatives_match_differences),
-        WITH_POOL(scaled_matrices_have_scaled_pairs),
-        WITH_POOL(vectors_of_neighbours_are_not_differentiated),
-        WITH_POOL(rigid_modes_are_neighbours),
-        WITH_POOL(arguments_out_of_range_are_refused),
-        WITH_POOL(memory_that_runs_out_is_an_error_and_none_is_kept),
-    };
-    return cmocka_run_group_tests_name("blocks_derivative", tests, NULL, NULL);
 }

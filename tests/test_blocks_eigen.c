@@ -1,5 +1,6 @@
 /* Building blocks for hosts: eigenpairs, judged by closed forms, by residuals and orthogonality, and by each other. */
 #include "dense.h"
+#include "support.h"
 
 #include <math.h>
 #include <string.h>
@@ -53,7 +54,7 @@ static void chain(struct pool *pool, int n, int kd, int fixed, rotid_matrix *k, 
         assert_status(rotid_matrix_add(m, i, i, 2.5, NULL), ROTID_OK);
 }
 
-static void chains_of_masses_have_their_eigenvalues(void **state)
+POOL_TEST(chains_of_masses_have_their_eigenvalues)
 {
     static const int sizes[] = {1, 2, 3, 9, 40, 150};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
@@ -73,7 +74,7 @@ static void chains_of_masses_have_their_eigenvalues(void **state)
 }
 
 /* Euler's beam as the limit of a slender Timoshenko one: beta L of clamped-free and free-free ends. */
-static void beams_have_their_beta_l(void **state)
+POOL_TEST(beams_have_their_beta_l)
 {
     static const double clamped[4] = {1.875104068711961, 4.694091132974174, 7.854757438237613, 10.995540734875467};
     static const double both_free[4] = {4.730040744862704, 7.853204624095838, 10.995607838001671, 14.137165491257464};
@@ -106,7 +107,7 @@ static void beams_have_their_beta_l(void **state)
 }
 
 /* A free beam of as many elements as rounding bears: it leaves 1e-4 of the vectors by the shift, and lambda_3 has 3e-4. */
-static void a_free_beam_of_many_elements_has_its_pairs(void **state)
+POOL_TEST(a_free_beam_of_many_elements_has_its_pairs)
 {
     for (int count = 1; count <= 5; count += 2) {
         enum { elements = 1499 };
@@ -129,7 +130,7 @@ static void a_free_beam_of_many_elements_has_its_pairs(void **state)
 }
 
 /* Free in all directions, unconnected, or nothing but masses: as many zeros as there are motions without strain. */
-static void rigid_modes_are_pairs_like_others(void **state)
+POOL_TEST(rigid_modes_are_pairs_like_others)
 {
     for (int dense = 0; dense < 2; dense++)
         for (int bodies = 1; bodies <= 15; bodies += 7)
@@ -165,7 +166,7 @@ static void rigid_modes_are_pairs_like_others(void **state)
     }
 }
 
-static void repeated_eigenvalues_come_as_often_as_they_are(void **state)
+POOL_TEST(repeated_eigenvalues_come_as_often_as_they_are)
 {
     enum { n = 40 };
     rotid_matrix k = new_matrix(*state, 2 * n, 2), m = new_matrix(*state, 2 * n, 2);
@@ -187,7 +188,7 @@ static void repeated_eigenvalues_come_as_often_as_they_are(void **state)
 
 /* The same random pencil as a band with a block, in a wide band, dense, and by LAPACK's own driver. */
 /* A chain held at one end, by leaving the mass there out and by a spring that is stiff beyond measure. */
-static void a_support_by_a_penalty_leaves_the_others_their_digits(void **state)
+POOL_TEST(a_support_by_a_penalty_leaves_the_others_their_digits)
 {
     for (int n = 3; n <= 40; n += n < 8 ? 1 : 8)
         for (int power = 17; power <= 30; power++)
@@ -202,7 +203,7 @@ static void a_support_by_a_penalty_leaves_the_others_their_digits(void **state)
             }
 }
 
-static void storage_does_not_matter(void **state)
+POOL_TEST(storage_does_not_matter)
 {
     static const int far[3] = {1, 17, 38};
     struct random_stream stream = {1};
@@ -233,7 +234,7 @@ static void storage_does_not_matter(void **state)
     }
 }
 
-static void pencils_that_no_structure_has_are_named(void **state)
+POOL_TEST(pencils_that_no_structure_has_are_named)
 {
     struct random_stream stream = {2};
     for (int dense = 0; dense < 2; dense++)
@@ -260,7 +261,7 @@ static void pencils_that_no_structure_has_are_named(void **state)
         }
 }
 
-static void arguments_out_of_range_are_refused(void **state)
+POOL_TEST(arguments_out_of_range_are_refused)
 {
     struct random_stream stream = {3};
     rotid_matrix k, m, other;
@@ -280,7 +281,7 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_status(rotid_eigenpairs(&k, &k, 1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
 }
 
-static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
+POOL_TEST(memory_that_runs_out_is_an_error_and_none_is_kept)
 {
     struct random_stream stream = {4};
     for (int dense = 0; dense < 2; dense++) {
@@ -302,21 +303,4 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
             assert_status(status, ROTID_ERROR_MEMORY);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(chains_of_masses_have_their_eigenvalues),
-        WITH_POOL(beams_have_their_beta_l),
-        WITH_POOL(a_free_beam_of_many_elements_has_its_pairs),
-        WITH_POOL(rigid_modes_are_pairs_like_others),
-        WITH_POOL(repeated_eigenvalues_come_as_often_as_they_are),
-        WITH_POOL(a_support_by_a_penalty_leaves_the_others_their_digits),
-        WITH_POOL(storage_does_not_matter),
-        WITH_POOL(pencils_that_no_structure_has_are_named),
-        WITH_POOL(arguments_out_of_range_are_refused),
-        WITH_POOL(memory_that_runs_out_is_an_error_and_none_is_kept),
-    };
-    return cmocka_run_group_tests_name("blocks_eigen", tests, NULL, NULL);
 }

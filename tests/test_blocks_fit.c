@@ -2,6 +2,7 @@
  * the model and whether there are derivatives make no difference to what is found. */
 #include "dense.h"
 #include "host_beam.h"
+#include "support.h"
 
 #include <math.h>
 
@@ -34,7 +35,7 @@ static const struct {
             {ROTID_LIKELIHOOD, ROTID_GUYAN},          {ROTID_LIKELIHOOD, ROTID_IRS}, {ROTID_HYBRID, ROTID_REDUCTION_NONE}};
 
 /* A band with a block for the tie, the same in a wide band and as a dense matrix. */
-static void the_storage_does_not_matter(void **state)
+POOL_TEST(the_storage_does_not_matter)
 {
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
         struct beam_host bordered, wide, dense;
@@ -56,7 +57,7 @@ static void the_storage_does_not_matter(void **state)
     }
 }
 
-static void a_host_without_derivatives_finds_the_same(void **state)
+POOL_TEST(a_host_without_derivatives_finds_the_same)
 {
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++)
         for (int dense = 0; dense < 2; dense++) {
@@ -75,7 +76,7 @@ static void a_host_without_derivatives_finds_the_same(void **state)
 }
 
 /* 1200 degrees of freedom, 600 of them masters. */
-static void large_models_are_fitted_as_well(void **state)
+POOL_TEST(large_models_are_fitted_as_well)
 {
     static const int large[][2] = {{ROTID_HYBRID, ROTID_GUYAN}, {ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE}};
     for (int w = 0; w < 2; w++) {
@@ -94,14 +95,4 @@ static void large_models_are_fitted_as_well(void **state)
         rotid_fit_free(a);
         rotid_fit_free(b);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(the_storage_does_not_matter),
-        WITH_POOL(a_host_without_derivatives_finds_the_same),
-        WITH_POOL(large_models_are_fitted_as_well),
-    };
-    return cmocka_run_group_tests_name("blocks_fit", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Building blocks for hosts: entries of matrices, the dense matrices they stand for, products. */
 #include "dense.h"
+#include "support.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@ static rotid_matrix bordered(struct pool *pool)
     return (rotid_matrix){.n = 12, .kd = 2, .nfar = 3, .far = far, .band = numbers(pool, 36), .block = numbers(pool, 9)};
 }
 
-static void entries_go_where_the_structure_has_a_place(void **state)
+POOL_TEST(entries_go_where_the_structure_has_a_place)
 {
     rotid_matrix a = bordered(*state);
     double *full = numbers(*state, 144);
@@ -39,7 +40,7 @@ static void entries_go_where_the_structure_has_a_place(void **state)
     assert_memory_equal(got, dense_of(*state, &a), 144 * sizeof *got);
 }
 
-static void elements_add_what_their_definition_says(void **state)
+POOL_TEST(elements_add_what_their_definition_says)
 {
     struct random_stream stream = {1};
     static const int places[][4] = {{3, 4, 5, 3}, {0, 1, 2, -1}, {1, 10, 7, -5}, {11, -1, 10, 9}, {4, 4, 4, 4}};
@@ -64,7 +65,7 @@ static void elements_add_what_their_definition_says(void **state)
     }
 }
 
-static void an_element_without_a_place_changes_nothing(void **state)
+POOL_TEST(an_element_without_a_place_changes_nothing)
 {
     static const int places[][3] = {{0, 1, 3}, {1, 10, 5}, {0, 12, 1}, {11, 10, 100}};
     const double e[9] = {1, 2, 3, 2, 4, 5, 3, 5, 6};
@@ -76,7 +77,7 @@ static void an_element_without_a_place_changes_nothing(void **state)
     }
 }
 
-static void dense_matrices_go_in_and_out(void **state)
+POOL_TEST(dense_matrices_go_in_and_out)
 {
     struct random_stream stream = {2};
     for (int c = 0; c < 4; c++) { /* diagonal, band, band with block, dense */
@@ -109,7 +110,7 @@ static void dense_matrices_go_in_and_out(void **state)
     }
 }
 
-static void products_are_those_of_the_dense_matrix(void **state)
+POOL_TEST(products_are_those_of_the_dense_matrix)
 {
     struct random_stream stream = {3};
     static const int sizes[][3] = {{1, 0, 0},   {2, 1, 0},   {12, 2, 3},  {12, 3, 0},
@@ -129,7 +130,7 @@ static void products_are_those_of_the_dense_matrix(void **state)
     }
 }
 
-static void what_is_no_matrix_is_refused(void **state)
+POOL_TEST(what_is_no_matrix_is_refused)
 {
     static const int backwards[3] = {7, 1, 10}, twice[3] = {1, 1, 10}, beyond[3] = {1, 7, 12}, below[3] = {-1, 7, 10};
     const int dof[2] = {0, 1};
@@ -204,14 +205,4 @@ static void what_is_no_matrix_is_refused(void **state)
     assert_status(rotid_matrix_multiply(&a, 1, full, full, NULL), ROTID_ERROR_ARGUMENT);
     assert_status(rotid_matrix_multiply(&a, 2, full, full + 23, NULL), ROTID_ERROR_ARGUMENT);
     assert_status(rotid_matrix_multiply(&a, 2, full, full + 24, NULL), ROTID_OK);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(entries_go_where_the_structure_has_a_place), WITH_POOL(elements_add_what_their_definition_says),
-        WITH_POOL(an_element_without_a_place_changes_nothing), WITH_POOL(dense_matrices_go_in_and_out),
-        WITH_POOL(products_are_those_of_the_dense_matrix),     WITH_POOL(what_is_no_matrix_is_refused),
-    };
-    return cmocka_run_group_tests_name("blocks_matrix", tests, NULL, NULL);
 }

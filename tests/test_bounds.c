@@ -16,9 +16,8 @@ static rotid_parameter between(double lower, double upper)
 static const double ranges[][2] = {{1e6, 2.3e11}, {-3, 5}, {-7, -2}, {1, 1 + 1e-9}, {1e-12, 1e12}, {0, 1}};
 #define RANGES ((int)(sizeof ranges / sizeof *ranges))
 
-static void test_bijection_is_the_printed_formula(void **state)
+UNIT_TEST(test_bijection_is_the_printed_formula)
 {
-    (void)state;
     for (int k = 0; k < RANGES; k++) {
         rotid_parameter p = between(ranges[k][0], ranges[k][1]);
         for (double y = -200; y <= 200; y += 12.5)
@@ -29,10 +28,9 @@ static void test_bijection_is_the_printed_formula(void **state)
 }
 
 /* (31): alpha for y towards plus infinity, beta towards minus infinity; saturated, it is the bound itself */
-static void test_far_saturation_is_the_bound_without_overflow(void **state)
+UNIT_TEST(test_far_saturation_is_the_bound_without_overflow)
 {
     static const double far[] = {1e5, 1e150, DBL_MAX, INFINITY};
-    (void)state;
     for (int k = 0; k < RANGES; k++) {
         rotid_parameter p = between(ranges[k][0], ranges[k][1]);
         for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
@@ -50,9 +48,8 @@ static void test_far_saturation_is_the_bound_without_overflow(void **state)
 }
 
 /* Near a bound the distance to it has lost digits to the subtraction: y is then known to eps |x| / (distance chi). */
-static void test_inverse_gives_back_what_went_in(void **state)
+UNIT_TEST(test_inverse_gives_back_what_went_in)
 {
-    (void)state;
     for (int k = 0; k < RANGES; k++) {
         rotid_parameter p = between(ranges[k][0], ranges[k][1]);
         double largest = fmax(fabs(p.lower), fabs(p.upper));
@@ -70,9 +67,8 @@ static void test_inverse_gives_back_what_went_in(void **state)
     }
 }
 
-static void test_slope_is_the_derivative(void **state)
+UNIT_TEST(test_slope_is_the_derivative)
 {
-    (void)state;
     rotid_parameter p = between(0, 1); /* from zero, x keeps its digits near the lower bound; the slope is even in y */
     for (double y = -300; y <= 300; y += 12.5) {
         double at = fabs(y), h = 0.05, difference = 0;
@@ -88,18 +84,16 @@ static void test_slope_is_the_derivative(void **state)
 }
 
 /* The paper applies (30) to variables scaled by their start: y is the same with and without. */
-static void test_scaling_by_the_start_leaves_y_alone(void **state)
+UNIT_TEST(test_scaling_by_the_start_leaves_y_alone)
 {
-    (void)state;
     rotid_parameter p = between(1e6, 2.3e11), scaled = between(1e6 / 0.6e11, 2.3e11 / 0.6e11);
     for (double y = -200; y <= 200; y += 25)
         assert_close(bounds_to_x(&scaled, chi, y) * 0.6e11, bounds_to_x(&p, chi, y), 1e-15, 0);
 }
 
 /* A millionth of the interval; at the lower bound a small start must not look pressed only because the interval spans decades. */
-static void test_pressed_is_what_saturates(void **state)
+UNIT_TEST(test_pressed_is_what_saturates)
 {
-    (void)state;
     rotid_parameter p = {"x", "1", 10, 20, 14};
     assert_int_equal(bounds_pressed(&p, 20), 1);
     assert_int_equal(bounds_pressed(&p, 20 - 9e-6), 1);
@@ -114,7 +108,7 @@ static void test_pressed_is_what_saturates(void **state)
     assert_int_equal(bounds_pressed(&spring, 1e12), 1);
 }
 
-static void test_student_quantiles_agree_with_the_tables(void **state)
+UNIT_TEST(test_student_quantiles_agree_with_the_tables)
 {
     /* scipy 1.17.1, scipy.stats.t.ppf(0.975, dof); the first digits are those of any printed table */
     static const struct {
@@ -123,7 +117,6 @@ static void test_student_quantiles_agree_with_the_tables(void **state)
     } table[] = {{1, 12.706204736174694},   {2, 4.302652729749462},     {3, 3.1824463052837078},     {4, 2.7764451051977934},
                  {5, 2.5705818356363146},   {10, 2.228138851986274},    {30, 2.0422724563012378},    {100, 1.9839715185235518},
                  {406, 1.9658241784477395}, {1000, 1.9623390808264083}, {100000, 1.9599877075346095}};
-    (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         assert_close(quantile_student_95(table[k].dof), table[k].t, 1e-10, 0);
     assert_close(quantile_student_95(0), 1.9599639845400545, 1e-15, 0);
@@ -131,7 +124,7 @@ static void test_student_quantiles_agree_with_the_tables(void **state)
         assert_true(quantile_student_95(dof) > quantile_student_95(dof + 1));
 }
 
-static void test_chi_square_tails_agree_with_the_tables(void **state)
+UNIT_TEST(test_chi_square_tails_agree_with_the_tables)
 {
     /* scipy 1.17.1, scipy.stats.chi2.sf(x, dof) */
     static const struct {
@@ -141,15 +134,13 @@ static void test_chi_square_tails_agree_with_the_tables(void **state)
     } table[] = {{3.841458820694124, 1, 0.05},   {18.307038053275146, 10, 0.05},    {406, 406, 0.49066632775011815},
                  {300, 406, 0.9999774970229296}, {500, 406, 0.0009780533342488447}, {1000, 406, 5.794843480901828e-52},
                  {1e-3, 1, 0.9747728793699604},  {40, 3, 1.065509033425585e-08},    {1400, 3, 2.945619361016289e-303}};
-    (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         assert_close(chi_square_tail(table[k].x, table[k].dof), table[k].tail, 1e-11, 0);
 }
 
 /* dof 1: erfc(sqrt(x/2)); dof 2: exp(-x/2); dof 6: exp(-y)(1 + y + y^2/2), y = x/2 */
-static void test_chi_square_tails_agree_with_closed_forms(void **state)
+UNIT_TEST(test_chi_square_tails_agree_with_closed_forms)
 {
-    (void)state;
     for (double x = 1e-6; x < 1300; x *= 1.3) {
         double y = x / 2;
         assert_close(chi_square_tail(x, 1), erfc(sqrt(y)), 1e-11, 0);
@@ -158,9 +149,8 @@ static void test_chi_square_tails_agree_with_closed_forms(void **state)
     }
 }
 
-static void test_chi_square_tail_keeps_its_ends(void **state)
+UNIT_TEST(test_chi_square_tail_keeps_its_ends)
 {
-    (void)state;
     assert_true(chi_square_tail(0, 5) == 1);
     assert_true(chi_square_tail(1e5, 5) == 0);
     assert_true(chi_square_tail(1e300, 406) == 0);
@@ -168,21 +158,4 @@ static void test_chi_square_tail_keeps_its_ends(void **state)
     assert_true(isnan(chi_square_tail(NAN, 406))); /* chi2 is NaN where no noise is stated: that is not a perfect fit */
     for (double x = 1; x < 800; x += 1)
         assert_true(chi_square_tail(x + 1, 406) <= chi_square_tail(x, 406));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bijection_is_the_printed_formula),
-        cmocka_unit_test(test_far_saturation_is_the_bound_without_overflow),
-        cmocka_unit_test(test_inverse_gives_back_what_went_in),
-        cmocka_unit_test(test_slope_is_the_derivative),
-        cmocka_unit_test(test_scaling_by_the_start_leaves_y_alone),
-        cmocka_unit_test(test_pressed_is_what_saturates),
-        cmocka_unit_test(test_student_quantiles_agree_with_the_tables),
-        cmocka_unit_test(test_chi_square_tails_agree_with_the_tables),
-        cmocka_unit_test(test_chi_square_tails_agree_with_closed_forms),
-        cmocka_unit_test(test_chi_square_tail_keeps_its_ends),
-    };
-    return cmocka_run_group_tests_name("bounds", tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "diagnose/causes/causes.h"
 #include "effect_bench.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -38,9 +39,8 @@ static double diameter_at(const struct rotor *rotor, int segment, double z, doub
     return rotor->segment[segment].stiff_outer * pow(factors.ei, 0.25);
 }
 
-static void cones_open_from_the_smaller_side_of_every_step(void **state)
+POOL_TEST(cones_open_from_the_smaller_side_of_every_step)
 {
-    (void)state;
     struct rotor rotor = stepped(0.2, 0);
     assert_close(diameter_at(&rotor, 1, 0.21, 45), 0.12, 1e-12, 0);
     assert_close(diameter_at(&rotor, 1, 0.25, 45), 0.2, 1e-12, 0);
@@ -51,9 +51,8 @@ static void cones_open_from_the_smaller_side_of_every_step(void **state)
     assert_close(diameter_at(&rotor, 4, 0.9, 10), 0.2, 0, 0);
 }
 
-static void cones_reach_across_sections(void **state)
+POOL_TEST(cones_reach_across_sections)
 {
-    (void)state;
     struct rotor rotor = stepped(0.02, 0); /* short: a cone of 30 degrees needs 0.17 m for 0.2 m */
     double t = tan(pi / 6);
     assert_close(diameter_at(&rotor, 1, 0.035, 30), fmin(0.1 + 2 * 0.015 * t, 0.12 + 2 * 0.005 * t), 1e-12, 0);
@@ -63,9 +62,8 @@ static void cones_reach_across_sections(void **state)
     assert_close(diameter_at(&rotor, 3, 0.062, 10), 0.1 + 2 * 0.042 * tan(pi / 18), 1e-12, 0);
 }
 
-static void rectangles_make_no_step_and_have_no_cone(void **state)
+POOL_TEST(rectangles_make_no_step_and_have_no_cone)
 {
-    (void)state;
     struct rotor rotor = stepped(0.2, 1);
     struct effect_span span = {1, 4, 0.8, 0.82};
     struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {20}};
@@ -78,9 +76,8 @@ static void rectangles_make_no_step_and_have_no_cone(void **state)
 }
 
 /* Factors of an element against many points of the definition. */
-static void factors_are_means_of_the_compliance(void **state)
+POOL_TEST(factors_are_means_of_the_compliance)
 {
-    (void)state;
     for (int kind = 0; kind < 4; kind++) { /* plain, core of another group, bore, holes */
         struct rotor rotor = stepped(0.2, 0);
         steps[3].inner = kind == 2 ? 0.05 : 0;
@@ -108,9 +105,8 @@ static void factors_are_means_of_the_compliance(void **state)
 }
 
 /* A ring of holes within the reach of the cones: their share grows with the diameter that a cone leaves. */
-static void derivatives_by_the_angle_see_the_holes(void **state)
+POOL_TEST(derivatives_by_the_angle_see_the_holes)
 {
-    (void)state;
     struct rotor rotor = stepped(0.2, 0);
     bars[1] = (struct group){
         .layer_of = -1, .name = "b", .material = bars[0].material, .holes = 8, .hole_diameter = 0.02, .hole_pitch = 0.08};
@@ -135,9 +131,8 @@ static void derivatives_by_the_angle_see_the_holes(void **state)
 }
 
 /* A flange on a thin shaft whose bore is wider than that shaft: the cone begins inside the bore. */
-static void a_cone_inside_the_bore_leaves_a_little(void **state)
+POOL_TEST(a_cone_inside_the_bore_leaves_a_little)
 {
-    (void)state;
     struct rotor rotor = stepped(0.2, 0);
     struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30}};
     struct effect_span span = {0, 1, 0.2, 0.202};
@@ -153,9 +148,8 @@ static void a_cone_inside_the_bore_leaves_a_little(void **state)
 
 /* ---- a soft zone narrower than an element ---- */
 
-static void a_narrow_zone_keeps_its_mean(void **state)
+POOL_TEST(a_narrow_zone_keeps_its_mean)
 {
-    (void)state;
     for (double width = 0.001; width < 0.2; width *= 1.7)
         for (double depth = 0.05; depth < 1; depth += 0.15) {
             struct effect effect = {.kind = cause_stiffness_local.effect, .target = -1, .value = {depth, 0.513, width}};
@@ -197,9 +191,8 @@ static const struct cause_kind *const all[] = {&cause_step_stiffness,
 
 #define ALL ((int)(sizeof all / sizeof *all))
 
-static void entries_are_complete(void **state)
+POOL_TEST(entries_are_complete)
 {
-    (void)state;
     const struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
     for (int c = 0; c < ALL; c++) {
         const struct cause_kind *cause = all[c];
@@ -224,9 +217,8 @@ static void entries_are_complete(void **state)
 }
 
 /* What is possible holds what is usual. */
-static void sizes_reach_beyond_their_usual_bounds(void **state)
+POOL_TEST(sizes_reach_beyond_their_usual_bounds)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
     for (int c = 0; c < ALL; c++) {
         const struct cause_kind *cause = all[c];
@@ -247,9 +239,8 @@ static void sizes_reach_beyond_their_usual_bounds(void **state)
     }
 }
 
-static void causes_apply_where_they_make_sense(void **state)
+POOL_TEST(causes_apply_where_they_make_sense)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
     const int identified[] = {0, 1, 0};
     for (int g = 0; g < 3; g++) {
@@ -272,9 +263,8 @@ static void causes_apply_where_they_make_sense(void **state)
     assert_int_equal(cause_step_stiffness.applies(rotor, -1, identified), 0);
 }
 
-static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
+POOL_TEST(bounds_of_mass_rest_on_the_mass_of_the_model)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
     struct effect effect = {.kind = cause_added_mass.effect};
     struct mass_properties properties;
@@ -294,9 +284,8 @@ static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
 }
 
 /* Of a uniform shaft: L/EI and L^3/3EI at its end, less where it is held in the middle; 4.730^4 EI/L^3. */
-static void bounds_of_supports_follow_the_rotor(void **state)
+POOL_TEST(bounds_of_supports_follow_the_rotor)
 {
-    (void)state;
     struct rotor rotor = stepped(0.2, 0);
     struct spring spring[2] = {{"end", 0, 1e9, 1e6, 0, 0}, {"middle", 0.5, 1e9, 0, 0, 0}};
     struct effect effect = {.target = 0};
@@ -324,9 +313,8 @@ static void bounds_of_supports_follow_the_rotor(void **state)
 }
 
 /* As soft as ten diameters of the softer neighbour: the last piece of the left shaft. */
-static void bounds_of_a_joint_are_ten_diameters_of_shaft(void **state)
+POOL_TEST(bounds_of_a_joint_are_ten_diameters_of_shaft)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
     struct effect effect = {.kind = cause_joint.effect, .target = 0};
     double lower, upper, area, inertia, d = 0.334092;
@@ -335,26 +323,4 @@ static void bounds_of_a_joint_are_ten_diameters_of_shaft(void **state)
     cause_joint.bounds(rotor, &effect, 0, &lower, &upper);
     assert_close(lower, 0, 0, 0);
     assert_close(upper, 10 * d / (0.6e11 * inertia), 1e-12, 0); /* the core is the softer one */
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(cones_open_from_the_smaller_side_of_every_step),
-        TEST(cones_reach_across_sections),
-        TEST(rectangles_make_no_step_and_have_no_cone),
-        TEST(factors_are_means_of_the_compliance),
-        TEST(derivatives_by_the_angle_see_the_holes),
-        TEST(a_cone_inside_the_bore_leaves_a_little),
-        TEST(a_narrow_zone_keeps_its_mean),
-        TEST(entries_are_complete),
-        TEST(sizes_reach_beyond_their_usual_bounds),
-        TEST(causes_apply_where_they_make_sense),
-        TEST(bounds_of_mass_rest_on_the_mass_of_the_model),
-        TEST(bounds_of_supports_follow_the_rotor),
-        TEST(bounds_of_a_joint_are_ten_diameters_of_shaft),
-    };
-    return cmocka_run_group_tests_name("causes", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 
 #include "effect_bench.h"
 #include "exact.h"
+#include "support.h"
 
 #define MOST_PIECES 1024
 
@@ -181,9 +182,8 @@ static const struct axis_case {
     {"flat cones", &cause_step_stiffness, -1, 0, 0.0042, {14}, cone, 2e-4, 1.2},
 };
 
-static void causes_along_the_axis_converge_to_the_exact_frequencies(void **state)
+POOL_TEST(causes_along_the_axis_converge_to_the_exact_frequencies)
 {
-    (void)state;
     for (size_t c = 0; c < sizeof axis_cases / sizeof *axis_cases; c++) {
         const struct axis_case *one = &axis_cases[c];
         double truth[EXACT_MODES];
@@ -195,9 +195,8 @@ static void causes_along_the_axis_converge_to_the_exact_frequencies(void **state
 }
 
 /* The box from its edges: pieces of the axis that end there. Elements that it fills in part carry the mean compliance. */
-static void a_box_converges_to_the_exact_frequencies(void **state)
+POOL_TEST(a_box_converges_to_the_exact_frequencies)
 {
-    (void)state;
     for (int shear = 0; shear < 2; shear++) {
         const double value[] = {0.5, 1.0371, 0.1234, 0.2};
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
@@ -228,9 +227,8 @@ static void a_box_converges_to_the_exact_frequencies(void **state)
 
 /* ---- points, joints, rods ---- */
 
-static void joints_converge_to_the_exact_frequencies(void **state)
+POOL_TEST(joints_converge_to_the_exact_frequencies)
 {
-    (void)state;
     for (int rods = 0; rods < 2; rods++)
         for (int interface = 0; interface < 2; interface++) {
             const double flexibility[] = {4e-9};
@@ -256,9 +254,8 @@ static void joints_converge_to_the_exact_frequencies(void **state)
 }
 
 /* What the side means: with the disk on the other one frequencies are others. */
-static void the_side_of_a_joint_matters(void **state)
+POOL_TEST(the_side_of_a_joint_matters)
 {
-    (void)state;
     double truth[2][EXACT_MODES], from, to;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
     rotor_group_span(rotor, 0, &from, &to);
@@ -273,9 +270,8 @@ static void the_side_of_a_joint_matters(void **state)
 }
 
 /* A jump of the shear force or the moment inside an element is beyond its shapes: error of first order, if a small one. */
-static void masses_anywhere_converge_to_the_exact_frequencies(void **state)
+POOL_TEST(masses_anywhere_converge_to_the_exact_frequencies)
 {
-    (void)state;
     static const double place[] = {0, 0.04, 0.256018, 0.6281, 1.0379, 1.9733};
     for (size_t i = 0; i < sizeof place / sizeof *place; i++)
         for (int inertia = 0; inertia < 2; inertia++) {
@@ -294,9 +290,8 @@ static void masses_anywhere_converge_to_the_exact_frequencies(void **state)
 }
 
 /* The same of the force of a spring: to the ground at any place, of the deck and elsewhere, softer by a clamp that gives way. */
-static void springs_anywhere_converge_to_the_exact_frequencies(void **state)
+POOL_TEST(springs_anywhere_converge_to_the_exact_frequencies)
 {
-    (void)state;
     static const double place[] = {0.04, 0.256018, 0.6281, 1.0379, 1.9733};
     for (size_t i = 0; i < sizeof place / sizeof *place; i++)
         for (int which = 0; which < 3; which++) {
@@ -321,9 +316,8 @@ static void springs_anywhere_converge_to_the_exact_frequencies(void **state)
         }
 }
 
-static void a_clamp_is_in_series_with_its_spring(void **state)
+POOL_TEST(a_clamp_is_in_series_with_its_spring)
 {
-    (void)state;
     const double compliance[] = {2e-6, 3e-9};
     double expected[EXACT_MODES], hz[EXACT_MODES];
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
@@ -337,9 +331,8 @@ static void a_clamp_is_in_series_with_its_spring(void **state)
 }
 
 /* Mass per length over the width, without inertia of its own. */
-static void a_wide_mass_converges_to_mass_per_length(void **state)
+POOL_TEST(a_wide_mass_converges_to_mass_per_length)
 {
-    (void)state;
     static struct oracle_segment cut[64];
     const double value[] = {20, 1.0379, 0.3};
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
@@ -366,9 +359,8 @@ static void a_wide_mass_converges_to_mass_per_length(void **state)
 }
 
 /* A hub that is one with the shaft over all of its length is a thicker shaft without more mass. */
-static void hubs_are_thicker_shafts(void **state)
+POOL_TEST(hubs_are_thicker_shafts)
 {
-    (void)state;
     const double share[] = {1};
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
     struct exact exact;
@@ -397,9 +389,8 @@ static void hubs_are_thicker_shafts(void **state)
     compare("hub", rotor, truth, 2e-5, 1.5);
 }
 
-static void a_moving_accelerometer_is_its_mass_spread_over_the_sensors(void **state)
+POOL_TEST(a_moving_accelerometer_is_its_mass_spread_over_the_sensors)
 {
-    (void)state;
     static struct sensor sensors[8];
     for (int fixed = 0; fixed < 2; fixed++) {
         const double mass[] = {8};
@@ -421,9 +412,8 @@ static void a_moving_accelerometer_is_its_mass_spread_over_the_sensors(void **st
 }
 
 /* These are what the deck itself can say. */
-static void factors_on_rods_and_springs_are_those_of_the_deck(void **state)
+POOL_TEST(factors_on_rods_and_springs_are_those_of_the_deck)
 {
-    (void)state;
     const struct cause_kind *const cause[] = {&cause_tie_stiffness, &cause_tie_tension, &cause_support};
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++)
         for (int c = 0; c < 3; c++) {
@@ -442,24 +432,4 @@ static void factors_on_rods_and_springs_are_those_of_the_deck(void **state)
             mesh_hz(rotor, 1, 2, EXACT_MODES, expected);
             assert_hz(EXACT_MODES, hz, expected, 1e-9);
         }
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(causes_along_the_axis_converge_to_the_exact_frequencies),
-        TEST(a_box_converges_to_the_exact_frequencies),
-        TEST(joints_converge_to_the_exact_frequencies),
-        TEST(the_side_of_a_joint_matters),
-        TEST(masses_anywhere_converge_to_the_exact_frequencies),
-        TEST(springs_anywhere_converge_to_the_exact_frequencies),
-        TEST(a_clamp_is_in_series_with_its_spring),
-        TEST(a_wide_mass_converges_to_mass_per_length),
-        TEST(hubs_are_thicker_shafts),
-        TEST(a_moving_accelerometer_is_its_mass_spread_over_the_sensors),
-        TEST(factors_on_rods_and_springs_are_those_of_the_deck),
-    };
-    return cmocka_run_group_tests_name("causes_exact", tests, NULL, NULL);
 }

@@ -13,6 +13,7 @@
 #include "hammer_bench.h"
 #include "import/import.h"
 #include "run/run.h"
+#include "support.h"
 
 #define RUNS  3 /* of the coverage in the suite, which make chain counts */
 #define FINER 4 /* elements, for the coverage */
@@ -100,9 +101,8 @@ static const struct ema_options paper_band = {.low_hz = 200, .high_hz = 3200, .t
 
 /* ------------------------------------------------------------------------------------------------ the paper's rotor */
 
-static void modes_of_the_records_are_those_of_the_rotor(void **state)
+UNIT_TEST(modes_of_the_records_are_those_of_the_rotor)
 {
-    (void)state;
     struct hammer_bench bench;
     struct hammer_test test;
     struct passage c;
@@ -174,9 +174,8 @@ static int cover(void *context, int index, int worker)
     return status;
 }
 
-static void moduli_lie_in_their_intervals(void **state)
+UNIT_TEST(moduli_lie_in_their_intervals)
 {
-    (void)state;
     struct hammer_bench bench;
     struct hammer_test test;
     const char *asked = getenv("ROTID_CHAIN_RUNS");
@@ -221,9 +220,8 @@ static void below_1500_hz(struct hammer_options *options)
 
 /* E and G of the stack of the shipped motor, a layer of LAMINATED on a through shaft, drawn beside what the deck states; a drift
  * of 0.01 % from point to point is what the poles' standard deviations do not know of. */
-static void moduli_of_a_stack_on_a_through_shaft_lie_in_their_intervals(void **state)
+UNIT_TEST(moduli_of_a_stack_on_a_through_shaft_lie_in_their_intervals)
 {
-    (void)state;
     static const struct ema_options options = {.low_hz = 200, .high_hz = 1450, .threads = 1};
     struct hammer_bench bench;
     struct hammer_test test;
@@ -274,9 +272,8 @@ static void thirty_grams(struct hammer_options *options)
 }
 
 /* Frequencies fall by up to 1 % from point to point, the shapes are off by up to 16 % at the ends. */
-static void an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed(void **state)
+UNIT_TEST(an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed)
 {
-    (void)state;
     struct hammer_bench bench;
     struct hammer_test test;
     struct passage c;
@@ -317,9 +314,8 @@ static void heavy_test(struct hammer_options *options)
 
 /* On 998 kg the same accelerometer lies below what moves between two points, and the report says from which mass it would show.
  */
-static void on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed(void **state)
+UNIT_TEST(on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed)
 {
-    (void)state;
     struct hammer_bench bench;
     struct hammer_test test;
     struct passage c;
@@ -354,9 +350,8 @@ static void three_faults(struct hammer_options *options)
 }
 
 /* A minute, for faults that test_hidden_faults looks at without records: only with ROTID_LONG (make test-long). */
-static void faults_of_channels_are_seen_on_the_way(void **state)
+UNIT_TEST(faults_of_channels_are_seen_on_the_way)
 {
-    (void)state;
     if (!getenv("ROTID_LONG"))
         skip();
     struct hammer_bench bench;
@@ -384,17 +379,4 @@ static void faults_of_channels_are_seen_on_the_way(void **state)
     diagnose_free(&d);
     pool_close(&c.pool);
     close_test(&bench, &test);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modes_of_the_records_are_those_of_the_rotor),
-        cmocka_unit_test(moduli_lie_in_their_intervals),
-        cmocka_unit_test(moduli_of_a_stack_on_a_through_shaft_lie_in_their_intervals),
-        cmocka_unit_test(an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed),
-        cmocka_unit_test(on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed),
-        cmocka_unit_test(faults_of_channels_are_seen_on_the_way),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

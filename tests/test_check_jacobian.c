@@ -92,9 +92,8 @@ static int check(struct model *model, const double *scale)
     return status;
 }
 
-static void right_jacobians_pass(void **state)
+UNIT_TEST(right_jacobians_pass)
 {
-    (void)state;
     struct model model = {.unit = {1, 1, 1}};
     assert_status(check(&model, NULL), ROTID_OK);
     for (int j = 0; j < 3; j++) {
@@ -105,9 +104,8 @@ static void right_jacobians_pass(void **state)
     assert_true(model.calls <= 1 + 2 * 16 * 3);
 }
 
-static void right_jacobians_of_all_kinds_pass(void **state)
+UNIT_TEST(right_jacobians_of_all_kinds_pass)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         const struct mgh_problem *problem = &mgh_problems[k];
         double x[MGH_MOST_PARAMETERS];
@@ -125,9 +123,8 @@ static void right_jacobians_of_all_kinds_pass(void **state)
     }
 }
 
-static void a_wrong_sign_or_entry_is_found_at_its_column(void **state)
+UNIT_TEST(a_wrong_sign_or_entry_is_found_at_its_column)
 {
-    (void)state;
     for (int column = 0; column < 3; column++)
         for (enum spoil spoil = WRONG_SIGN; spoil <= WRONG_ENTRY; spoil++) {
             struct model model = {.unit = {1, 1, 1}, .spoil = spoil, .column = column};
@@ -139,9 +136,8 @@ static void a_wrong_sign_or_entry_is_found_at_its_column(void **state)
         }
 }
 
-static void a_transposed_jacobian_is_found(void **state)
+UNIT_TEST(a_transposed_jacobian_is_found)
 {
-    (void)state;
     struct model model = {.unit = {1, 1, 1}, .spoil = TRANSPOSED};
     assert_status(check(&model, NULL), ROTID_OK);
     for (int j = 0; j < 3; j++)
@@ -149,9 +145,8 @@ static void a_transposed_jacobian_is_found(void **state)
 }
 
 /* Young's modulus beside a clearance: 1e11 and 1e-6. */
-static void the_size_of_the_variables_does_not_matter(void **state)
+UNIT_TEST(the_size_of_the_variables_does_not_matter)
 {
-    (void)state;
     struct model model = {.unit = {1e11, 1e-6, 1}};
     double scale[3] = {1e10, 3e-7, 1};
     for (int given = 0; given < 2; given++) {
@@ -169,9 +164,8 @@ static void the_size_of_the_variables_does_not_matter(void **state)
 }
 
 /* Without noise the doubt is small; with it, it covers what the noise does to the differences, whatever its size. */
-static void noise_shows_up_as_doubt(void **state)
+UNIT_TEST(noise_shows_up_as_doubt)
 {
-    (void)state;
     double before = 0;
     for (double noise = 1e-12; noise < 1e-3; noise *= 10) {
         struct model model = {.unit = {1, 1, 1}, .noise = noise};
@@ -187,9 +181,8 @@ static void noise_shows_up_as_doubt(void **state)
     }
 }
 
-static void steps_across_an_edge_are_left_out(void **state)
+UNIT_TEST(steps_across_an_edge_are_left_out)
 {
-    (void)state;
     for (int nan_tells = 0; nan_tells < 2; nan_tells++) {
         /* an edge just beyond x: only the shorter steps have a residual on both sides */
         struct model model = {.unit = {1, 1, 1}, .edge = at[0] * 1.001, .nan_tells = nan_tells};
@@ -222,9 +215,8 @@ static int idle(void *user, int m, int n, const double *x, double *r, double *ja
     return 0;
 }
 
-static void columns_of_zeros_are_right_where_nothing_happens(void **state)
+UNIT_TEST(columns_of_zeros_are_right_where_nothing_happens)
 {
-    (void)state;
     double x[2] = {3, 1};
     int claims = 1;
     assert_status(rotid_check_jacobian(2, 2, idle, NULL, x, NULL, NULL, error, doubt, work), ROTID_OK);
@@ -243,9 +235,8 @@ static int refused(void *user, int m, int n, const double *x, double *r, double 
     return jacobian && *(double *)user == 0;
 }
 
-static void arguments_out_of_range_are_refused_before_anything_is_called(void **state)
+UNIT_TEST(arguments_out_of_range_are_refused_before_anything_is_called)
 {
-    (void)state;
     struct model model = {.unit = {1, 1, 1}};
     double x[3] = {1, 1, 1}, bad[3] = {1, NAN, 1}, scale[3] = {1, 0, 1}, one = 1, value;
     assert_status(rotid_check_jacobian(0, 3, three, &model, x, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
@@ -265,20 +256,4 @@ static void arguments_out_of_range_are_refused_before_anything_is_called(void **
     assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, NULL, error, doubt, work), ROTID_ERROR_CALLBACK);
     value = NAN;
     assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, NULL, error, doubt, work), ROTID_ERROR_FINITE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(right_jacobians_pass),
-        cmocka_unit_test(right_jacobians_of_all_kinds_pass),
-        cmocka_unit_test(a_wrong_sign_or_entry_is_found_at_its_column),
-        cmocka_unit_test(a_transposed_jacobian_is_found),
-        cmocka_unit_test(the_size_of_the_variables_does_not_matter),
-        cmocka_unit_test(noise_shows_up_as_doubt),
-        cmocka_unit_test(steps_across_an_edge_are_left_out),
-        cmocka_unit_test(columns_of_zeros_are_right_where_nothing_happens),
-        cmocka_unit_test(arguments_out_of_range_are_refused_before_anything_is_called),
-    };
-    return cmocka_run_group_tests_name("check_jacobian", tests, NULL, NULL);
 }

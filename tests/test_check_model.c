@@ -5,6 +5,7 @@
 
 #include "dense.h"
 #include "host_beam.h"
+#include "support.h"
 
 enum { N = 3 };
 
@@ -104,10 +105,9 @@ static void open_wrong(int kd, struct wrong *wrong)
     wrong->host.model.user = wrong;
 }
 
-static void right_derivatives_pass(void **state)
+POOL_TEST(right_derivatives_pass)
 {
     static const double near_a_bound[N] = {0.0101, 9.99, 0.4};
-    (void)state;
     for (int kd = 0; kd < 42; kd += 41)
         for (int own = 0; own < 2; own++)
             for (int at = 0; at < 2; at++) {
@@ -129,13 +129,12 @@ static void right_derivatives_pass(void **state)
 }
 
 /* Of all entries; of one on the diagonal, of bending and of rotation, and one beside it; of the block of the tie. */
-static void a_derivative_that_is_a_fifth_too_large_is_found(void **state)
+POOL_TEST(a_derivative_that_is_a_fifth_too_large_is_found)
 {
     static const struct {
         int p, of_block, entry;
         double least; /* that it is found to be wrong by */
     } cases[] = {{0, 0, -1, 0.16}, {1, 0, -1, 0.16}, {2, 1, -1, 0.1}, {0, 0, 8, 1e-3}, {0, 0, 12, 1e-3}, {0, 0, 5, 1e-3}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct wrong wrong;
         open_wrong(0, &wrong);
@@ -152,10 +151,9 @@ static void a_derivative_that_is_a_fifth_too_large_is_found(void **state)
     }
 }
 
-static void a_wrong_derivative_of_the_mass_is_found(void **state)
+POOL_TEST(a_wrong_derivative_of_the_mass_is_found)
 {
     static const double masses[][3] = {/* true, claimed, error */ {0.1, 0, 1}, {0, 0.1, 1}, {0.1, -0.1, 2}, {0.1, 0.2, 0.5}};
-    (void)state;
     for (size_t k = 0; k < sizeof masses / sizeof *masses; k++) {
         struct wrong wrong;
         open_wrong(41, &wrong);
@@ -168,10 +166,9 @@ static void a_wrong_derivative_of_the_mass_is_found(void **state)
     }
 }
 
-static void storage_tells_no_difference_but_a_missing_triangle_does(void **state)
+POOL_TEST(storage_tells_no_difference_but_a_missing_triangle_does)
 {
     struct wrong wrong;
-    (void)state;
     open_wrong(0, &wrong);
     wrong.moved = 1e5;
     assert_status(check(&wrong, NULL), ROTID_OK);
@@ -181,9 +178,8 @@ static void storage_tells_no_difference_but_a_missing_triangle_does(void **state
     assert_status(check(&wrong, NULL), ROTID_ERROR_ARGUMENT);
 }
 
-static void units_make_no_difference(void **state)
+POOL_TEST(units_make_no_difference)
 {
-    (void)state;
     double first[2 * N] = {0};
     for (int k = 0; k < 2; k++) {
         struct wrong wrong;
@@ -199,11 +195,10 @@ static void units_make_no_difference(void **state)
         assert_close(error[q], first[q], 1e-9, 1e-12);
 }
 
-static void what_the_fit_refuses_is_refused(void **state)
+POOL_TEST(what_the_fit_refuses_is_refused)
 {
     struct wrong wrong;
     double x[N] = {1, 1, 1};
-    (void)state;
     open_wrong(0, &wrong);
     wrong.poison = -1e3;
     assert_status(check(&wrong, NULL), ROTID_ERROR_MASS);
@@ -241,10 +236,9 @@ static void what_the_fit_refuses_is_refused(void **state)
     assert_status(check(&wrong, x), ROTID_ERROR_ARGUMENT);
 }
 
-static void memory_that_fails_is_said_and_given_back(void **state)
+POOL_TEST(memory_that_fails_is_said_and_given_back)
 {
     struct wrong wrong;
-    (void)state;
     open_wrong(0, &wrong);
     int status = ROTID_ERROR_MEMORY;
     for (long n = 1; status == ROTID_ERROR_MEMORY; n++) {
@@ -258,7 +252,7 @@ static void memory_that_fails_is_said_and_given_back(void **state)
 }
 
 /* What it is for: the fit converges all the same, and its interval is too narrow by as much. */
-static void a_fit_does_not_notice_and_is_too_sure(void **state)
+POOL_TEST(a_fit_does_not_notice_and_is_too_sure)
 {
     struct wrong wrong;
     struct beam_data data;
@@ -279,19 +273,4 @@ static void a_fit_does_not_notice_and_is_too_sure(void **state)
     assert_close(std[1], std[0] / 1.2, 0.01, 0);
     assert_status(check(&wrong, NULL), ROTID_OK);
     assert_true(is_wrong(1));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(right_derivatives_pass),
-        WITH_POOL(a_derivative_that_is_a_fifth_too_large_is_found),
-        WITH_POOL(a_wrong_derivative_of_the_mass_is_found),
-        WITH_POOL(storage_tells_no_difference_but_a_missing_triangle_does),
-        WITH_POOL(units_make_no_difference),
-        WITH_POOL(what_the_fit_refuses_is_refused),
-        WITH_POOL(memory_that_fails_is_said_and_given_back),
-        WITH_POOL(a_fit_does_not_notice_and_is_too_sure),
-    };
-    return cmocka_run_group_tests_name("check_model", tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static int left_over(const char *prefix)
 
 /* ------------------------------------------------------------------------------------------------ arguments */
 
-static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
+UNIT_TEST(wrong_usage_exits_2_and_says_what_was_expected)
 {
-    (void)state;
     assert_true(is(run(NULL), 2, NULL, "usage: rotid COMMAND FILE"));
     assert_true(is(run("identify"), 2, NULL, "no file given, expected rotid COMMAND FILE"));
     assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command, expected"));
@@ -128,9 +127,8 @@ static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
     assert_true(is(run("check", folder_path("missing.inp")), 2, NULL, "missing.inp:1:1: cannot read"));
 }
 
-static void help_and_version_exit_0(void **state)
+UNIT_TEST(help_and_version_exit_0)
 {
-    (void)state;
     assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("identify", "--help"), 0, "usage: rotid identify FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
@@ -139,9 +137,8 @@ static void help_and_version_exit_0(void **state)
     forget(&outcome);
 }
 
-static void quiet_commands_print_nothing(void **state)
+UNIT_TEST(quiet_commands_print_nothing)
 {
-    (void)state;
     static const char *const commands[] = {"check", "modes", "sensitivity", "identify"};
     for (int c = 0; c < 8; c++)
         assert_true(is(run(commands[c % 4], c < 4 ? PAPER : ONE_ELEMENT, "--quiet"), 0, NULL, NULL));
@@ -149,9 +146,8 @@ static void quiet_commands_print_nothing(void **state)
 
 /* ------------------------------------------------------------------------------------------------ results */
 
-static void json_of_identify_has_the_keys_of_the_interface(void **state)
+UNIT_TEST(json_of_identify_has_the_keys_of_the_interface)
 {
-    (void)state;
     struct outcome outcome = run("identify", PAPER, "--json", "-", "--threads", "1");
     assert_true(outcome.code == 0 && !*outcome.err);
     cJSON *json = cJSON_ParseWithOpts(outcome.out, NULL, 1); /* one object and nothing behind it */
@@ -175,9 +171,8 @@ static void json_of_identify_has_the_keys_of_the_interface(void **state)
     cJSON_Delete(json);
 }
 
-static void every_command_writes_json(void **state)
+UNIT_TEST(every_command_writes_json)
 {
-    (void)state;
     static const char *const commands[] = {"check", "modes", "sensitivity", "identify"};
     for (int c = 0; c < 4; c++) {
         cJSON *json = json_of(commands[c], BRAKE, NULL, NULL, 0);
@@ -187,9 +182,8 @@ static void every_command_writes_json(void **state)
 }
 
 /* the library takes a seed of 0 for its default */
-static void a_diagnosis_states_the_seed_that_was_used(void **state)
+UNIT_TEST(a_diagnosis_states_the_seed_that_was_used)
 {
-    (void)state;
     for (int seed = 0; seed < 3; seed++) {
         char text[2] = {(char)('0' + seed), 0};
         struct outcome outcome = run("diagnose", BRAKE, "--json", "-", "--replicates=100", "--seed", text);
@@ -200,9 +194,8 @@ static void a_diagnosis_states_the_seed_that_was_used(void **state)
     }
 }
 
-static void json_is_utf_8_whatever_the_deck_holds(void **state)
+UNIT_TEST(json_is_utf_8_whatever_the_deck_holds)
 {
-    (void)state;
     const char *deck =
         folder_write("deck.inp", "*HEADING\nL\xe4ufer, W\xc3\xa4rme \xe2\x82\n" MODEL); /* Latin-1, UTF-8, cut off */
     struct outcome outcome = run("check", deck, "--json", "-");
@@ -212,9 +205,8 @@ static void json_is_utf_8_whatever_the_deck_holds(void **state)
     assert_true(is(outcome, 0, "", NULL));
 }
 
-static void a_result_at_a_bound_is_written_and_exits_1(void **state)
+UNIT_TEST(a_result_at_a_bound_is_written_and_exits_1)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", MODEL MODES "*IDENTIFY\ncore.E, 1e10, 1.5e11, 1e11\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
     const cJSON *parameter = cJSON_GetArrayItem(get(json, "parameters"), 0);
@@ -223,9 +215,8 @@ static void a_result_at_a_bound_is_written_and_exits_1(void **state)
     cJSON_Delete(json);
 }
 
-static void a_parameter_without_effect_is_flagged_and_exits_1(void **state)
+UNIT_TEST(a_parameter_without_effect_is_flagged_and_exits_1)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", MODEL MODES "*DISK, NAME=ghost\n0.5, 0, 1e-9\n*IDENTIFY\n"
                                                             "core.E, 1e10, 4e11, 2e11\nghost.inertia, 1e-12, 1e-6, 1e-9\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
@@ -234,9 +225,8 @@ static void a_parameter_without_effect_is_flagged_and_exits_1(void **state)
 }
 
 /* Converged and at no bound: three frequencies of a slender bar say next to nothing of its shear modulus. */
-static void an_undetermined_parameter_exits_1(void **state)
+UNIT_TEST(an_undetermined_parameter_exits_1)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
                                                 "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.02, 0, 20\n"
                                                 "*MODES\n1, 91.8\n2, 253.1\n3, 495.2\n"
@@ -250,18 +240,16 @@ static void an_undetermined_parameter_exits_1(void **state)
     cJSON_Delete(json);
 }
 
-static void nothing_to_identify_or_nothing_measured_exits_2(void **state)
+UNIT_TEST(nothing_to_identify_or_nothing_measured_exits_2)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", MODEL "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n");
     assert_true(is(run("identify", STEEL, "--json", folder_path("out.json")), 2, NULL, "expected a card *IDENTIFY"));
     assert_true(is(run("identify", deck, "--json", folder_path("out.json")), 2, NULL, "expected *MODES or *MEASURED"));
     assert_int_equal(left_over("out.json"), 0);
 }
 
-static void the_same_run_gives_the_same_json_but_for_the_time(void **state)
+UNIT_TEST(the_same_run_gives_the_same_json_but_for_the_time)
 {
-    (void)state;
     struct outcome outcome[2];
     for (int i = 0; i < 2; i++)
         outcome[i] = run("identify", PAPER, "--json", "-");
@@ -280,9 +268,8 @@ static void the_same_run_gives_the_same_json_but_for_the_time(void **state)
         forget(&outcome[i]);
 }
 
-static void warnings_stand_on_standard_error_and_in_the_json(void **state)
+UNIT_TEST(warnings_stand_on_standard_error_and_in_the_json)
 {
-    (void)state;
     const char *deck =
         folder_write("deck.inp", MODEL "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4");
     struct outcome outcome = run("check", deck, "--json", "-");
@@ -298,9 +285,8 @@ static void warnings_stand_on_standard_error_and_in_the_json(void **state)
 
 /* ------------------------------------------------------------------------------------------------ files */
 
-static void what_cannot_be_written_exits_3_and_leaves_nothing(void **state)
+UNIT_TEST(what_cannot_be_written_exits_3_and_leaves_nothing)
 {
-    (void)state;
     assert_true(is(run("check", BRAKE, "--quiet", "--json", folder_path("none/out.json")), 3, NULL, "cannot write"));
     assert_true(is(run("check", BRAKE, "--quiet", "--json", folder), 3, NULL, "cannot write"));
     assert_int_equal(left_over("none"), 0);
@@ -311,9 +297,8 @@ static void what_cannot_be_written_exits_3_and_leaves_nothing(void **state)
     assert_true(is(run_into("/dev/full", "--version", NULL), 3, NULL, "cannot write to standard output"));
 }
 
-static void a_result_is_replaced_as_a_whole_or_not_at_all(void **state)
+UNIT_TEST(a_result_is_replaced_as_a_whole_or_not_at_all)
 {
-    (void)state;
     const char *wrong = folder_write("deck.inp", MODEL "*SHAFT\n"), *result = folder_write("out.json", "old\n");
     assert_true(is(run("check", wrong, "--json", result), 2, NULL, "expected"));
     assert_true(is(run("check", wrong, "--json", wrong), 2, NULL, "is the file that is read, expected another one"));
@@ -333,9 +318,8 @@ static void a_result_is_replaced_as_a_whole_or_not_at_all(void **state)
     assert_int_equal(left_over("out.json"), 1); /* no temporary file beside it */
 }
 
-static void set_changes_the_result(void **state)
+UNIT_TEST(set_changes_the_result)
 {
-    (void)state;
     cJSON *condensed = json_of("identify", PAPER, NULL, NULL, 0);
     cJSON *full = json_of("identify", PAPER, "--set", "FIT.REDUCTION=NONE", 0);
     assert_string_equal(get(condensed, "reduction")->valuestring, "GUYAN");
@@ -346,9 +330,8 @@ static void set_changes_the_result(void **state)
     cJSON_Delete(full);
 }
 
-static void a_file_named_by_set_is_looked_for_where_the_user_stands(void **state)
+UNIT_TEST(a_file_named_by_set_is_looked_for_where_the_user_stands)
 {
-    (void)state;
     char here[4096], deck[512];
     (void)snprintf(deck, sizeof deck, "%s", folder_write("deck.inp", MODEL));
     assert_non_null(getcwd(here, sizeof here));
@@ -358,26 +341,4 @@ static void a_file_named_by_set_is_looked_for_where_the_user_stands(void **state
     assert_true(is(outcome, 0, "measured modes             2", NULL));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_usage_exits_2_and_says_what_was_expected),
-        cmocka_unit_test(help_and_version_exit_0),
-        cmocka_unit_test(quiet_commands_print_nothing),
-        cmocka_unit_test(json_of_identify_has_the_keys_of_the_interface),
-        cmocka_unit_test(every_command_writes_json),
-        cmocka_unit_test(a_diagnosis_states_the_seed_that_was_used),
-        cmocka_unit_test(json_is_utf_8_whatever_the_deck_holds),
-        cmocka_unit_test(a_result_at_a_bound_is_written_and_exits_1),
-        cmocka_unit_test(a_parameter_without_effect_is_flagged_and_exits_1),
-        cmocka_unit_test(an_undetermined_parameter_exits_1),
-        cmocka_unit_test(nothing_to_identify_or_nothing_measured_exits_2),
-        cmocka_unit_test(the_same_run_gives_the_same_json_but_for_the_time),
-        cmocka_unit_test(warnings_stand_on_standard_error_and_in_the_json),
-        cmocka_unit_test(what_cannot_be_written_exits_3_and_leaves_nothing),
-        cmocka_unit_test(a_result_is_replaced_as_a_whole_or_not_at_all),
-        cmocka_unit_test(set_changes_the_result),
-        cmocka_unit_test(a_file_named_by_set_is_looked_for_where_the_user_stands),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -71,9 +71,8 @@ static cJSON *json_of(const char *name)
     return json;
 }
 
-static void nine_modes_of_a_bar_in_the_json(void **state)
+UNIT_TEST(nine_modes_of_a_bar_in_the_json)
 {
-    (void)state;
     make_excerpt("bar.uff");
     ema_says("bar.uff --json bar.json -o modes.uff", 0, "9 modes written to modes.uff");
     assert_non_null(strstr(uff_output, "3 transfer functions (accelerance), 3 points, 1861 lines from 40 to 2106 Hz"));
@@ -103,9 +102,8 @@ static void nine_modes_of_a_bar_in_the_json(void **state)
     cJSON_Delete(json);
 }
 
-static void a_deck_reads_the_modes_back(void **state)
+POOL_TEST(a_deck_reads_the_modes_back)
 {
-    (void)state;
     struct message_list messages;
     struct job job;
     make_excerpt("bar.uff");
@@ -142,9 +140,8 @@ static void a_deck_reads_the_modes_back(void **state)
     assert_int_equal(program("check", "bar.inp"), 0);
 }
 
-static void picks_and_bands_choose(void **state)
+UNIT_TEST(picks_and_bands_choose)
 {
-    (void)state;
     make_excerpt("bar.uff");
     ema_says("bar.uff --quiet --pick 283,1293 --json pick.json", 0, "");
     cJSON *json = json_of("pick.json");
@@ -172,9 +169,8 @@ static void picks_and_bands_choose(void **state)
     cJSON_Delete(json);
 }
 
-static void per_point_gives_each_point_its_frequency(void **state)
+UNIT_TEST(per_point_gives_each_point_its_frequency)
 {
-    (void)state;
     size_t length;
     make_excerpt("bar.uff");
     ema_says("bar.uff --quiet --per-point --json points.json -o points.uff", 0, "");
@@ -198,9 +194,8 @@ static void per_point_gives_each_point_its_frequency(void **state)
     free(text);
 }
 
-static void quiet_says_nothing(void **state)
+UNIT_TEST(quiet_says_nothing)
 {
-    (void)state;
     make_excerpt("bar.uff");
     ema_says("bar.uff --quiet", 0, "");
     assert_int_equal(strlen(uff_output), 0);
@@ -210,7 +205,7 @@ static void quiet_says_nothing(void **state)
     assert_null(strstr(uff_output, "nan"));
 }
 
-static void wrong_usage_is_refused(void **state)
+UNIT_TEST(wrong_usage_is_refused)
 {
     static const struct {
         const char *arguments, *text;
@@ -241,7 +236,6 @@ static void wrong_usage_is_refused(void **state)
         {"cut.uff", "set 58: the file ends after this line"},
     };
     size_t length;
-    (void)state;
     make_excerpt("bar.uff");
     put_text("bar.inp", DECK);
     put_text("nodes.uff", "    -1\n  2411\n    -1\n");
@@ -261,9 +255,8 @@ static void wrong_usage_is_refused(void **state)
     assert_non_null(strstr(uff_output, "--per-point is an option of ema alone"));
 }
 
-static void output_is_whole_or_not_there(void **state)
+UNIT_TEST(output_is_whole_or_not_there)
 {
-    (void)state;
     make_excerpt("bar.uff");
     ema_says("bar.uff -o nowhere/modes.uff", 3, "nowhere/modes.uff: cannot be written: No such file or directory");
     ema_says("bar.uff --json nowhere/bar.json", 3, "nowhere/bar.json: No such file or directory");
@@ -279,16 +272,4 @@ static void output_is_whole_or_not_there(void **state)
     assert_int_equal(count_files("nowhere"), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nine_modes_of_a_bar_in_the_json),
-        cmocka_unit_test_setup_teardown(a_deck_reads_the_modes_back, open_test_pool, close_test_pool),
-        cmocka_unit_test(picks_and_bands_choose),
-        cmocka_unit_test(per_point_gives_each_point_its_frequency),
-        cmocka_unit_test(quiet_says_nothing),
-        cmocka_unit_test(wrong_usage_is_refused),
-        cmocka_unit_test(output_is_whole_or_not_there),
-    };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
-}
+TEST_GROUP(make_directory, remove_directory);

@@ -105,9 +105,15 @@ static void empty_folder(void)
 
 /* ------------------------------------------------------------------------------------------------ what is exported */
 
-static void test_the_model_is_fitted_first(void **state)
+static int clear(void **state)
 {
     (void)state;
+    empty_folder();
+    return 0;
+}
+
+FIXTURE_TEST(test_the_model_is_fitted_first, NULL, clear)
+{
     cJSON *fit = json_of("identify " PAPER " --json - --no-baseline", 0);
     cJSON *out = json_of("export " PAPER " --format matrix-market -o p --json -", 0);
     for (int p = 0; p < 2; p++) {
@@ -131,9 +137,8 @@ static void test_the_model_is_fitted_first(void **state)
     cJSON_Delete(modes);
 }
 
-static void test_a_doubtful_fit_is_written_with_exit_code_1(void **state)
+FIXTURE_TEST(test_a_doubtful_fit_is_written_with_exit_code_1, NULL, clear)
 {
-    (void)state;
     (void)folder_write("bound.inp", MODEL MODES "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n");
     static const char *const formats[] = {"matrix-market", "dmig"};
     for (int f = 0; f < 2; f++) {
@@ -146,9 +151,8 @@ static void test_a_doubtful_fit_is_written_with_exit_code_1(void **state)
     assert_int_equal(run("export bound.inp --format dmig -o b1 --start"), 0);
 }
 
-static void test_a_deck_with_nothing_to_fit(void **state)
+FIXTURE_TEST(test_a_deck_with_nothing_to_fit, NULL, clear)
 {
-    (void)state;
     (void)folder_write("plain.inp", MODEL);
     assert_int_equal(run("export plain.inp --format matrix-market -o plain"), 0);
     assert_non_null(strstr(output, "as the deck states it"));
@@ -161,9 +165,8 @@ static void test_a_deck_with_nothing_to_fit(void **state)
     assert_string_equal(output, "");
 }
 
-static void test_set_changes_the_model(void **state)
+FIXTURE_TEST(test_set_changes_the_model, NULL, clear)
 {
-    (void)state;
     cJSON *guyan = json_of("export " PAPER " --start --format matrix-market -o g --json -", 0);
     cJSON *irs = json_of("export " PAPER " --start --format matrix-market -o i --json - --set FIT.REDUCTION=IRS", 0);
     cJSON *rods = json_of("export " PAPER " --start --format matrix-market -o r --json - --set TIEROD.MODEL=RODS", 0);
@@ -176,9 +179,8 @@ static void test_set_changes_the_model(void **state)
     cJSON_Delete(rods);
 }
 
-static void test_too_few_sensors_to_condense_onto(void **state)
+FIXTURE_TEST(test_too_few_sensors_to_condense_onto, NULL, clear)
 {
-    (void)state;
     (void)folder_write("one.inp", MODEL "*SENSORS\n1, 0.3\n");
     cJSON *out = json_of("export one.inp --format matrix-market -o one --json -", 0);
     assert_int_equal(cJSON_GetArraySize(get(out, "files")), 3);
@@ -194,9 +196,8 @@ static void test_too_few_sensors_to_condense_onto(void **state)
     assert_non_null(strstr(output, "2 masters are too few"));
 }
 
-static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
+FIXTURE_TEST(test_sensors_are_the_grids_of_the_condensed_model, NULL, clear)
 {
-    (void)state;
     struct dmig_file file;
     (void)folder_write("ids.inp", MODEL "*SENSORS\n40, 0\n7, 0.2\n99999999, 0.4\n1, 0.7\n3, 1\n");
     assert_int_equal(run("export ids.inp --format dmig --condensed -o ids.bdf"), 0);
@@ -216,9 +217,8 @@ static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
     assert_false(is_there("no.bdf"));
 }
 
-static void test_a_solid_has_no_beam_elements(void **state)
+FIXTURE_TEST(test_a_solid_has_no_beam_elements, NULL, clear)
 {
-    (void)state;
     folder_write("solid.inp", MODEL SENSORS "*FIT, MODEL=SOLID\n");
     refuses("export solid.inp --format dmig -o x.bdf", 2, "a Nastran deck of rotid has beam elements");
     assert_int_equal(run("export solid.inp --format dmig --condensed -o x.bdf"), 0);
@@ -229,9 +229,8 @@ static void test_a_solid_has_no_beam_elements(void **state)
 }
 
 /* Texts of a deck end in comments: what other programs would stop at is replaced. */
-static void test_names_cannot_break_out(void **state)
+FIXTURE_TEST(test_names_cannot_break_out, NULL, clear)
 {
-    (void)state;
     (void)folder_write("odd.inp",
                        "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
                        "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
@@ -242,9 +241,8 @@ static void test_names_cannot_break_out(void **state)
 
 /* ------------------------------------------------------------------------------------------------ what is refused */
 
-static void test_wrong_arguments(void **state)
+FIXTURE_TEST(test_wrong_arguments, NULL, clear)
 {
-    (void)state;
     (void)folder_write("plain.inp", MODEL);
     refuses("export plain.inp -o x", 2, "expected --format matrix-market or dmig");
     refuses("export plain.inp --format ansys -o x", 2, "--format ansys: expected matrix-market or dmig");
@@ -273,9 +271,8 @@ static void test_wrong_arguments(void **state)
 static const char *const suffix[] = {"stiffness.mtx", "mass.mtx", "nodes.csv", "condensed_stiffness.mtx", "condensed_mass.mtx"};
 
 /* Whichever of the five cannot be written: those that were there are as they were, those that were not are not. */
-static void test_all_files_or_none(void **state)
+FIXTURE_TEST(test_all_files_or_none, NULL, clear)
 {
-    (void)state;
     (void)folder_write("s.inp", MODEL SENSORS);
     for (int bad = 0; bad < 5; bad++) {
         char name[64];
@@ -310,9 +307,8 @@ static void test_all_files_or_none(void **state)
     assert_false(holds("a.mass.mtx", "old") || holds("a.nodes.csv", "old"));
 }
 
-static void test_places_that_cannot_be_written(void **state)
+FIXTURE_TEST(test_places_that_cannot_be_written, NULL, clear)
 {
-    (void)state;
     (void)folder_write("s.inp", MODEL SENSORS);
     refuses("export s.inp --format dmig -o no/where.bdf", 3, "cannot write no/where.bdf");
     refuses("export s.inp --format matrix-market -o no/where", 3, "cannot write no/where.stiffness.mtx");
@@ -326,9 +322,8 @@ static void test_places_that_cannot_be_written(void **state)
 }
 
 /* Nine thousand elements are fitted for seconds. On a loaded machine the signal may come before the program can take it. */
-static void test_an_interrupted_fit_writes_nothing(void **state)
+FIXTURE_TEST(test_an_interrupted_fit_writes_nothing, NULL, clear)
 {
-    (void)state;
     char command[512];
     (void)folder_write(
         "slow.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
@@ -363,9 +358,8 @@ static double time_of_children(void)
     return (double)(spent.tms_cutime + spent.tms_cstime) / (double)sysconf(_SC_CLK_TCK);
 }
 
-static void test_two_thousand_elements(void **state)
+FIXTURE_TEST(test_two_thousand_elements, NULL, clear)
 {
-    (void)state;
     (void)folder_write("long.inp",
                        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
                        "2000\n" SENSORS);
@@ -394,29 +388,4 @@ static void test_two_thousand_elements(void **state)
     assert_false(is_there("bare.condensed_mass.mtx"));
 }
 
-static int clear(void **state)
-{
-    (void)state;
-    empty_folder();
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_the_model_is_fitted_first, clear),
-        cmocka_unit_test_teardown(test_a_doubtful_fit_is_written_with_exit_code_1, clear),
-        cmocka_unit_test_teardown(test_a_deck_with_nothing_to_fit, clear),
-        cmocka_unit_test_teardown(test_set_changes_the_model, clear),
-        cmocka_unit_test_teardown(test_too_few_sensors_to_condense_onto, clear),
-        cmocka_unit_test_teardown(test_sensors_are_the_grids_of_the_condensed_model, clear),
-        cmocka_unit_test_teardown(test_a_solid_has_no_beam_elements, clear),
-        cmocka_unit_test_teardown(test_names_cannot_break_out, clear),
-        cmocka_unit_test_teardown(test_wrong_arguments, clear),
-        cmocka_unit_test_teardown(test_all_files_or_none, clear),
-        cmocka_unit_test_teardown(test_places_that_cannot_be_written, clear),
-        cmocka_unit_test_teardown(test_an_interrupted_fit_writes_nothing, clear),
-        cmocka_unit_test_teardown(test_two_thousand_elements, clear),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

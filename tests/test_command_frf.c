@@ -125,9 +125,8 @@ static double damping_at(const double *hz, const double complex *h, double reson
     return cimag(b[0]) / cabs(b[0]);
 }
 
-static void figure_15_has_the_identified_frequencies_and_the_damping_of_table_4(void **state)
+POOL_TEST(figure_15_has_the_identified_frequencies_and_the_damping_of_table_4)
 {
-    (void)state;
     static const double table4[] = {6.008e-3, 9.205e-3, 1.592e-2, 1.045e-2, 1.935e-2, 1.893e-2};
     static double hz[15001], re[15001], im[15001];
     static double complex receptance[15001];
@@ -230,9 +229,8 @@ static void write_measured(const char *name, int reversed)
     assert_int_equal(fclose(stream), 0);
 }
 
-static void measured_functions_of_the_exact_beam_agree(void **state)
+POOL_TEST(measured_functions_of_the_exact_beam_agree)
 {
-    (void)state;
     char options[512];
     write_measured("exact.uff", 1);
     write_deck("deck.inp", SHAFT SENSORS, "*FRF, FILE=exact.uff, DAMPING=1e-5\n");
@@ -254,9 +252,8 @@ static void measured_functions_of_the_exact_beam_agree(void **state)
     cJSON_Delete(json);
 }
 
-static void the_output_is_read_back_as_the_same_functions(void **state)
+POOL_TEST(the_output_is_read_back_as_the_same_functions)
 {
-    (void)state;
     char options[512];
     struct message_list messages;
     struct measurement first, again;
@@ -287,9 +284,8 @@ static void the_output_is_read_back_as_the_same_functions(void **state)
 
 /* ------------------------------------------------------------------------------------------------ what is refused */
 
-static void what_cannot_be_synthesised_is_refused(void **state)
+POOL_TEST(what_cannot_be_synthesised_is_refused)
 {
-    (void)state;
     static const struct {
         const char *more, *says;
     } wrong[] = {
@@ -322,17 +318,15 @@ static void what_cannot_be_synthesised_is_refused(void **state)
 }
 
 /* A core that no shear modulus within its bounds makes stiff enough: computed, and not to be trusted. */
-static void an_identification_at_a_bound_is_said(void **state)
+POOL_TEST(an_identification_at_a_bound_is_said)
 {
-    (void)state;
     write_deck("deck.inp", SHAFT SENSORS, "*MODES\n1, 900, 0.01\n*FRF, LINES=50\n*IDENTIFY\ncore.E, 1e10, 2e11, 1.5e11\n");
     assert_int_equal(frf_of(folder_path("deck.inp"), ""), 1);
     assert_non_null(strstr(output, "the identification did not end well"));
 }
 
-static void many_functions_are_summed_up_unless_asked_for(void **state)
+POOL_TEST(many_functions_are_summed_up_unless_asked_for)
 {
-    (void)state;
     char options[256];
     assert_int_equal(frf_of(ROTID_SOURCE_DIR "/input/solid_rotor.inp", "--set FRF.DAMPING=0.01"), 0);
     assert_non_null(strstr(output, " transfer function"));
@@ -344,17 +338,4 @@ static void many_functions_are_summed_up_unless_asked_for(void **state)
     cJSON_Delete(json);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(figure_15_has_the_identified_frequencies_and_the_damping_of_table_4),
-        TEST(measured_functions_of_the_exact_beam_agree),
-        TEST(the_output_is_read_back_as_the_same_functions),
-        TEST(what_cannot_be_synthesised_is_refused),
-        TEST(an_identification_at_a_bound_is_said),
-        TEST(many_functions_are_summed_up_unless_asked_for),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

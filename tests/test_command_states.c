@@ -51,9 +51,8 @@ static void assert_named(const struct result *result)
         assert_string_equal(result->states[s].name, states[s]);
 }
 
-static void modes_are_those_of_each_state(void **state)
+POOL_TEST(modes_are_those_of_each_state)
 {
-    (void)state;
     struct result all = run("modes", "");
     assert_named(&all);
     for (int s = 0; s < 2; s++) {
@@ -69,9 +68,8 @@ static void modes_are_those_of_each_state(void **state)
     assert_close(all.modes->modes[0].full_hz, all.states[0].modes->modes[0].full_hz, 1e-14, 0); /* beside: the first */
 }
 
-static void check_tells_of_each_state(void **state)
+POOL_TEST(check_tells_of_each_state)
 {
-    (void)state;
     struct result all = run("check", "");
     assert_named(&all);
     for (int s = 0; s < 2; s++) {
@@ -82,9 +80,8 @@ static void check_tells_of_each_state(void **state)
     }
 }
 
-static void sensitivity_is_that_of_each_state(void **state)
+POOL_TEST(sensitivity_is_that_of_each_state)
 {
-    (void)state;
     struct result all = run("sensitivity", "");
     assert_named(&all);
     for (int s = 0; s < 2; s++) {
@@ -101,9 +98,8 @@ static void sensitivity_is_that_of_each_state(void **state)
 }
 
 /* Both states at the modulus of the fit over both, and each with its own unknowns. */
-static void functions_are_synthesised_at_the_fit_of_all(void **state)
+POOL_TEST(functions_are_synthesised_at_the_fit_of_all)
 {
-    (void)state;
     struct result all = run("frf", ""), fit = run("identify", "--no-baseline"), one = run("frf", "--state 'Long one'");
     assert_named(&all);
     assert_int_equal(fit.identify->nparameters, 3);
@@ -128,9 +124,8 @@ static const char *refused(const char *arguments)
 }
 
 /* A file holds one state. */
-static void files_are_of_one_state(void **state)
+POOL_TEST(files_are_of_one_state)
 {
-    (void)state;
     const char *at = deck(), *out = folder_path("model");
     (void)shell(&test_pool, "%s export %s --format matrix-market --state 'long one' -o %s", ROTID_PROGRAM, at, out);
     assert_non_null(strstr(shell(&test_pool, "cat %s.mass.mtx; rm %s.*", out, out), "strip.E"));
@@ -146,9 +141,8 @@ static void files_are_of_one_state(void **state)
                            "--at:1:9: clamp.x is no parameter of this deck, expected one of clamp.k, "));
 }
 
-static void tables_name_their_state(void **state)
+POOL_TEST(tables_name_their_state)
 {
-    (void)state;
     static const char *const commands[] = {"modes", "check", "sensitivity", "frf", "identify --no-baseline"};
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         const char *text = shell(&test_pool, "%s %s %s", ROTID_PROGRAM, commands[i], deck()),
@@ -157,15 +151,4 @@ static void tables_name_their_state(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(modes_are_those_of_each_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(check_tells_of_each_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(sensitivity_is_that_of_each_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(functions_are_synthesised_at_the_fit_of_all, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(files_are_of_one_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(tables_name_their_state, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("command_states", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -7,9 +7,8 @@
 #include "support.h"
 #include "uff_program.h"
 
-static void a_listing_begins_with_what_there_is(void **state)
+UNIT_TEST(a_listing_begins_with_what_there_is)
 {
-    (void)state;
     make_sound("sound.uff");
     says("sound.uff", 0, "3 transfer functions, 641 lines each, 0 to 320 Hz, responses 1 to 3, reference 1");
     assert_non_null(strstr(uff_output, "1 shape, real, 72.125 to 72.125 Hz, 3 points"));
@@ -40,9 +39,8 @@ static void doubts_are(const char *name, const char *expected)
     assert_string_equal(kinds, expected);
 }
 
-static void doubtful_places_are_found(void **state)
+UNIT_TEST(doubtful_places_are_found)
 {
-    (void)state;
     FILE *stream = create("doubt.uff");
     assert_status(uff_write_units(stream, &uff_si), ROTID_OK);
     put_nodes(stream, 4);
@@ -89,9 +87,8 @@ static void doubtful_places_are_found(void **state)
     doubts_are("sound.uff", ",unknown_set,");
 }
 
-static void a_long_table_is_cut(void **state)
+UNIT_TEST(a_long_table_is_cut)
 {
-    (void)state;
     FILE *stream = create("long.uff");
     for (int i = 0; i < 90; i++) { /* no two neighbours alike */
         struct uff_function f = function(i % 2 ? UFF_TRANSFER : UFF_COHERENCE, i, 3);
@@ -104,9 +101,8 @@ static void a_long_table_is_cut(void **state)
 }
 
 /* Sets of geometry that rotid uses nothing of are named and read over, whatever they hold. */
-static void sets_that_are_not_used_are_read_over(void **state)
+UNIT_TEST(sets_that_are_not_used_are_read_over)
 {
-    (void)state;
     static const int sets[] = {18, 82, 2412, 2414, 2420};
     FILE *stream = create("over.uff");
     for (int i = 0; i < 5; i++)
@@ -125,9 +121,8 @@ static void sets_that_are_not_used_are_read_over(void **state)
     cJSON_Delete(json);
 }
 
-static void wrong_usage_is_told(void **state)
+UNIT_TEST(wrong_usage_is_told)
 {
-    (void)state;
     make_sound("sound.uff");
     says("", 2, "uff: no file given");
     says("missing.uff", 2, "missing.uff:1:1: cannot be opened");
@@ -141,9 +136,8 @@ static void wrong_usage_is_told(void **state)
     says("notes.txt", 2, "no universal file");
 }
 
-static void a_truncated_file_is_listed_and_has_no_tables(void **state)
+UNIT_TEST(a_truncated_file_is_listed_and_has_no_tables)
 {
-    (void)state;
     make_sound("cut.uff");
     assert_int_equal(truncate(path_of("cut.uff"), 60000), 0);
     says("cut.uff", 1, "2 transfer functions");
@@ -152,24 +146,11 @@ static void a_truncated_file_is_listed_and_has_no_tables(void **state)
     assert_int_equal(count_files("out"), 0);
 }
 
-static void a_full_disk_is_told(void **state)
+UNIT_TEST(a_full_disk_is_told)
 {
-    (void)state;
     make_sound("sound.uff");
     says("sound.uff 3>&1 > /dev/full 2>&3 #", 3, "cannot write to standard output");
     says("sound.uff --quiet --json /dev/full", 3, "cannot write /dev/full");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_listing_begins_with_what_there_is),
-        cmocka_unit_test(doubtful_places_are_found),
-        cmocka_unit_test(a_long_table_is_cut),
-        cmocka_unit_test(sets_that_are_not_used_are_read_over),
-        cmocka_unit_test(wrong_usage_is_told),
-        cmocka_unit_test(a_truncated_file_is_listed_and_has_no_tables),
-        cmocka_unit_test(a_full_disk_is_told),
-    };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
-}
+TEST_GROUP(make_directory, remove_directory);

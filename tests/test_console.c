@@ -16,9 +16,8 @@
 #define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT    "*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n*SPRING, NAME=foot\n0, 1e6\n"
 
-static void help_has_examples_that_the_command_takes(void **state)
+POOL_TEST(help_has_examples_that_the_command_takes)
 {
-    (void)state;
     for (const char *const *c = (const char *const[]){"check", "modes", "sensitivity", "identify", "diagnose", "frf", "ema",
                                                       "export", "uff", "report", "study", NULL};
          *c; c++) {
@@ -47,10 +46,9 @@ static void assert_says(const char *deck, const char *part)
         fail_msg("%s: expected %s", output, part);
 }
 
-static void the_nearest_name_is_offered(void **state)
+POOL_TEST(the_nearest_name_is_offered)
 {
     const char *output;
-    (void)state;
     assert_says(MATERIAL SHAFT "*MODE\n1, 500\n", "card *MODE is not known, expected *MODES");
     assert_says(MATERIAL SHAFT "*SENSOR\n1, 0\n", "card *SENSOR is not known, expected *SENSORS");
     assert_says(MATERIAL SHAFT "*IDNETIFY\ncore.E, 1e10, 1e12, 2e11\n", "expected *IDENTIFY");
@@ -59,10 +57,9 @@ static void the_nearest_name_is_offered(void **state)
     assert_non_null(strstr(output, "--jsn is no option, expected --json"));
 }
 
-static void parameters_that_there_are_are_listed(void **state)
+POOL_TEST(parameters_that_there_are_are_listed)
 {
     const char *output;
-    (void)state;
     assert_says(MATERIAL SHAFT "*IDENTIFY\nshell.E, 1e10, 1e12, 2e11\n",
                 "shell.E is no parameter, expected one of core.E, core.G, core.nu, core.rho, foot.k, foot.k_rot");
     assert_says(MATERIAL SHAFT "*IDENTIFY\ncore.k, 1e10, 1e12, 2e11\n", "expected one of core.E, core.G, core.nu, core.rho\n");
@@ -73,9 +70,8 @@ static void parameters_that_there_are_are_listed(void **state)
     assert_says(pool_format(&test_pool, "%s*IDENTIFY\nx.E, 1, 3, 2\n", many), "and 18 more");
 }
 
-static void distances_count_edits(void **state)
+POOL_TEST(distances_count_edits)
 {
-    (void)state;
     assert_int_equal(text_distance("modes", "MODES"), 0);
     assert_int_equal(text_distance("MODE", "MODES"), 1);
     assert_int_equal(text_distance("MOEDS", "MODES"), 1); /* neighbours exchanged */
@@ -85,7 +81,7 @@ static void distances_count_edits(void **state)
     assert_int_equal(text_distance("A123456789012345678901234567890123456789", "SET"), TEXT_FAR);
 }
 
-static void an_option_without_a_meaning_is_refused(void **state)
+POOL_TEST(an_option_without_a_meaning_is_refused)
 {
     static const char *const wrong[][2] = {
         {"check " PAPER " --seed 2", "--seed is no option of check"},
@@ -93,7 +89,6 @@ static void an_option_without_a_meaning_is_refused(void **state)
         {"report x.json -o page --verbose", "--verbose is no option of report"},
         {"ema " ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff --block 1", "--block is for time records"}};
     const char *output;
-    (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(shell_code(&test_pool, &output, ROTID_PROGRAM " %s", wrong[i][0]), 2);
         assert_non_null(strstr(output, wrong[i][1]));
@@ -101,9 +96,8 @@ static void an_option_without_a_meaning_is_refused(void **state)
 }
 
 /* One isotropic material and nothing else: all frequencies go with the root of E. */
-static void sensitivity_is_per_cent_for_a_per_cent(void **state)
+POOL_TEST(sensitivity_is_per_cent_for_a_per_cent)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", MATERIAL "*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"),
                *text = shell(&test_pool, ROTID_PROGRAM " sensitivity %s --at core.E,core.rho", deck), *at = text;
     for (int k = 0; k < 6; k++) {
@@ -118,12 +112,11 @@ static void sensitivity_is_per_cent_for_a_per_cent(void **state)
     assert_non_null(strstr(at, "0.99010  1.0000\n")); /* 1 - 1/1.01 for a step of 1 % */
 }
 
-static void a_reduction_that_is_none_has_no_column(void **state)
+POOL_TEST(a_reduction_that_is_none_has_no_column)
 {
     static const char deck[] = MATERIAL SHAFT "*SENSORS\n1, 0\n2, 0.3\n3, 0.7\n4, 1\n*MODES\n1, 500\n2, 1300\n"
                                               "*IDENTIFY\ncore.E, 1e10, 1e12, 2e11\n";
     const char *output, *path = folder_write("deck.inp", deck);
-    (void)state;
     (void)shell_code(&test_pool, &output, ROTID_PROGRAM " identify %s --no-baseline", path);
     assert_non_null(strstr(output, "mode  measured [Hz]  predicted [Hz]  error [%]  mesh [%]"));
     (void)shell_code(&test_pool, &output, ROTID_PROGRAM " identify %s --no-baseline --set FIT.REDUCTION=GUYAN", path);
@@ -163,9 +156,8 @@ static const char *on_terminal(const char *deck, const char *term, const char *n
     return text;
 }
 
-static void a_terminal_with_colours_gets_them(void **state)
+POOL_TEST(a_terminal_with_colours_gets_them)
 {
-    (void)state;
     const char *deck = folder_write("deck.inp", MATERIAL SHAFT "*MODE\n\x1b[31m\n");
     const char *text = on_terminal(deck, "xterm-256color", NULL);
     assert_non_null(strstr(text, "\x1b[1m"));
@@ -177,14 +169,4 @@ static void a_terminal_with_colours_gets_them(void **state)
     assert_null(strchr(shell(&test_pool, "TERM=xterm " ROTID_PROGRAM " check %s 2>&1 || true", deck), '\x1b'));
 }
 
-#define TEST(NAME) cmocka_unit_test_setup_teardown(NAME, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(help_has_examples_that_the_command_takes), TEST(the_nearest_name_is_offered),
-        TEST(parameters_that_there_are_are_listed),     TEST(distances_count_edits),
-        TEST(an_option_without_a_meaning_is_refused),   TEST(sensitivity_is_per_cent_for_a_per_cent),
-        TEST(a_reduction_that_is_none_has_no_column),   TEST(a_terminal_with_colours_gets_them)};
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -110,9 +110,8 @@ static void check(const struct sample *s, int n, const double *expected, double 
     }
 }
 
-static void test_unknown_noise_comes_from_the_residuals_with_student_intervals(void **state)
+UNIT_TEST(test_unknown_noise_comes_from_the_residuals_with_student_intervals)
 {
-    (void)state;
     struct sample s;
     double weight[M], expected[N * N];
     draw(&s, 1);
@@ -126,9 +125,8 @@ static void test_unknown_noise_comes_from_the_residuals_with_student_intervals(v
 }
 
 /* residuals in units of their noise: (J'J)^-1, a fit better than expected does not narrow it */
-static void test_likelihood_takes_the_stated_noise_and_is_not_narrowed(void **state)
+UNIT_TEST(test_likelihood_takes_the_stated_noise_and_is_not_narrowed)
 {
-    (void)state;
     struct sample s;
     double weight[M], expected[N * N];
     draw(&s, 2);
@@ -142,9 +140,8 @@ static void test_likelihood_takes_the_stated_noise_and_is_not_narrowed(void **st
     assert_true(!s.result.variance_from_residuals && s.result.widened_by == 1);
 }
 
-static void test_misfit_beyond_the_noise_widens_the_intervals_and_says_so(void **state)
+UNIT_TEST(test_misfit_beyond_the_noise_widens_the_intervals_and_says_so)
 {
-    (void)state;
     struct sample s;
     double weight[M], expected[N * N], chi2 = 0;
     draw(&s, 3);
@@ -167,9 +164,8 @@ static void test_misfit_beyond_the_noise_widens_the_intervals_and_says_so(void *
 }
 
 /* a functional that does not weigh by the noise it knows */
-static void test_unweighted_fit_of_known_noise_has_the_sandwich_covariance(void **state)
+UNIT_TEST(test_unweighted_fit_of_known_noise_has_the_sandwich_covariance)
 {
-    (void)state;
     struct sample s;
     double weight[M], expected[N * N];
     draw(&s, 4);
@@ -184,10 +180,9 @@ static void test_unweighted_fit_of_known_noise_has_the_sandwich_covariance(void 
 }
 
 /* x = (J'J)^-1 J' e over draws of the noise e: 20000 draws know a standard deviation to 0.5 %, a correlation to 0.007. */
-static void test_sandwich_is_the_scatter_of_simulated_fits(void **state)
+UNIT_TEST(test_sandwich_is_the_scatter_of_simulated_fits)
 {
     enum { DRAWS = 20000 };
-    (void)state;
     struct sample s;
     struct random_stream stream = {5};
     double normal[N * N] = {0}, inverse[N * N], sum[N * N] = {0};
@@ -217,9 +212,8 @@ static void test_sandwich_is_the_scatter_of_simulated_fits(void **state)
             assert_close(s.covariance[a + b * N], sum[a + b * N], 0, 0.03 * sqrt(sum[a + a * N] * sum[b + b * N]));
 }
 
-static void test_parameter_pressed_against_a_bound_counts_as_known(void **state)
+UNIT_TEST(test_parameter_pressed_against_a_bound_counts_as_known)
 {
-    (void)state;
     struct sample s;
     double weight[M], expected[N * N];
     draw(&s, 6);
@@ -263,10 +257,9 @@ static double right_vector(const double *v, int p, int k)
     return (p == k) - 2 * v[p] * v[k] / vv;
 }
 
-static void test_singular_values_directions_and_condition_are_those_of_the_jacobian(void **state)
+UNIT_TEST(test_singular_values_directions_and_condition_are_those_of_the_jacobian)
 {
     static const double sigma[N] = {50, 20, 5, 0.25}, v[N] = {1, 2, -1, 3};
-    (void)state;
     struct sample s;
     draw(&s, 7);
     build(&s, sigma, v);
@@ -282,9 +275,8 @@ static void test_singular_values_directions_and_condition_are_those_of_the_jacob
 }
 
 /* x1 + 2 x2 - x3 cancels out of every residual; x4 is as well known as before */
-static void test_direction_without_information_is_named_and_gets_no_interval(void **state)
+UNIT_TEST(test_direction_without_information_is_named_and_gets_no_interval)
 {
-    (void)state;
     struct sample s, without;
     draw(&s, 8);
     s.known = 1;
@@ -309,10 +301,9 @@ static void test_direction_without_information_is_named_and_gets_no_interval(voi
 }
 
 /* However small its part in a direction without any information, a parameter has no finite interval. */
-static void test_small_part_in_a_direction_without_information_is_not_given_an_interval(void **state)
+UNIT_TEST(test_small_part_in_a_direction_without_information_is_not_given_an_interval)
 {
     static const double sigma[N] = {50, 20, 5, 0}, v[N] = {1, 2, -1, 3}; /* parts -0.4, -0.8, 0.4, -0.2 */
-    (void)state;
     struct sample s;
     draw(&s, 9);
     s.known = 1;
@@ -323,10 +314,9 @@ static void test_small_part_in_a_direction_without_information_is_not_given_an_i
 }
 
 /* The last direction is known to 1/sigma: just better and just worse than half of the parameters' size. */
-static void test_direction_worse_than_half_the_value_is_undetermined(void **state)
+UNIT_TEST(test_direction_worse_than_half_the_value_is_undetermined)
 {
     static const double v[N] = {1, 2, -1, 3};
-    (void)state;
     for (int worse = 0; worse < 2; worse++) {
         double sigma[N] = {50, 20, 5, worse ? 1.99 : 2.01};
         struct sample s;
@@ -348,10 +338,9 @@ static void test_direction_worse_than_half_the_value_is_undetermined(void **stat
 
 /* A part of 0.2 in a direction with a spread of 1000 % leaves 200 %, in one of 400 % it leaves 80 %, 1.96 times which is more
  * than all, in one of 200 % it leaves 40 %. */
-static void test_no_parameter_whose_interval_holds_zero_is_called_identifiable(void **state)
+UNIT_TEST(test_no_parameter_whose_interval_holds_zero_is_called_identifiable)
 {
     static const double spread[3] = {10, 4, 2}, v[N] = {1, 2, -1, 3};
-    (void)state;
     for (int i = 0; i < 3; i++) {
         const double sigma[N] = {50, 50, 50, 1 / spread[i]};
         struct sample s;
@@ -370,10 +359,9 @@ static void test_no_parameter_whose_interval_holds_zero_is_called_identifiable(v
     }
 }
 
-static void test_no_degree_of_freedom_left_states_nothing(void **state)
+UNIT_TEST(test_no_degree_of_freedom_left_states_nothing)
 {
     struct sample s;
-    (void)state;
     draw(&s, 12);
     s.nscale = M - N;
     compute(&s);
@@ -383,9 +371,8 @@ static void test_no_degree_of_freedom_left_states_nothing(void **state)
     assert_true(!s.result.any_undetermined && isfinite(s.result.condition_number));
 }
 
-static void limits_of_chi_square_are_those_of_its_table(void **state)
+UNIT_TEST(limits_of_chi_square_are_those_of_its_table)
 {
-    (void)state;
     /* NIST/SEMATECH e-Handbook, table 1.3.6.7.4: upper 5 % */
     static const struct {
         int dof;
@@ -393,24 +380,4 @@ static void limits_of_chi_square_are_those_of_its_table(void **state)
     } table[] = {{1, 3.841}, {2, 5.991}, {6, 12.592}, {10, 18.307}, {100, 124.342}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         assert_close(chi_square_limit(0.05, table[i].dof), table[i].x, 0, 6e-4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(limits_of_chi_square_are_those_of_its_table),
-        cmocka_unit_test(test_unknown_noise_comes_from_the_residuals_with_student_intervals),
-        cmocka_unit_test(test_likelihood_takes_the_stated_noise_and_is_not_narrowed),
-        cmocka_unit_test(test_misfit_beyond_the_noise_widens_the_intervals_and_says_so),
-        cmocka_unit_test(test_unweighted_fit_of_known_noise_has_the_sandwich_covariance),
-        cmocka_unit_test(test_sandwich_is_the_scatter_of_simulated_fits),
-        cmocka_unit_test(test_parameter_pressed_against_a_bound_counts_as_known),
-        cmocka_unit_test(test_singular_values_directions_and_condition_are_those_of_the_jacobian),
-        cmocka_unit_test(test_direction_without_information_is_named_and_gets_no_interval),
-        cmocka_unit_test(test_small_part_in_a_direction_without_information_is_not_given_an_interval),
-        cmocka_unit_test(test_direction_worse_than_half_the_value_is_undetermined),
-        cmocka_unit_test(test_no_parameter_whose_interval_holds_zero_is_called_identifiable),
-        cmocka_unit_test(test_no_degree_of_freedom_left_states_nothing),
-    };
-    return cmocka_run_group_tests_name("covariance", tests, NULL, NULL);
 }

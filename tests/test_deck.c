@@ -25,9 +25,8 @@ static struct reading every;
 
 /* ------------------------------------------------------------------------------------------------ every card */
 
-static void materials_are_isotropic_unless_a_shear_modulus_is_given(void **state)
+UNIT_TEST(materials_are_isotropic_unless_a_shear_modulus_is_given)
 {
-    (void)state;
     const struct group *group = every.job.rotor.group;
     const struct material *steel = &group[0].material, *lamination = &group[1].material;
     assert_true(steel->e == 2.1e11 && steel->nu == 0.3 && steel->rho == 7850 && steel->isotropic);
@@ -36,9 +35,8 @@ static void materials_are_isotropic_unless_a_shear_modulus_is_given(void **state
     assert_false(lamination->isotropic);
 }
 
-static void shafts_and_beams_are_laid_end_to_end(void **state)
+UNIT_TEST(shafts_and_beams_are_laid_end_to_end)
 {
-    (void)state;
     const struct rotor *rotor = &every.job.rotor;
     const struct segment *s = rotor->segment;
     double from, to;
@@ -54,17 +52,15 @@ static void shafts_and_beams_are_laid_end_to_end(void **state)
     assert_true(s[3].rectangular && !s[0].rectangular && !s[1].rectangular && !s[2].rectangular);
 }
 
-static void holes_and_forces_belong_to_their_group_and_forces_add(void **state)
+UNIT_TEST(holes_and_forces_belong_to_their_group_and_forces_add)
 {
-    (void)state;
     const struct group *group = every.job.rotor.group;
     assert_true(group[1].holes == 8 && group[1].hole_diameter == 0.02 && group[1].hole_pitch == 0.12);
     assert_true(!group[0].holes && !group[2].holes && group[0].preload == 1000 && group[1].preload == 0 && group[2].preload == 0);
 }
 
-static void tie_rods_are_balanced_rods_of_one_element_unless_told_otherwise(void **state)
+UNIT_TEST(tie_rods_are_balanced_rods_of_one_element_unless_told_otherwise)
 {
-    (void)state;
     const struct tierod *ties = &every.job.rotor.tierod[0], *bolts = &every.job.rotor.tierod[1];
     assert_int_equal(every.job.rotor.ntierod, 2);
     assert_true(ties->model == BUNDLE_RODS && ties->self_equilibrated && ties->elements == 1 && ties->material.e == 2.1e11);
@@ -75,9 +71,8 @@ static void tie_rods_are_balanced_rods_of_one_element_unless_told_otherwise(void
     assert_number(bolts->to, 0.5);
 }
 
-static void rods_with_modes_of_their_own_are_warned_about(void **state)
+UNIT_TEST(rods_with_modes_of_their_own_are_warned_about)
 {
-    (void)state;
     struct reading r;
     read_text(&r, START "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4\n", NULL);
     assert_true(r.job.rotor.tierod[0].elements == 4 && warns(&r.messages, "rods in 4 elements have modes of their own"));
@@ -87,9 +82,8 @@ static void rods_with_modes_of_their_own_are_warned_about(void **state)
     pool_close(&r.pool);
 }
 
-static void bars_disks_springs_and_the_sling_are_read(void **state)
+UNIT_TEST(bars_disks_springs_and_the_sling_are_read)
 {
-    (void)state;
     const struct rotor *rotor = &every.job.rotor;
     const struct bars *bars = rotor->bars;
     const struct disk *disk = rotor->disk;
@@ -108,9 +102,8 @@ static void bars_disks_springs_and_the_sling_are_read(void **state)
     assert_number(spring[1].position, 1.3);
 }
 
-static void sensors_are_sorted_and_shapes_follow_them(void **state)
+UNIT_TEST(sensors_are_sorted_and_shapes_follow_them)
 {
-    (void)state;
     static const int id[] = {10, 40, 20, 30};
     static const double z[] = {0, 0.4, 1.2, 1.25};
     const double *shape = every.job.measurement.shape, *std = every.job.measurement.shape_std;
@@ -125,18 +118,16 @@ static void sensors_are_sorted_and_shapes_follow_them(void **state)
     assert_true(std[0] == 0.02 && std[2] == 0.03 && std[9] == 0.02); /* *NOISE where the line states none */
 }
 
-static void transfer_functions_are_as_the_card_says(void **state)
+UNIT_TEST(transfer_functions_are_as_the_card_says)
 {
-    (void)state;
     const struct frf_request *frf = &every.job.options.frf;
     assert_true(frf->given && !frf->file && frf->low_hz == 100 && frf->high_hz == 1800 && frf->step_hz == 0.5 && !frf->nline);
     assert_true(frf->has_quantity && frf->quantity == FRF_VELOCITY && frf->damping == 0.008 && frf->npair == 2);
     assert_true(frf->pair[1].response == 40 && frf->pair[1].reference == 10);
 }
 
-static void modes_carry_damping_and_noise_where_there_is_any(void **state)
+UNIT_TEST(modes_carry_damping_and_noise_where_there_is_any)
 {
-    (void)state;
     static const int number[] = {1, 2, 4};
     static const double hz[] = {300, 700, 1500}, std[] = {0.6 / 300, 0.004, 3.0 / 1500};
     assert_int_equal(every.job.measurement.nmode, 3);
@@ -148,9 +139,8 @@ static void modes_carry_damping_and_noise_where_there_is_any(void **state)
                 isnan(every.job.measurement.damping[2]));
 }
 
-static void every_kind_of_parameter_is_identified_by_its_name(void **state)
+UNIT_TEST(every_kind_of_parameter_is_identified_by_its_name)
 {
-    (void)state;
     static const struct {
         struct parameter parameter;
         const char *unit;
@@ -174,9 +164,8 @@ static void every_kind_of_parameter_is_identified_by_its_name(void **state)
     }
 }
 
-static void the_heading_keeps_its_text_and_gives_references(void **state)
+UNIT_TEST(the_heading_keeps_its_text_and_gives_references)
 {
-    (void)state;
     const rotid_reference *paper = every.job.reference;
     assert_true(every.job.nheading == 2 && every.job.nreference == 1);
     assert_string_equal(paper->quantity, "error_percent");
@@ -188,9 +177,8 @@ static void the_heading_keeps_its_text_and_gives_references(void **state)
 
 /* ------------------------------------------------------------------------------------------------ what to fit */
 
-static void without_a_word_of_the_user_the_fit_is_what_can_be_trusted(void **state)
+UNIT_TEST(without_a_word_of_the_user_the_fit_is_what_can_be_trusted)
 {
-    (void)state;
     static const struct {
         const char *text;
         int functional, reduction, derivative;
@@ -213,9 +201,8 @@ static void without_a_word_of_the_user_the_fit_is_what_can_be_trusted(void **sta
     }
 }
 
-static void lists_of_modes_choose_what_is_fitted_and_what_is_held_out(void **state)
+UNIT_TEST(lists_of_modes_choose_what_is_fitted_and_what_is_held_out)
 {
-    (void)state;
     static const struct {
         const char *text;
         int holdout[4]; /* of modes 1, 2, 3 and 5 */
@@ -230,9 +217,8 @@ static void lists_of_modes_choose_what_is_fitted_and_what_is_held_out(void **sta
     }
 }
 
-static void a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus(void **state)
+UNIT_TEST(a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus)
 {
-    (void)state;
     static const char *const texts[] = {
         START "*FIT, TIE=E:G\n*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\ncore.G, 1e9, 2e11, 8e10\ncore.rho, 7000, 8000, 7850\n",
         START "*FIT, TIE=E:G\n*IDENTIFY\ncore.G, 1e9, 2e11, 8e10\ncore.E, 1e10, 4e11, 2e11\ncore.rho, 7000, 8000, 7850\n"};
@@ -247,9 +233,8 @@ static void a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus(void **s
     }
 }
 
-static void an_identified_shear_modulus_is_no_longer_that_of_an_isotropic_material(void **state)
+UNIT_TEST(an_identified_shear_modulus_is_no_longer_that_of_an_isotropic_material)
 {
-    (void)state;
     struct reading r;
     read_text(&r, START "*IDENTIFY\ncore.G, 1e9, 2e11, 7e10\n", NULL);
     assert_false(r.job.rotor.group[0].material.isotropic);
@@ -259,9 +244,8 @@ static void an_identified_shear_modulus_is_no_longer_that_of_an_isotropic_materi
 
 /* ------------------------------------------------------------------------------------------------ form */
 
-static void form_does_not_change_what_a_deck_says(void **state)
+UNIT_TEST(form_does_not_change_what_a_deck_says)
 {
-    (void)state;
     static const char *const texts[] = {
         START "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n",
         "*material,name=STEEL\n*Elastic\n2.1E11,.3\n*density\n7850.\n*shaft,material=Steel,name=core\n1,0.1,0,20\n*modes\n1,500\n"
@@ -288,9 +272,8 @@ static void form_does_not_change_what_a_deck_says(void **state)
     }
 }
 
-static void a_line_may_have_1024_characters(void **state)
+UNIT_TEST(a_line_may_have_1024_characters)
 {
-    (void)state;
     char text[2200] = "*HEADING\n";
     struct reading r;
     memset(text + strlen(text), 'x', 1024);
@@ -300,9 +283,8 @@ static void a_line_may_have_1024_characters(void **state)
     pool_close(&r.pool);
 }
 
-static void an_included_file_is_looked_for_beside_the_one_that_names_it(void **state)
+UNIT_TEST(an_included_file_is_looked_for_beside_the_one_that_names_it)
 {
-    (void)state;
     struct reading r;
     assert_int_equal(mkdir(folder_path("sub"), 0700), 0);
     assert_int_equal(mkdir(folder_path("sub/deep"), 0700), 0);
@@ -318,9 +300,8 @@ static void an_included_file_is_looked_for_beside_the_one_that_names_it(void **s
         assert_int_equal(remove(folder_path(left[i])), 0);
 }
 
-static void positions_are_metres_ends_or_ends_of_groups(void **state)
+UNIT_TEST(positions_are_metres_ends_or_ends_of_groups)
 {
-    (void)state;
     static const double expected[] = {0, 1.5, 1, 1.5, 0, 1, 0.25, 1.5};
     struct reading r;
     read_text(&r,
@@ -345,28 +326,4 @@ static int close_all(void **state)
     return folder_remove(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(materials_are_isotropic_unless_a_shear_modulus_is_given),
-        cmocka_unit_test(shafts_and_beams_are_laid_end_to_end),
-        cmocka_unit_test(holes_and_forces_belong_to_their_group_and_forces_add),
-        cmocka_unit_test(tie_rods_are_balanced_rods_of_one_element_unless_told_otherwise),
-        cmocka_unit_test(rods_with_modes_of_their_own_are_warned_about),
-        cmocka_unit_test(bars_disks_springs_and_the_sling_are_read),
-        cmocka_unit_test(sensors_are_sorted_and_shapes_follow_them),
-        cmocka_unit_test(transfer_functions_are_as_the_card_says),
-        cmocka_unit_test(modes_carry_damping_and_noise_where_there_is_any),
-        cmocka_unit_test(every_kind_of_parameter_is_identified_by_its_name),
-        cmocka_unit_test(the_heading_keeps_its_text_and_gives_references),
-        cmocka_unit_test(without_a_word_of_the_user_the_fit_is_what_can_be_trusted),
-        cmocka_unit_test(lists_of_modes_choose_what_is_fitted_and_what_is_held_out),
-        cmocka_unit_test(a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus),
-        cmocka_unit_test(an_identified_shear_modulus_is_no_longer_that_of_an_isotropic_material),
-        cmocka_unit_test(form_does_not_change_what_a_deck_says),
-        cmocka_unit_test(a_line_may_have_1024_characters),
-        cmocka_unit_test(an_included_file_is_looked_for_beside_the_one_that_names_it),
-        cmocka_unit_test(positions_are_metres_ends_or_ends_of_groups),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
-}
+TEST_GROUP(open_all, close_all);

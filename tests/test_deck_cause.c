@@ -29,9 +29,8 @@ static struct reading every;
 
 /* ------------------------------------------------------------------------------------------------ cards */
 
-static void every_physical_cause_becomes_an_effect_of_its_kind(void **state)
+UNIT_TEST(every_physical_cause_becomes_an_effect_of_its_kind)
 {
-    (void)state;
     static const struct {
         const char *name, *id;
         int target, variant;
@@ -86,9 +85,8 @@ static void every_physical_cause_becomes_an_effect_of_its_kind(void **state)
     assert_int_equal(rotor->sensor[2].id, 30);
 }
 
-static void every_fault_of_the_measurement_chain_becomes_a_correction(void **state)
+UNIT_TEST(every_fault_of_the_measurement_chain_becomes_a_correction)
 {
-    (void)state;
     static const struct correction expected[] = {
         {.name = "gain", .id = "sensor_gain", .nsensor = 1, .sensor = {20}, .value = 1.5},
         {.name = "sign", .id = "sensor_sign", .nsensor = 1, .sensor = {50}, .value = 1},
@@ -116,9 +114,8 @@ static void every_fault_of_the_measurement_chain_becomes_a_correction(void **sta
         assert_true(seen[k] || catalogue_item(k)->class != CAUSE_DATA || !catalogue_item(k)->correct);
 }
 
-static void a_suspect_is_no_part_of_the_model(void **state)
+UNIT_TEST(a_suspect_is_no_part_of_the_model)
 {
-    (void)state;
     const struct suspect *suspect = every.job.unknowns.suspect;
     struct parameter parameter;
     const char *unit;
@@ -132,9 +129,8 @@ static void a_suspect_is_no_part_of_the_model(void **state)
     assert_int_equal(parameter_find(&every.job.rotor, "maybe.depth", &parameter, &unit), 1);
 }
 
-static void an_interface_is_named_by_its_groups_or_its_position(void **state)
+UNIT_TEST(an_interface_is_named_by_its_groups_or_its_position)
 {
-    (void)state;
     static const char *const forms[] = {"BETWEEN=left,core", "BETWEEN=Core , LEFT", "AT=left.end", "AT=core.start", "AT=0.3",
                                         "AT=0.300001"};
     struct reading r;
@@ -153,9 +149,8 @@ static void an_interface_is_named_by_its_groups_or_its_position(void **state)
     pool_close(&r.pool);
 }
 
-static void groups_called_by_numbers_are_an_interface_too(void **state)
+UNIT_TEST(groups_called_by_numbers_are_an_interface_too)
 {
-    (void)state;
     struct reading r;
     read_text(&r,
               "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=1, MATERIAL=steel\n0.5, 0.1, 0, 10\n"
@@ -165,9 +160,8 @@ static void groups_called_by_numbers_are_an_interface_too(void **state)
     pool_close(&r.pool);
 }
 
-static void a_cause_that_changes_nothing_is_warned_about(void **state)
+UNIT_TEST(a_cause_that_changes_nothing_is_warned_about)
 {
-    (void)state;
     struct reading r;
     read_text(&r,
               MODEL "*TIEROD, NAME=ties, MATERIAL=steel, FROM=core.start, TO=core.end\n6, 0.01, 0.04, 1e3\n"
@@ -282,18 +276,16 @@ static void assert_same_likelihood(const char *cards, const double *gain, const 
 
 static const int own[SENSORS] = {0, 1, 2, 3, 4, 5};
 
-static void a_gain_weighs_as_a_prediction_times_gain_would(void **state)
+UNIT_TEST(a_gain_weighs_as_a_prediction_times_gain_would)
 {
-    (void)state;
     /* of the largest component, so that another one is the largest; of a small one, so that it becomes the largest */
     assert_same_likelihood("*CAUSE, NAME=g, TYPE=sensor_gain, SENSOR=1\ngain, 3\n", (double[]){3, 1, 1, 1, 1, 1}, own);
     assert_same_likelihood("*CAUSE, NAME=g, TYPE=sensor_gain, SENSOR=2\ngain, 0.1\n", (double[]){1, 0.1, 1, 1, 1, 1}, own);
     assert_same_likelihood("*CAUSE, NAME=g, TYPE=sensor_gain, SENSOR=6\ngain, 1\n", (double[]){1, 1, 1, 1, 1, 1}, own);
 }
 
-static void a_reversed_a_swapped_and_a_repeated_channel_weigh_as_the_fault_in_the_prediction(void **state)
+UNIT_TEST(a_reversed_a_swapped_and_a_repeated_channel_weigh_as_the_fault_in_the_prediction)
 {
-    (void)state;
     assert_same_likelihood("*CAUSE, NAME=s, TYPE=sensor_sign, SENSOR=1\n", (double[]){-1, 1, 1, 1, 1, 1}, own);
     /* channel 2 reads what sensor 3 sees, which was not measured in mode 3, and the other way round */
     assert_same_likelihood("*CAUSE, NAME=s, TYPE=sensor_swap, SENSOR=2,3\n", (double[]){1, 1, 1, 1, 1, 1},
@@ -301,9 +293,8 @@ static void a_reversed_a_swapped_and_a_repeated_channel_weigh_as_the_fault_in_th
     assert_same_likelihood("*CAUSE, NAME=s, TYPE=duplicate_channel, SENSOR=1,2\n", (double[]){0, 1, 1, 1, 1, 1}, own);
 }
 
-static void several_faults_are_taken_out_one_after_the_other(void **state)
+UNIT_TEST(several_faults_are_taken_out_one_after_the_other)
 {
-    (void)state;
     assert_same_likelihood("*CAUSE, NAME=a, TYPE=sensor_gain, SENSOR=1\ngain, 4\n"
                            "*CAUSE, NAME=b, TYPE=duplicate_channel, SENSOR=6,5\n"
                            "*CAUSE, NAME=c, TYPE=sensor_gain, SENSOR=4\ngain, 0.2\n"
@@ -311,9 +302,8 @@ static void several_faults_are_taken_out_one_after_the_other(void **state)
                            (double[]){-4, 1, 1, 0.2, 1, 0}, own);
 }
 
-static void a_level_of_noise_scales_the_residuals_of_its_block(void **state)
+UNIT_TEST(a_level_of_noise_scales_the_residuals_of_its_block)
 {
-    (void)state;
     struct reading plain, shape, frequency;
     double a[MODES * (SENSORS + 1)], b[MODES * (SENSORS + 1)], c[MODES * (SENSORS + 1)], predicted[MODES][SENSORS];
     read_data(&plain, stated, "");
@@ -332,9 +322,8 @@ static void a_level_of_noise_scales_the_residuals_of_its_block(void **state)
     pool_close(&frequency.pool);
 }
 
-static void a_shift_is_the_deck_with_the_sensor_at_its_true_place(void **state)
+UNIT_TEST(a_shift_is_the_deck_with_the_sensor_at_its_true_place)
 {
-    (void)state;
     /* 0.35 + 0.3 passes the sensor at 0.6: the order changes */
     static const double truth[SENSORS] = {0, 0.2, 0.65, 0.6, 0.81, 1};
     struct reading moved, right;
@@ -351,9 +340,8 @@ static void a_shift_is_the_deck_with_the_sensor_at_its_true_place(void **state)
     pool_close(&right.pool);
 }
 
-static void a_shifted_sensor_keeps_a_node_of_its_own_inside_the_rotor(void **state)
+UNIT_TEST(a_shifted_sensor_keeps_a_node_of_its_own_inside_the_rotor)
 {
-    (void)state;
     static const struct {
         double shift, place; /* of sensor 3, at 0.35 */
     } expected[] = {{0.25, 0.6}, {0.2501, 0.6}, {0.2499, 0.6}, {-0.15, 0.2}, {0.65, 1}, {0.9, 1}, {-0.9, 0}, {1e-4, 0.35}};
@@ -373,9 +361,8 @@ static void a_shifted_sensor_keeps_a_node_of_its_own_inside_the_rotor(void **sta
     }
 }
 
-static void what_was_read_is_kept_and_effects_follow_their_sensors(void **state)
+UNIT_TEST(what_was_read_is_kept_and_effects_follow_their_sensors)
 {
-    (void)state;
     struct reading plain, faulty;
     read_data(&plain, stated, "");
     read_data(&faulty, stated,
@@ -398,9 +385,8 @@ static void what_was_read_is_kept_and_effects_follow_their_sensors(void **state)
     pool_close(&faulty.pool);
 }
 
-static void a_correction_without_its_sensor_is_refused(void **state)
+UNIT_TEST(a_correction_without_its_sensor_is_refused)
 {
-    (void)state;
     struct reading r;
     read_data(&r, stated, "");
     struct correction c = {.name = "c", .id = "sensor_gain", .nsensor = 1, .sensor = {9}, .value = 2};
@@ -439,9 +425,8 @@ static void assert_found(const char *truth, const char *deck, const double *expe
     pool_close(&r.pool);
 }
 
-static void parameters_of_causes_are_identified_beside_moduli(void **state)
+UNIT_TEST(parameters_of_causes_are_identified_beside_moduli)
 {
-    (void)state;
     assert_found(MODEL "*CAUSE, NAME=bolts, TYPE=joint, BETWEEN=left,core\nflexibility, 4e-7\n",
                  MODEL "*CAUSE, NAME=bolts, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
                        "*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\nBolts.Flexibility, 0, 1e-6, 1e-7\n",
@@ -455,9 +440,8 @@ static void parameters_of_causes_are_identified_beside_moduli(void **state)
                  (double[]){0.5, 0.8, -0.2}, 1e-5);
 }
 
-static void a_cause_that_stands_in_the_deck_is_part_of_the_model(void **state)
+UNIT_TEST(a_cause_that_stands_in_the_deck_is_part_of_the_model)
 {
-    (void)state;
     struct reading r;
     struct spectrum plain, effect, suspected;
     read_text(&r, MODEL, NULL);
@@ -474,9 +458,8 @@ static void a_cause_that_stands_in_the_deck_is_part_of_the_model(void **state)
     pool_close(&r.pool);
 }
 
-static void a_suspect_states_where_its_size_is_looked_for(void **state)
+UNIT_TEST(a_suspect_states_where_its_size_is_looked_for)
 {
-    (void)state;
     struct reading r;
     read_text(&r, MODEL "*CAUSE, NAME=m, TYPE=added_mass, SUSPECT\nmass, 0.01, 0.4\nz, 0.3\n", NULL);
     const struct suspect *suspect = r.job.unknowns.suspect;
@@ -488,9 +471,8 @@ static void a_suspect_states_where_its_size_is_looked_for(void **state)
 
 /* ------------------------------------------------------------------------------------------------ faults of the world */
 
-static void without_memory_nothing_leaks(void **state)
+UNIT_TEST(without_memory_nothing_leaks)
 {
-    (void)state;
     struct failing_allocator failing;
     long fail_at = 0;
     int status;
@@ -509,9 +491,8 @@ static void without_memory_nothing_leaks(void **state)
     assert_status(status, ROTID_OK);
 }
 
-static void a_deck_of_causes_with_one_wrong_byte_gets_an_answer(void **state)
+UNIT_TEST(a_deck_of_causes_with_one_wrong_byte_gets_an_answer)
 {
-    (void)state;
     static char text[16384];
     struct random_stream stream = {17};
     FILE *source = fopen(EVERY_CAUSE, "rb");
@@ -554,28 +535,4 @@ static int close_all(void **state)
     return folder_remove(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_physical_cause_becomes_an_effect_of_its_kind),
-        cmocka_unit_test(every_fault_of_the_measurement_chain_becomes_a_correction),
-        cmocka_unit_test(a_suspect_is_no_part_of_the_model),
-        cmocka_unit_test(an_interface_is_named_by_its_groups_or_its_position),
-        cmocka_unit_test(groups_called_by_numbers_are_an_interface_too),
-        cmocka_unit_test(a_cause_that_changes_nothing_is_warned_about),
-        cmocka_unit_test(a_gain_weighs_as_a_prediction_times_gain_would),
-        cmocka_unit_test(a_reversed_a_swapped_and_a_repeated_channel_weigh_as_the_fault_in_the_prediction),
-        cmocka_unit_test(several_faults_are_taken_out_one_after_the_other),
-        cmocka_unit_test(a_level_of_noise_scales_the_residuals_of_its_block),
-        cmocka_unit_test(a_shift_is_the_deck_with_the_sensor_at_its_true_place),
-        cmocka_unit_test(a_shifted_sensor_keeps_a_node_of_its_own_inside_the_rotor),
-        cmocka_unit_test(what_was_read_is_kept_and_effects_follow_their_sensors),
-        cmocka_unit_test(a_correction_without_its_sensor_is_refused),
-        cmocka_unit_test(parameters_of_causes_are_identified_beside_moduli),
-        cmocka_unit_test(a_cause_that_stands_in_the_deck_is_part_of_the_model),
-        cmocka_unit_test(a_suspect_states_where_its_size_is_looked_for),
-        cmocka_unit_test(without_memory_nothing_leaks),
-        cmocka_unit_test(a_deck_of_causes_with_one_wrong_byte_gets_an_answer),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
-}
+TEST_GROUP(open_all, close_all);

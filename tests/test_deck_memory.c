@@ -49,9 +49,8 @@ static void assert_told(const char *text, const char *folder, const char *overri
 
 /* ---- the same as from a file */
 
-static void every_deck_is_the_same_as_its_file(void **state)
+POOL_TEST(every_deck_is_the_same_as_its_file)
 {
-    (void)state;
     const char *list = shell(&test_pool, "ls %s/input/*.inp %s/*.inp | grep -v include_[il]", ROTID_SOURCE_DIR, BROKEN);
     int count = 0, wrong = 0;
     for (const char *line = list; *line; line += strcspn(line, "\n") + 1, count++) {
@@ -78,9 +77,8 @@ static void every_deck_is_the_same_as_its_file(void **state)
     assert_true(count > 50 && wrong > 20 && wrong < count);
 }
 
-static void its_results_are_those_of_the_file(void **state)
+POOL_TEST(its_results_are_those_of_the_file)
 {
-    (void)state;
     const char *path = ROTID_SOURCE_DIR "/input/paper_rotor.inp";
     const char *text = shell_file(&test_pool, path);
     rotid_deck *of_file, *of_memory;
@@ -97,9 +95,8 @@ static void its_results_are_those_of_the_file(void **state)
     rotid_deck_free(of_memory);
 }
 
-static void errors_have_their_places_and_the_name(void **state)
+POOL_TEST(errors_have_their_places_and_the_name)
 {
-    (void)state;
     rotid_deck *deck;
     assert_told("*MATERIAL, NAME=steel\n*ELASTIC, TIPE=x\n", NULL, NULL,
                 "memory.inp:2:11: option TIPE of *ELASTIC is not known, expected TYPE");
@@ -123,9 +120,8 @@ static void errors_have_their_places_and_the_name(void **state)
 
 #define NO_FILES " is a file, and a deck from memory has no directory of its own, expected one beside its text"
 
-static void without_a_directory_no_file_is_read(void **state)
+POOL_TEST(without_a_directory_no_file_is_read)
 {
-    (void)state;
     const char *folder = make_folder(&test_pool), *core = write_file(&test_pool, folder, "core.inp", MODEL), *there;
     there = pool_format(&test_pool, "*INCLUDE, FILE=%s\n", core);
     assert_told(there, NULL, NULL, pool_format(&test_pool, "memory.inp:1:16: %s%s", core, NO_FILES)); /* nor by its whole path */
@@ -136,9 +132,8 @@ static void without_a_directory_no_file_is_read(void **state)
     remove_folder(&test_pool, folder);
 }
 
-static void files_are_relative_to_the_directory_and_those_in_them_to_themselves(void **state)
+POOL_TEST(files_are_relative_to_the_directory_and_those_in_them_to_themselves)
 {
-    (void)state;
     const char *folder = make_folder(&test_pool);
     rotid_deck *deck;
     (void)shell(&test_pool, "mkdir %s/parts", folder);
@@ -165,9 +160,8 @@ static void files_are_relative_to_the_directory_and_those_in_them_to_themselves(
 
 /* ---- texts of anybody */
 
-static void a_text_may_hold_anything(void **state)
+POOL_TEST(a_text_may_hold_anything)
 {
-    (void)state;
     rotid_deck *deck;
     enum { LARGE = (16 << 20) + 1 };
     assert_status(read_text("", NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
@@ -199,9 +193,8 @@ static void a_text_may_hold_anything(void **state)
     free(large);
 }
 
-static void changed_decks_are_read_or_refused(void **state)
+POOL_TEST(changed_decks_are_read_or_refused)
 {
-    (void)state;
     const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/input/paper_rotor.inp");
     size_t length = strlen(text);
     char *changed = malloc(length);
@@ -221,9 +214,8 @@ static void changed_decks_are_read_or_refused(void **state)
     free(changed);
 }
 
-static void memory_that_runs_out_leaves_nothing(void **state)
+POOL_TEST(memory_that_runs_out_leaves_nothing)
 {
-    (void)state;
     for (int n = 1;; n++) {
         struct failing_allocator failing;
         rotid_deck *deck;
@@ -238,21 +230,4 @@ static void memory_that_runs_out_leaves_nothing(void **state)
             break;
         assert_true(n < 1000);
     }
-}
-
-#define WITH_POOL(test) cmocka_unit_test_setup_teardown(test, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(every_deck_is_the_same_as_its_file),
-        WITH_POOL(its_results_are_those_of_the_file),
-        WITH_POOL(errors_have_their_places_and_the_name),
-        WITH_POOL(without_a_directory_no_file_is_read),
-        WITH_POOL(files_are_relative_to_the_directory_and_those_in_them_to_themselves),
-        WITH_POOL(a_text_may_hold_anything),
-        WITH_POOL(changed_decks_are_read_or_refused),
-        WITH_POOL(memory_that_runs_out_leaves_nothing),
-    };
-    return cmocka_run_group_tests_name("deck memory", tests, NULL, NULL);
 }

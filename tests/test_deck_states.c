@@ -53,9 +53,8 @@ static void assert_refused(const char *text, int line, const char *why)
     assert_int_equal(r.messages.item[0].line, line);
 }
 
-static void a_deck_without_states_is_one(void **state)
+POOL_TEST(a_deck_without_states_is_one)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN "*MODES\n1, 225\n", NULL);
     assert_int_equal(s.nstate, 1);
     assert_null(s.state[0].name);
@@ -63,9 +62,8 @@ static void a_deck_without_states_is_one(void **state)
     assert_string_equal(s.bounds[0].name, "bar.E");
 }
 
-static void a_state_is_the_common_cards_and_its_own(void **state)
+POOL_TEST(a_state_is_the_common_cards_and_its_own)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN FREE LOADED, NULL);
     assert_int_equal(s.nstate, 2);
     const struct job *bare = &s.state[0].job, *loaded = &s.state[1].job;
@@ -91,16 +89,14 @@ static void a_state_is_the_common_cards_and_its_own(void **state)
 }
 
 /* A state may be called as a part of the rotor. */
-static void states_have_names_of_their_own(void **state)
+POOL_TEST(states_have_names_of_their_own)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN "*STATE, NAME=bar\n*MODES\n1, 225\n*STATE, NAME=d\n*MODES\n1, 225\n", NULL);
     assert_string_equal(s.state[1].name, "d");
 }
 
-static void one_state_can_be_chosen(void **state)
+POOL_TEST(one_state_can_be_chosen)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN FREE LOADED, "FIT.STATE=Loaded");
     assert_int_equal(s.nstate, 1);
     assert_string_equal(s.state[0].name, "loaded");
@@ -117,9 +113,8 @@ static void one_state_can_be_chosen(void **state)
 }
 
 /* Positions follow a length; what a state sets is known there; what it identifies anew is its own. */
-static void set_and_identify_hold_for_their_state(void **state)
+POOL_TEST(set_and_identify_hold_for_their_state)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN "bar.G, 1e10, 1e12, 1e11\n" FREE "*SET\nbar.length, 0.8\nbar.length, 0.5\nbar.G, 7e10\n"
                                        "*STATE, NAME=after\n*IDENTIFY\nbar.E, 1e10, 1e12, 3e11\n*MODES\n1, 225\n2, 610\n",
                            NULL);
@@ -142,9 +137,8 @@ static void set_and_identify_hold_for_their_state(void **state)
     assert_int_equal(s.state[1].unknown[1], 2);
 }
 
-static void states_and_modes_are_held_out(void **state)
+POOL_TEST(states_and_modes_are_held_out)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN "*FIT, HOLDOUT=STATE:more\n" FREE "*STATE, NAME=more, HOLDOUT=2\n*MODES\n1, 225\n2, 610\n"
                                        "*STATE, NAME=last, MODES=2\n*MODES\n1, 225\n2, 610\n",
                            NULL);
@@ -154,9 +148,8 @@ static void states_and_modes_are_held_out(void **state)
 }
 
 /* In a deck each item of the list begins with STATE:, on a command line the first does. */
-static void several_states_are_held_out(void **state)
+POOL_TEST(several_states_are_held_out)
 {
-    (void)state;
     const char *three = "*STATE, NAME=b\n*MODES\n1, 225\n*STATE, NAME=c c\n*MODES\n1, 225\n";
     struct states s =
         good(pool_format(&test_pool, "%s*FIT, HOLDOUT=STATE:free,\n  state: C c\n%s%s", BAR UNKNOWN, FREE, three), NULL);
@@ -170,9 +163,8 @@ static void several_states_are_held_out(void **state)
 }
 
 /* Without *FIT all are weighed by their noise, or none. */
-static void the_functional_is_that_of_all(void **state)
+POOL_TEST(the_functional_is_that_of_all)
 {
-    (void)state;
     struct states s = good(BAR UNKNOWN FREE LOADED, NULL);
     assert_int_equal(s.state[0].job.options.fit.functional, ROTID_LIKELIHOOD);
     s = good("*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8e10, 0.3\n*DENSITY\n7850\n"
@@ -183,9 +175,8 @@ static void the_functional_is_that_of_all(void **state)
         assert_int_equal(s.state[i].job.options.fit.functional, ROTID_HYBRID);
 }
 
-static void what_is_wrong_has_its_place(void **state)
+POOL_TEST(what_is_wrong_has_its_place)
 {
-    (void)state;
     assert_refused(BAR UNKNOWN "*MODES\n1, 225\n" FREE, 17,
                    "*MODES stands before the first *STATE, expected it behind that of the state it is of");
     assert_refused(BAR UNKNOWN FREE "*FIT, MODEL=SOLID\n", 21,
@@ -209,28 +200,12 @@ static void what_is_wrong_has_its_place(void **state)
 }
 
 /* Each is read with all that is common: a file of nothing but states must not take for ever. */
-static void states_have_a_limit(void **state)
+POOL_TEST(states_have_a_limit)
 {
-    (void)state;
     char *text = pool_copy_text(&test_pool, BAR UNKNOWN);
     for (int s = 0; s < 101; s++)
         text = pool_format(&test_pool, "%s*STATE, NAME=s%d\n*MODES\n1, 225\n", text, s);
     assert_refused(text, 317, "the deck has more than 100 states, expected fewer");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_deck_without_states_is_one, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_state_is_the_common_cards_and_its_own, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(states_have_names_of_their_own, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(one_state_can_be_chosen, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(set_and_identify_hold_for_their_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(states_and_modes_are_held_out, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(several_states_are_held_out, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_functional_is_that_of_all, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_wrong_has_its_place, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(states_have_a_limit, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("deck_states", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -78,14 +78,13 @@ static void assert_sheets(const char *locale)
     pool_close(&r.pool);
 }
 
-static void sheets_of_two_locales_are_the_same_rotor(void **state)
+UNIT_TEST(sheets_of_two_locales_are_the_same_rotor)
 {
-    (void)state;
     assert_sheets("point");
     assert_sheets("comma");
 }
 
-static void marks_and_ends_of_lines_of_all_systems_are_taken(void **state)
+UNIT_TEST(marks_and_ends_of_lines_of_all_systems_are_taken)
 {
     static const char *const table[] = {"\xef\xbb\xbfmode;frequency\r\n1;500,5\r\n2;1300\r\n",
                                         "sep=;\r\nmode;frequency\r\n1;500,5\r\n2;1300\r\n",
@@ -96,7 +95,6 @@ static void marks_and_ends_of_lines_of_all_systems_are_taken(void **state)
                                         "1;500,5\n2;1300\n",
                                         "frequency_hz,remark,mode\n500.5,\"a \"\"b\"\"\nc\",1\n1300,,2\n"};
     struct reading r;
-    (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         read_with(&r, table[i], MATERIAL SHAFT "*MODES, FILE=table.csv\n");
         assert_int_equal(r.job.measurement.nmode, 2);
@@ -106,10 +104,9 @@ static void marks_and_ends_of_lines_of_all_systems_are_taken(void **state)
     }
 }
 
-static void a_unit_in_the_header_counts_over_that_of_the_deck(void **state)
+UNIT_TEST(a_unit_in_the_header_counts_over_that_of_the_deck)
 {
     struct reading r;
-    (void)state;
     read_with(&r, "sensor,position [mm]\n1,250\n2,end\n", MATERIAL SHAFT "*SENSORS, FILE=table.csv\n");
     assert_close(r.job.rotor.sensor[0].position, 0.25, 1e-15, 0);
     assert_close(r.job.rotor.sensor[1].position, 1, 1e-15, 0);
@@ -141,9 +138,8 @@ static void assert_shapes(const char *table, const char *card)
     pool_close(&r.pool);
 }
 
-static void a_table_of_shapes_has_sensors_in_rows_or_columns_or_triples(void **state)
+UNIT_TEST(a_table_of_shapes_has_sensors_in_rows_or_columns_or_triples)
 {
-    (void)state;
     assert_shapes("sensor,1,3,std 1\n1,1,0.25,\n2,0.5,,0.01\n7,-1,0.75,\n", "*SHAPE, FILE=table.csv");
     assert_shapes("point;mode 3;mode 2;mode 1;mode_1_std\n7;0,75;;-1\n2;;;0,5;0,01\n1;0,25;;1\n", "*SHAPE, FILE=table.csv");
     assert_shapes("mode,frequency [Hz],sensor 7,1,sensor 2,sensor 2 std\n1,500,-1,1,0.5,0.01\n3,2400,0.75,0.25,,\n",
@@ -154,10 +150,9 @@ static void a_table_of_shapes_has_sensors_in_rows_or_columns_or_triples(void **s
     assert_shapes("1,1\n2,0.5,0.01\n7,-1\n", "*SHAPE, MODE=1, FILE=table.csv\n*SHAPE, MODE=3\n1, 0.25\n7, 0.75");
 }
 
-static void frequencies_at_sensors_are_a_table_as_well(void **state)
+UNIT_TEST(frequencies_at_sensors_are_a_table_as_well)
 {
     struct reading r;
-    (void)state;
     read_with(&r, "sensor,mode 1 [kHz],mode 2 [Hz]\n1,0.498,1301\n2,,1299\n7,0.5,\n",
               MATERIAL SHAFT MODES SENSORS "*FREQUENCIES, FILE=table.csv, MEAN=NO\n");
     const double *hz = r.job.measurement.point_frequency_hz;
@@ -168,12 +163,11 @@ static void frequencies_at_sensors_are_a_table_as_well(void **state)
     pool_close(&r.pool);
 }
 
-static void a_table_belongs_to_the_state_of_its_card(void **state)
+UNIT_TEST(a_table_belongs_to_the_state_of_its_card)
 {
     struct pool pool;
     struct message_list messages;
     struct states states;
-    (void)state;
     (void)folder_write("table.csv", "mode,frequency\n1,500\n2,1300\n");
     const char *path = folder_write("deck.inp", MATERIAL "*SHAFT, FILE=sections.csv, MATERIAL=steel\n*STATE, NAME=bare\n"
                                                          "*MODES, FILE=table.csv\n*STATE, NAME=other\n*MODES\n1, 510\n");
@@ -227,9 +221,8 @@ static const struct mistake {
     {"*SHAFT", "group,length,outer,inner,elements\na,1,0.1,0,3\n", 2, 1, "*SHAFT has no MATERIAL"},
     {"*SHAFT, MATERIAL=steel", "group,length,outer,inner,elements\n\"a,b\",1,0.1,0,3\n", 2, 1, "'a,b' is no name of a group"}};
 
-static void a_mistake_names_row_and_column(void **state)
+UNIT_TEST(a_mistake_names_row_and_column)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; i++) {
         const struct mistake *m = &mistakes[i];
         char deck[1024];
@@ -250,13 +243,12 @@ static void a_mistake_names_row_and_column(void **state)
     }
 }
 
-static void a_card_has_a_table_or_data_lines(void **state)
+UNIT_TEST(a_card_has_a_table_or_data_lines)
 {
     static const char *const deck[][2] = {{MATERIAL SHAFT "*MODES, FILE=table.csv\n1, 500\n", "*MODES has a FILE and data lines"},
                                           {MATERIAL SHAFT "*MODES, FILE=absent.csv\n", "absent.csv: No such file"},
                                           {MATERIAL SHAFT "*MODES, FILE=\n", "*MODES has no FILE"},
                                           {MATERIAL SHAFT "*DISK, FILE=table.csv\n", "option FILE of *DISK is not known"}};
-    (void)state;
     (void)folder_write("table.csv", "1,500\n");
     for (size_t i = 0; i < sizeof deck / sizeof *deck; i++) {
         struct reading r;
@@ -268,7 +260,7 @@ static void a_card_has_a_table_or_data_lines(void **state)
 }
 
 /* A table of bytes, all of one kind: the reader ends with one error, before it takes the memory of a machine. */
-static void tables_without_end_are_refused(void **state)
+UNIT_TEST(tables_without_end_are_refused)
 {
     static const char *const unit[][2] = {
         {",", "the row has more than 20100 cells"},        {"\n", "the table has more than 500000 cells"},
@@ -276,7 +268,6 @@ static void tables_without_end_are_refused(void **state)
         {"1,", "the row has more than 20100 cells"},       {"1,\n", "the table has more than 500000 cells"}};
     size_t size = 3u << 20;
     char *bytes = malloc(size + 1);
-    (void)state;
     assert_non_null(bytes);
     for (size_t i = 0; i < sizeof unit / sizeof *unit; i++) {
         struct reading r;
@@ -294,10 +285,9 @@ static void tables_without_end_are_refused(void **state)
     free(bytes);
 }
 
-static void memory_that_is_out_is_said(void **state)
+UNIT_TEST(memory_that_is_out_is_said)
 {
     static const char deck[] = MATERIAL "*SHAFT, FILE=sections.csv, MATERIAL=steel\n" MODES SENSORS "*SHAPE, FILE=table.csv\n";
-    (void)state;
     (void)folder_write("sections.csv", "group,length,outer,inner,elements\na,0.5,0.1,0,10\nb,0.5,0.12,0,10\n");
     (void)folder_write("table.csv", "sensor,1,3,std 1\n1,1,0.25,\n2,0.5,,0.01\n7,-1,0.75,\n");
     const char *path = folder_write("deck.inp", deck);
@@ -430,21 +420,19 @@ static const char *write_universal(void)
     return path;
 }
 
-static void tables_of_a_universal_file_are_the_measured_modes(void **state)
+UNIT_TEST(tables_of_a_universal_file_are_the_measured_modes)
 {
-    (void)state;
     assert_int_equal(assert_same_modes(ROTID_SOURCE_DIR "/input/data/converged_steel.uff"), 0);
     assert_int_equal(assert_same_modes(write_universal()), 2);
 }
 
-static void a_text_in_a_table_is_no_formula(void **state)
+UNIT_TEST(a_text_in_a_table_is_no_formula)
 {
     static const char *const text[][2] = {{"core.E", "core.E"},
                                           {"a,b", "\"a,b\""},
                                           {"say \"x\"", "\"say \"\"x\"\"\""},
                                           {"=1+1", "'=1+1"},
                                           {"@sum(a,b)", "\"'@sum(a,b)\""}};
-    (void)state;
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         const char *path = folder_path("cell");
         FILE *out = fopen(path, "w");
@@ -460,30 +448,13 @@ static void a_text_in_a_table_is_no_formula(void **state)
     }
 }
 
-static void cells_are_named_as_spreadsheets_do(void **state)
+UNIT_TEST(cells_are_named_as_spreadsheets_do)
 {
     char name[TABLE_CELL_LENGTH];
-    (void)state;
     assert_string_equal(table_cell_name(1, 1, name), "A1");
     assert_string_equal(table_cell_name(20, 26, name), "Z20");
     assert_string_equal(table_cell_name(7, 27, name), "AA7");
     assert_string_equal(table_cell_name(1048576, 16384, name), "XFD1048576"); /* the last one of Excel and of LibreOffice */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sheets_of_two_locales_are_the_same_rotor),
-                                       cmocka_unit_test(marks_and_ends_of_lines_of_all_systems_are_taken),
-                                       cmocka_unit_test(a_unit_in_the_header_counts_over_that_of_the_deck),
-                                       cmocka_unit_test(a_table_of_shapes_has_sensors_in_rows_or_columns_or_triples),
-                                       cmocka_unit_test(frequencies_at_sensors_are_a_table_as_well),
-                                       cmocka_unit_test(a_table_belongs_to_the_state_of_its_card),
-                                       cmocka_unit_test(a_mistake_names_row_and_column),
-                                       cmocka_unit_test(a_card_has_a_table_or_data_lines),
-                                       cmocka_unit_test(tables_without_end_are_refused),
-                                       cmocka_unit_test(memory_that_is_out_is_said),
-                                       cmocka_unit_test(tables_of_a_universal_file_are_the_measured_modes),
-                                       cmocka_unit_test(a_text_in_a_table_is_no_formula),
-                                       cmocka_unit_test(cells_are_named_as_spreadsheets_do)};
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

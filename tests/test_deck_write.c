@@ -94,9 +94,8 @@ static void is_its_own_text(const char *path)
     assert_same_states(&given, &back);
 }
 
-static void a_deck_that_says_what_is_meant_is_its_own_text(void **state)
+POOL_TEST(a_deck_that_says_what_is_meant_is_its_own_text)
 {
-    (void)state;
     for_each_deck(is_its_own_text);
 }
 
@@ -178,15 +177,14 @@ static void says_what_is_meant(const char *path)
     same_job_rounding = 0;
 }
 
-static void whatever_differs_is_stated(void **state)
+POOL_TEST(whatever_differs_is_stated)
 {
-    (void)state;
     for (each_mode = 0; each_mode < 2; each_mode++)
         for_each_deck(says_what_is_meant);
 }
 
 /* One deck reads as another that has more in it. */
-static void what_is_new_is_added(void **state)
+POOL_TEST(what_is_new_is_added)
 {
     static const struct {
         const char *given, *meant;
@@ -229,7 +227,6 @@ static void what_is_new_is_added(void **state)
         {BAR UNKNOWN "*FIT, STATE=held\n" FREE HELD,
          BAR UNKNOWN "*FIT, STATE=held\n" FREE HELD "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n"},
     };
-    (void)state;
     same_job_rounding = 1e-13;
     for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
         const struct states given = read_states(pair[i].given), meant = read_states(pair[i].meant);
@@ -242,9 +239,8 @@ static void what_is_new_is_added(void **state)
 }
 
 /* A diagnosis names the unknowns of a cause in one state as if they were of all. */
-static void an_unknown_of_a_cause_in_one_state_is_of_that_state(void **state)
+POOL_TEST(an_unknown_of_a_cause_in_one_state_is_of_that_state)
 {
-    (void)state;
     const struct states given = read_states(BAR UNKNOWN FREE HELD),
                         meant = read_states(BAR UNKNOWN FREE HELD "*CAUSE, NAME=m, TYPE=added_mass\nz, 0.4\nmass, 0.5\n"
                                                                   "*IDENTIFY\nm.mass, 0.1, 2, 0.5\n");
@@ -256,10 +252,9 @@ static void an_unknown_of_a_cause_in_one_state_is_of_that_state(void **state)
 }
 
 /* A group whose name is an option or holds an equals sign cannot stand behind a comma. */
-static void names_may_be_odd(void **state)
+POOL_TEST(names_may_be_odd)
 {
     static const char *const right[] = {"SUSPECT", "a=b", "name", "2", "at", "*x", "two words", "a.b", "\xc3\xa4", "gr*"};
-    (void)state;
     for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
         const char *given = pool_format(&test_pool,
                                         "*MATERIAL, NAME=*s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=1, MATERIAL=*s\n"
@@ -286,7 +281,7 @@ static int count(const char *text, const char *what)
 }
 
 /* Comments, units and line ends of the deck; in its units too what is new. */
-static void what_is_new_stands_in_the_units_of_the_deck(void **state)
+POOL_TEST(what_is_new_stands_in_the_units_of_the_deck)
 {
     static const char *const given =
         "** of today\r\n*HEADING\r\nin millimetres\r\n** steel\r\n*UNITS, LENGTH=MM, MASS=G, STIFFNESS=N/MM, FREQUENCY=KHZ, "
@@ -295,7 +290,6 @@ static void what_is_new_stands_in_the_units_of_the_deck(void **state)
         "400, 30, 0, 40 ** left\r\n400, 30, 0, 40\r\n*SPRING, NAME=foam\r\n100, 0.5\r\n*MODES\r\n1, 0.2\r\n2, 0.55\r\n3, 1.07\r\n"
         "** what is sought\r\n*IDENTIFY\r\nbar.E, 1e4, 6e5, 2.1e5 ** start of a handbook\r\nfoam.k, 0.01, 100, 0.5\r\n** the "
         "end\r\n";
-    (void)state;
     const struct states first = read_states(given);
     struct states meant;
     struct segment segment[2];
@@ -332,9 +326,8 @@ static void what_is_new_stands_in_the_units_of_the_deck(void **state)
 }
 
 /* A file that is included stays one where none of its cards changes; a table becomes lines where its elements change. */
-static void files_stay_where_they_can(void **state)
+POOL_TEST(files_stay_where_they_can)
 {
-    (void)state;
     assert_int_equal(mkdir(folder_path("below"), 0700), 0);
     (void)folder_write("below/shaft.inc", STEEL "** the shaft\n*SHAFT, NAME=bar, MATERIAL=steel, FILE=shaft.csv\n");
     (void)folder_write("below/shaft.csv", "length,outer diameter,inner diameter,elements\n0.5,0.05,0,10\n0.5,0.04,0,10\n");
@@ -376,10 +369,9 @@ static void files_stay_where_they_can(void **state)
 }
 
 /* What --set said for the run stands in the deck. */
-static void what_was_set_for_the_run_is_written(void **state)
+POOL_TEST(what_was_set_for_the_run_is_written)
 {
     static const char *const set[] = {"FIT.REDUCTION=NONE", "FIT.HOLDOUT=2", "NOISE.FREQUENCY=0.002"};
-    (void)state;
     const char *path =
         folder_write("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2000\n** how\n*FIT, REDUCTION=GUYAN, FUNCTIONAL=HYBRID\n");
     for (size_t i = 0; i < sizeof set / sizeof *set; i++) {
@@ -390,7 +382,7 @@ static void what_was_set_for_the_run_is_written(void **state)
     }
 }
 
-static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
+POOL_TEST(extra_lines_go_into_the_heading_and_harm_nothing)
 {
     static char longest[2000];
     static const char *const extra[] = {
@@ -398,7 +390,6 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
     static const char *const expected[] = {"the deck", "found by diagnose: joint", "SHAFT, no card", "a  * no comment",
                                            "tab and end"};
     const struct deck_write_options options = {.nextra = sizeof extra / sizeof *extra, .extra = extra};
-    (void)state;
     memset(longest, 'x', 1023);
     (void)strcpy(longest + 1023, "\xc3\xa4 and more"); /* the character does not fit */
     for (int with = 0; with < 2; with++) {
@@ -418,11 +409,10 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
 
 /* ------------------------------------------------------------------------------------------------ values */
 
-static void written_at_x_the_starts_are_those_of_x(void **state)
+POOL_TEST(written_at_x_the_starts_are_those_of_x)
 {
     static const double x[] = {1.9e11, 3e-8, -0.07}, own[] = {1.5e11, 2e6, 2.5e11};
     struct deck_write_options options = {.x = x};
-    (void)state;
     const struct states first = read_states(
                             TWO
                             "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
@@ -444,9 +434,8 @@ static void written_at_x_the_starts_are_those_of_x(void **state)
 }
 
 /* A start lies between its bounds and is no zero; a cause lies inside what is possible in the deck it comes into. */
-static void what_lies_on_a_bound_is_still_a_deck(void **state)
+POOL_TEST(what_lies_on_a_bound_is_still_a_deck)
 {
-    (void)state;
     double lower, upper, x[] = {4e11, 0, 0.5};
     const struct deck_write_options options = {.x = x};
     const struct states given = read_states(TWO "*MODES\n1, 500\n2, 1300\n3, 2400\n*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n"),
@@ -469,9 +458,8 @@ static void what_lies_on_a_bound_is_still_a_deck(void **state)
     }
 }
 
-static void two_modes_of_one_frequency_stay_two(void **state)
+POOL_TEST(two_modes_of_one_frequency_stay_two)
 {
-    (void)state;
     const struct states given = read_states(MODEL "*MODES\n1, 500\n2, 1300\n3, 1400\n");
     struct states meant;
     double hz[] = {500, 1300, 1300}; /* as a universal file may have it */
@@ -482,11 +470,10 @@ static void two_modes_of_one_frequency_stay_two(void **state)
                 back.state->job.measurement.frequency_hz[2] == nextafter(1300, INFINITY));
 }
 
-static void a_fit_runs_from_the_written_deck_to_where_it_stood(void **state)
+POOL_TEST(a_fit_runs_from_the_written_deck_to_where_it_stood)
 {
     struct message_list notes;
     struct identification before, after;
-    (void)state;
     message_open(&notes, &test_pool);
     const struct states given = read_states_at(ROTID_SOURCE_DIR "/input/foam_bar.inp", NULL);
     assert_status(identify_run(&test_pool, &given.state->job, 0, NULL, &notes, &before), ROTID_OK);
@@ -513,7 +500,7 @@ static int status_of(const struct states *given, const struct states *meant, con
 }
 
 /* Another rotor than that of the text is none of what can be stated: the card is named. */
-static void what_no_deck_can_say_is_refused(void **state)
+POOL_TEST(what_no_deck_can_say_is_refused)
 {
     static char longest[1100];
     static const char *const names[] = {"a,b", "", " a", "a ", "a**b", "a\nb", longest, NULL};
@@ -527,7 +514,6 @@ static void what_no_deck_can_say_is_refused(void **state)
         {MODEL, MODEL "*PRELOAD, GROUP=core\n100\n", "*PRELOAD"},
         {MODEL "*PERFORATION, GROUP=core\n3, 0.01, 0.03\n", MODEL "*PERFORATION, GROUP=core\n4, 0.01, 0.03\n", "*PERFORATION"}};
     const char *said;
-    (void)state;
     memset(longest, 'n', sizeof longest - 1);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const struct states given = read_states(TWO),
@@ -555,13 +541,12 @@ static void what_no_deck_can_say_is_refused(void **state)
     assert_status(status_of(&given, &meant, &said), ROTID_ERROR_ARGUMENT);
 }
 
-static void without_memory_nothing_is_written(void **state)
+POOL_TEST(without_memory_nothing_is_written)
 {
     const struct states given = read_states(BAR UNKNOWN FREE HELD), meant = changed(&given, 1);
     struct failing_allocator failing;
     long fail_at = 0;
     int status;
-    (void)state;
     do {
         struct pool pool;
         struct message_list notes;
@@ -578,25 +563,4 @@ static void without_memory_nothing_is_written(void **state)
     assert_true(fail_at > 3);
 }
 
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-    const struct CMUnitTest tests[] = {
-        TEST(a_deck_that_says_what_is_meant_is_its_own_text),
-        TEST(whatever_differs_is_stated),
-        TEST(what_is_new_is_added),
-        TEST(an_unknown_of_a_cause_in_one_state_is_of_that_state),
-        TEST(names_may_be_odd),
-        TEST(what_is_new_stands_in_the_units_of_the_deck),
-        TEST(files_stay_where_they_can),
-        TEST(what_was_set_for_the_run_is_written),
-        TEST(extra_lines_go_into_the_heading_and_harm_nothing),
-        TEST(written_at_x_the_starts_are_those_of_x),
-        TEST(what_lies_on_a_bound_is_still_a_deck),
-        TEST(two_modes_of_one_frequency_stay_two),
-        TEST(a_fit_runs_from_the_written_deck_to_where_it_stood),
-        TEST(what_no_deck_can_say_is_refused),
-        TEST(without_memory_nothing_is_written),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

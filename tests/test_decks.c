@@ -26,9 +26,8 @@ static void read_measured(struct reading *r, const char *options, const char *uf
     read_path(r, folder_path("deck.inp"), NULL);
 }
 
-static void an_override_is_card_option_value(void **state)
+UNIT_TEST(an_override_is_card_option_value)
 {
-    (void)state;
     static const char *const wrong[] = {"", "FIT", "FIT.MODES", "FIT.MODES=", "FIT=NONE", "FIT.=NONE", ".MODES=1", "FIT=a.b"};
     struct pool pool;
     struct override override;
@@ -41,9 +40,8 @@ static void an_override_is_card_option_value(void **state)
     pool_close(&pool);
 }
 
-static void an_override_replaces_or_adds_an_option_on_every_such_card(void **state)
+UNIT_TEST(an_override_replaces_or_adds_an_option_on_every_such_card)
 {
-    (void)state;
     struct reading r;
     read_path(&r, DECKS "every_card.inp", "fit.functional=likelihood");
     assert_int_equal(r.job.options.fit.functional, ROTID_LIKELIHOOD);
@@ -81,9 +79,8 @@ static void an_override_replaces_or_adds_an_option_on_every_such_card(void **sta
 /* one complex value a node */
 #define COMPLEX(mode, lambda, a, b, c) SHAPE(KIND("3", "1", "5", "1"), NUMBERS("6", mode), lambda " 1. 0. 1. 0.", a, b, c)
 
-static void nodes_that_carry_shapes_become_sensors(void **state)
+UNIT_TEST(nodes_that_carry_shapes_become_sensors)
 {
-    (void)state;
     struct reading r;
     read_measured(&r, "",
                   ALONG_Z REAL("4", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0.")
@@ -103,9 +100,8 @@ static void nodes_that_carry_shapes_become_sensors(void **state)
     pool_close(&r.pool);
 }
 
-static void mode_numbers_that_do_not_rise_are_counted_anew(void **state)
+UNIT_TEST(mode_numbers_that_do_not_rise_are_counted_anew)
 {
-    (void)state;
     struct reading r;
     read_measured(&r, "",
                   ALONG_Z REAL("4", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
@@ -114,9 +110,8 @@ static void mode_numbers_that_do_not_rise_are_counted_anew(void **state)
     pool_close(&r.pool);
 }
 
-static void axis_origin_scale_and_flip_bring_test_geometry_into_the_model(void **state)
+UNIT_TEST(axis_origin_scale_and_flip_bring_test_geometry_into_the_model)
 {
-    (void)state;
     static const struct {
         const char *options, *nodes;
         double z[3]; /* of the sensors in order */
@@ -139,9 +134,8 @@ static void axis_origin_scale_and_flip_bring_test_geometry_into_the_model(void *
     }
 }
 
-static void direction_chooses_the_component_of_a_shape(void **state)
+UNIT_TEST(direction_chooses_the_component_of_a_shape)
 {
-    (void)state;
     static const char *const options[] = {"", ", DIRECTION=X", ", DIRECTION=Y", ", DIRECTION=z"};
     static const double shape[][3] = {{1, 7, 4}, {1, 7, 4}, {2, 8, 5}, {3, 9, 6}};
     for (int i = 0; i < 4; i++) {
@@ -152,9 +146,8 @@ static void direction_chooses_the_component_of_a_shape(void **state)
     }
 }
 
-static void complex_shapes_are_turned_real_and_conjugates_dropped(void **state)
+UNIT_TEST(complex_shapes_are_turned_real_and_conjugates_dropped)
 {
-    (void)state;
     struct reading r; /* (1, 2, -1) times 3 + 4i, in the order of the file 7, 3, 5; the eigenvalue is -30 +- 3000i */
     read_measured(&r, ", DIRECTION=Y",
                   ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
@@ -170,9 +163,8 @@ static void complex_shapes_are_turned_real_and_conjugates_dropped(void **state)
     pool_close(&r.pool);
 }
 
-static void motion_out_of_phase_is_left_out_and_said(void **state)
+UNIT_TEST(motion_out_of_phase_is_left_out_and_said)
 {
-    (void)state;
     struct reading r;
     read_measured(&r, "", ALONG_Z COMPLEX("1", "-30. 3000.", "2. 0.", "0. 1.", "2. 0."));
     assert_true(fabs(fabs(r.job.measurement.shape[0]) - 2) < 1e-14 && fabs(r.job.measurement.shape[2]) < 1e-14);
@@ -180,9 +172,8 @@ static void motion_out_of_phase_is_left_out_and_said(void **state)
     pool_close(&r.pool);
 }
 
-static void sensors_of_the_deck_place_a_file_without_nodes(void **state)
+UNIT_TEST(sensors_of_the_deck_place_a_file_without_nodes)
 {
-    (void)state;
     struct reading r;
     read_measured(&r, "\n*SENSORS\n3, 0.2\n5, 0.5\n7, end\n8, 0", REAL("1", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0."));
     assert_int_equal(r.job.rotor.nsensor, 4);
@@ -228,9 +219,8 @@ static void close_run(struct run *run)
     pool_close(&run->reading.pool);
 }
 
-static void paper_rotor_gives_the_moduli_of_the_paper(void **state)
+UNIT_TEST(paper_rotor_gives_the_moduli_of_the_paper)
 {
-    (void)state;
     static const double errors[] = {-4.4, 8.2, 2.7, -1.0, -3.9, -0.7};
     struct run run;
     open_run(&run, INPUT "paper_rotor.inp", NULL);
@@ -243,9 +233,8 @@ static void paper_rotor_gives_the_moduli_of_the_paper(void **state)
     close_run(&run);
 }
 
-static void tying_g_to_e_fits_the_paper_rotor_worse(void **state)
+UNIT_TEST(tying_g_to_e_fits_the_paper_rotor_worse)
 {
-    (void)state;
     struct run run, tied;
     open_run(&run, INPUT "paper_rotor.inp", NULL);
     open_run(&tied, INPUT "paper_rotor.inp", "FIT.TIE=E:G");
@@ -255,9 +244,8 @@ static void tying_g_to_e_fits_the_paper_rotor_worse(void **state)
     close_run(&tied);
 }
 
-static void one_modulus_leaves_the_joint_and_the_foam_in_the_errors(void **state)
+UNIT_TEST(one_modulus_leaves_the_joint_and_the_foam_in_the_errors)
 {
-    (void)state;
     struct run run;
     open_run(&run, INPUT "brake_reuss_beam.inp", NULL);
     assert_close(run.fitted_rms, 12.5, 0, 0.2);
@@ -269,9 +257,8 @@ static void one_modulus_leaves_the_joint_and_the_foam_in_the_errors(void **state
     close_run(&run);
 }
 
-static void roving_hammer_beam_determines_e_and_hardly_g(void **state)
+UNIT_TEST(roving_hammer_beam_determines_e_and_hardly_g)
 {
-    (void)state;
     struct run run;
     double width[2];
     open_run(&run, INPUT "roving_hammer_beam.inp", NULL);
@@ -282,9 +269,8 @@ static void roving_hammer_beam_determines_e_and_hardly_g(void **state)
     close_run(&run);
 }
 
-static void solid_rotor_widens_its_intervals_and_pairs_by_shape(void **state)
+UNIT_TEST(solid_rotor_widens_its_intervals_and_pairs_by_shape)
 {
-    (void)state;
     struct run run;
     open_run(&run, INPUT "solid_rotor.inp", NULL);
     assert_true(run.fit->x[0] < 0.85 * 1.05e11 && run.fit->x[1] < 0.85 * 0.47e11); /* of the truth: the beam's own error */
@@ -296,9 +282,8 @@ static void solid_rotor_widens_its_intervals_and_pairs_by_shape(void **state)
 }
 
 /* Bricks are 0.4 to 0.7 % high, and a fit takes that for stiffer moduli. */
-static void data_of_bricks_make_moduli_high(void **state)
+UNIT_TEST(data_of_bricks_make_moduli_high)
 {
-    (void)state;
     struct run bricks, converged;
     open_run(&bricks, INPUT "bricks_rotor.inp", NULL);
     open_run(&converged, INPUT "converged_rotor.inp", NULL);
@@ -331,9 +316,8 @@ static double model_errors(const char *path, double *error)
     return sqrt(sum / 6);
 }
 
-static void a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam(void **state)
+UNIT_TEST(a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam)
 {
-    (void)state;
     double plain[6], cone[6], rms = model_errors(INPUT "solid_steel.inp", plain);
     for (int k = 0; k < 6; k++)
         assert_true(plain[k] > 3 && plain[k] < 7.5); /* a beam is too stiff where the diameter steps */
@@ -341,9 +325,8 @@ static void a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam(void 
 }
 
 /* At the E and G that the deck states as identified. */
-static void a_solid_explains_the_paper_rotor_better_than_its_beam(void **state)
+UNIT_TEST(a_solid_explains_the_paper_rotor_better_than_its_beam)
 {
-    (void)state;
     static const double expected[] = {-0.4, -1.2, 0.7, 1.4, 0.1, -2.3};
     double error[6], rms = model_errors(INPUT "paper_rotor_solid.inp", error);
     for (int k = 0; k < 6; k++)
@@ -351,26 +334,4 @@ static void a_solid_explains_the_paper_rotor_better_than_its_beam(void **state)
     assert_true(rms < 1.3); /* the beam: 4.3 */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_override_is_card_option_value),
-        cmocka_unit_test(an_override_replaces_or_adds_an_option_on_every_such_card),
-        cmocka_unit_test(nodes_that_carry_shapes_become_sensors),
-        cmocka_unit_test(mode_numbers_that_do_not_rise_are_counted_anew),
-        cmocka_unit_test(axis_origin_scale_and_flip_bring_test_geometry_into_the_model),
-        cmocka_unit_test(direction_chooses_the_component_of_a_shape),
-        cmocka_unit_test(complex_shapes_are_turned_real_and_conjugates_dropped),
-        cmocka_unit_test(motion_out_of_phase_is_left_out_and_said),
-        cmocka_unit_test(sensors_of_the_deck_place_a_file_without_nodes),
-        cmocka_unit_test(paper_rotor_gives_the_moduli_of_the_paper),
-        cmocka_unit_test(tying_g_to_e_fits_the_paper_rotor_worse),
-        cmocka_unit_test(one_modulus_leaves_the_joint_and_the_foam_in_the_errors),
-        cmocka_unit_test(roving_hammer_beam_determines_e_and_hardly_g),
-        cmocka_unit_test(solid_rotor_widens_its_intervals_and_pairs_by_shape),
-        cmocka_unit_test(data_of_bricks_make_moduli_high),
-        cmocka_unit_test(a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam),
-        cmocka_unit_test(a_solid_explains_the_paper_rotor_better_than_its_beam),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -36,9 +36,8 @@ static void bend(const struct beam *beam, double a, double b, double c, double *
     }
 }
 
-static void members_follow_a_motion_that_all_elements_can_follow(void **state)
+UNIT_TEST(members_follow_a_motion_that_all_elements_can_follow)
 {
-    (void)state;
     static const double motion[3][3] = {{1, 0, 0}, {0.3, -2, 0}, {-0.2, 0.7, 3}};
     double z[13], v[13];
     struct json_deck deck;
@@ -61,12 +60,4 @@ static void members_follow_a_motion_that_all_elements_can_follow(void **state)
         }
     }
     json_deck_close(&deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(members_follow_a_motion_that_all_elements_can_follow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "model/model.h"
+#include "support.h"
 
 /* The left spring is stiff enough to be felt by the bending modes. */
 enum { nparam = 7 };
@@ -28,7 +29,7 @@ static const rotid_model *open_rotor(struct pool *pool, enum bundle_model bundle
     return &client->equations;
 }
 
-static void derivatives_of_the_papers_rotor_match_differences(void **state)
+POOL_TEST(derivatives_of_the_papers_rotor_match_differences)
 {
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
         struct rotor_model client;
@@ -41,7 +42,7 @@ static void derivatives_of_the_papers_rotor_match_differences(void **state)
 }
 
 /* All of them with both methods at once. */
-static void nelson_and_modal_superposition_agree(void **state)
+POOL_TEST(nelson_and_modal_superposition_agree)
 {
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
         struct rotor_model client;
@@ -73,7 +74,7 @@ static void nelson_and_modal_superposition_agree(void **state)
 }
 
 /* phi' M phi = 1 at every x: 2 phi' M dphi = -phi' dM phi; rho is what moves M. */
-static void derivatives_keep_the_normalisation(void **state)
+POOL_TEST(derivatives_keep_the_normalisation)
 {
     struct rotor_model client;
     const rotid_model *model = open_rotor(*state, BUNDLE_RODS, &client);
@@ -100,7 +101,7 @@ static void derivatives_keep_the_normalisation(void **state)
 }
 
 /* Without derivatives of its own a model gets differences of its matrices. */
-static void a_model_without_derivatives_gets_the_same(void **state)
+POOL_TEST(a_model_without_derivatives_gets_the_same)
 {
     for (int kind = ROTID_REDUCTION_NONE; kind <= ROTID_IRS; kind++) {
         struct rotor_model client;
@@ -122,15 +123,4 @@ static void a_model_without_derivatives_gets_the_same(void **state)
                 assert_close(relative_difference((size_t)p[0].size, p[1].dphi + place, p[0].dphi + place), 0, 0, 1e-6);
             }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(derivatives_of_the_papers_rotor_match_differences),
-        WITH_POOL(nelson_and_modal_superposition_agree),
-        WITH_POOL(derivatives_keep_the_normalisation),
-        WITH_POOL(a_model_without_derivatives_gets_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

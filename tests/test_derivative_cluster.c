@@ -6,6 +6,7 @@
 
 #include "linalg/linalg.h"
 #include "modal/modal.h"
+#include "support.h"
 
 enum { each = 3, most = 9, most_spans = 11 }; /* masses of a span; of three spans; more than a cluster has members */
 
@@ -96,7 +97,7 @@ static double projector_error(struct pool *pool, const rotid_model *model, int r
 
 /* Above the limit of a cluster the vectors turn by 1/gap, and the error is rounding beside that; in the cluster it is rounding
  * alone, but for the dense solution without refinement, in which the cluster counts as one eigenvalue. */
-static void subspace_of_close_pairs_is_differentiated_at_any_gap(void **state)
+POOL_TEST(subspace_of_close_pairs_is_differentiated_at_any_gap)
 {
     for (int tenth = 2; tenth <= 16; tenth++) {
         struct spans spans;
@@ -114,7 +115,7 @@ static void subspace_of_close_pairs_is_differentiated_at_any_gap(void **state)
     }
 }
 
-static void three_alike_are_one_cluster(void **state)
+POOL_TEST(three_alike_are_one_cluster)
 {
     struct spans spans;
     const rotid_model *model = open_spans(&spans, 3, 0);
@@ -123,7 +124,7 @@ static void three_alike_are_one_cluster(void **state)
 }
 
 /* Above the limit the vectors turn as they do; a step has to stay well inside the gap. */
-static void vectors_turn_where_they_are_apart(void **state)
+POOL_TEST(vectors_turn_where_they_are_apart)
 {
     for (int tenth = 1; tenth <= 4; tenth++) {
         struct spans spans;
@@ -189,7 +190,7 @@ static void compare_with_all_pairs(struct pool *pool, const struct prediction *a
 
 /* Where further ones of the kind lie behind the pairs that are known, or beyond those that are counted to a cluster, the
  * derivative is that of the subspace still: the vectors do not turn by 1/rounding. */
-static void more_alike_than_are_known_turn_nothing(void **state)
+POOL_TEST(more_alike_than_are_known_turn_nothing)
 {
     static const int reductions[3][2] = {
         {ROTID_REDUCTION_NONE, ROTID_NELSON}, {ROTID_GUYAN, ROTID_NELSON}, {ROTID_GUYAN, ROTID_MODAL}};
@@ -222,7 +223,7 @@ static void more_alike_than_are_known_turn_nothing(void **state)
 }
 
 /* R* is the eigenvalue whatever was measured; so is its derivative, and over a cluster they add up to that of the trace. */
-static void hybrid_quotients_of_a_cluster_change_as_its_eigenvalues(void **state)
+POOL_TEST(hybrid_quotients_of_a_cluster_change_as_its_eigenvalues)
 {
     static const int number[2] = {1, 2};
     static const double frequency[2] = {0.1, 0.1}, shape[8] = {1, 0.4, 0.2, 0.1, -0.3, 0.2, 1, 0.7};
@@ -245,16 +246,4 @@ static void hybrid_quotients_of_a_cluster_change_as_its_eigenvalues(void **state
         for (int q = 0; q < 2; q++)
             assert_close(jacobian[2 * q] + jacobian[2 * q + 1], difference[q], 1e-5, 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(subspace_of_close_pairs_is_differentiated_at_any_gap),
-        WITH_POOL(three_alike_are_one_cluster),
-        WITH_POOL(vectors_turn_where_they_are_apart),
-        WITH_POOL(more_alike_than_are_known_turn_nothing),
-        WITH_POOL(hybrid_quotients_of_a_cluster_change_as_its_eigenvalues),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 
 #include "linalg/linalg.h"
 #include "modal/modal.h"
+#include "support.h"
 
 /* ---- K(x) = K0 + x1 K1 + x1 x2 K2, M(x) = M0 + x2^2 M1, all of them dense */
 
@@ -77,7 +78,7 @@ static const rotid_model *open_host(struct pool *pool, struct host *host)
     return &host->model;
 }
 
-static void derivatives_of_a_hosts_dense_model_match_differences(void **state)
+POOL_TEST(derivatives_of_a_hosts_dense_model_match_differences)
 {
     const double steps[2] = {1e-3, 1e-3};
     struct host host;
@@ -92,7 +93,7 @@ static void derivatives_of_a_hosts_dense_model_match_differences(void **state)
 /* ---- refusals */
 
 /* By differences, of points on both sides or on the one where there is a model. */
-static void without_derivatives_they_come_from_differences_on_either_side(void **state)
+POOL_TEST(without_derivatives_they_come_from_differences_on_either_side)
 {
     struct host host;
     const rotid_model *model = open_host(*state, &host);
@@ -113,7 +114,7 @@ static void without_derivatives_they_come_from_differences_on_either_side(void *
     }
 }
 
-static void a_callback_that_fails_or_gives_nan_is_named(void **state)
+POOL_TEST(a_callback_that_fails_or_gives_nan_is_named)
 {
     const int wanted[7] = {1, 1, 1, 1, 1, 1, 0};
     for (int kind = ROTID_REDUCTION_NONE; kind <= ROTID_IRS; kind++)
@@ -147,7 +148,7 @@ static void a_callback_that_fails_or_gives_nan_is_named(void **state)
         }
 }
 
-static void requests_out_of_range_are_refused(void **state)
+POOL_TEST(requests_out_of_range_are_refused)
 {
     struct host host;
     struct prediction p;
@@ -182,7 +183,7 @@ static const rotid_model twins = {
     .size = sizeof twins, .n = 6, .kd = 1, .nparam = 2, .nmaster = 5, .master = twin_master, .matrices = twin_matrices};
 
 /* Half of each vector is zero: Nelson's method has to leave out a component that is not. */
-static void vectors_with_zeros_are_differentiated(void **state)
+POOL_TEST(vectors_with_zeros_are_differentiated)
 {
     const double apart[2] = {2, 1.4}, steps[2] = {1e-3, 1e-3};
     check_derivatives(*state, &twins, ROTID_REDUCTION_NONE, ROTID_NELSON, 0, 6, apart, steps, 1e-7);
@@ -206,7 +207,7 @@ static int string_matrices(void *user, const double *x, rotid_matrix *stiffness,
 
 /* Mode 3 has its nodes at the far degrees of freedom, so its frequency is that of the thirds with those clamped, and the inner
  * part of the bordered factors is singular there. The same string as a dense matrix has no border. */
-static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
+POOL_TEST(a_far_block_at_the_nodes_of_a_mode_costs_no_digits)
 {
     static const int far[2] = {19, 39}, master[3] = {5, 20, 50};
     const double x[2] = {1, 1};
@@ -243,17 +244,4 @@ static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
         }
         assert_close(difference, 0, 0, 1e-8 * size);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(derivatives_of_a_hosts_dense_model_match_differences),
-        WITH_POOL(without_derivatives_they_come_from_differences_on_either_side),
-        WITH_POOL(a_callback_that_fails_or_gives_nan_is_named),
-        WITH_POOL(requests_out_of_range_are_refused),
-        WITH_POOL(vectors_with_zeros_are_differentiated),
-        WITH_POOL(a_far_block_at_the_nodes_of_a_mode_costs_no_digits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "beam/beam.h"
 #include "effect_bench.h"
 #include "linalg/linalg.h"
+#include "support.h"
 
 static const struct cause_kind *const physical[] = {&cause_step_stiffness,
                                                     &cause_stiffness_gradient,
@@ -38,9 +39,8 @@ static void neutral(const struct cause_kind *cause, double *value)
         value[cause->width] = 0.1;
 }
 
-static void effects_at_their_neutral_values_change_nothing(void **state)
+POOL_TEST(effects_at_their_neutral_values_change_nothing)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++)
         for (int c = 0; c < PHYSICAL; c++)
             for (int variant = 0; variant < 4; variant++) {
@@ -63,9 +63,8 @@ static void effects_at_their_neutral_values_change_nothing(void **state)
             }
 }
 
-static void rods_instead_of_a_tube_are_the_rods_of_the_deck(void **state)
+POOL_TEST(rods_instead_of_a_tube_are_the_rods_of_the_deck)
 {
-    (void)state;
     struct beam with, expected;
     rotid_matrix k[2], m[2];
     struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 4);
@@ -83,9 +82,8 @@ static void rods_instead_of_a_tube_are_the_rods_of_the_deck(void **state)
 static const struct element elements[] = {
     {6e6, 3e9, 40, 0.06, 0, 0.0125}, {1, 12e6, 3, 1e-4, 0, 1}, {2.5, 7.5, 1.7, 0.3, 0, 2}, {1000, 12, 0.5, 8, 0, 1}};
 
-static void shapes_are_those_that_the_mass_matrix_integrates(void **state)
+POOL_TEST(shapes_are_those_that_the_mass_matrix_integrates)
 {
-    (void)state;
     const double point[2] = {0.339981043584856264802666, 0.861136311594052575223946};
     const double weight[2] = {0.652145154862546142626936, 0.347854845137453857373064};
     for (size_t n = 0; n < sizeof elements / sizeof *elements; n++) {
@@ -107,9 +105,8 @@ static void shapes_are_those_that_the_mass_matrix_integrates(void **state)
     }
 }
 
-static void shapes_are_differentiated_by_place_and_shear_factor(void **state)
+POOL_TEST(shapes_are_differentiated_by_place_and_shear_factor)
 {
-    (void)state;
     const double xi = 0.37, h = 1e-3;
     for (size_t n = 0; n < sizeof elements / sizeof *elements; n++) {
         struct element softer = elements[n], stiffer = elements[n];
@@ -157,9 +154,8 @@ static void condensed_in_two(const struct element *whole, double xi, double late
         k[i] = two[i % 4 + 6 * (i / 4)];
 }
 
-static void springs_inside_an_element_are_at_a_node_that_has_been_condensed(void **state)
+POOL_TEST(springs_inside_an_element_are_at_a_node_that_has_been_condensed)
 {
-    (void)state;
     const double place[] = {0.05, 0.3, 0.5, 0.81}, stiff[] = {0, 1e-2, 1, 1e4};
     for (size_t n = 0; n < 3; n++) /* the last one has no bending to speak of beside its shear */
         for (int p = 0; p < 4; p++)
@@ -182,9 +178,8 @@ static void springs_inside_an_element_are_at_a_node_that_has_been_condensed(void
             }
 }
 
-static void a_mass_at_a_node_is_a_disk(void **state)
+POOL_TEST(a_mass_at_a_node_is_a_disk)
 {
-    (void)state;
     for (int n = 0; n < 3; n++) {
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
         struct beam lump, disk;
@@ -205,9 +200,8 @@ static void a_mass_at_a_node_is_a_disk(void **state)
 }
 
 /* A rigid motion feels mass and inertia wherever the lump is, and nothing jumps where it crosses a node. */
-static void a_mass_moves_smoothly_from_element_to_element(void **state)
+POOL_TEST(a_mass_moves_smoothly_from_element_to_element)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct beam beam, bare;
     struct parameter place = {PARAMETER_EFFECT, 0, 1, 0, NULL};
@@ -240,9 +234,8 @@ static void a_mass_moves_smoothly_from_element_to_element(void **state)
     }
 }
 
-static void mass_properties_know_of_effects(void **state)
+POOL_TEST(mass_properties_know_of_effects)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct mass_properties bare, with;
     struct beam beam;
@@ -298,9 +291,8 @@ static void series_of_five(double c, int end, const double *k, double *condensed
             condensed[i + 4 * j] = five[i + 5 * j] - five[i + 20] * five[4 + 5 * j] / five[24];
 }
 
-static void a_hinge_is_a_spring_in_series_that_has_been_condensed(void **state)
+POOL_TEST(a_hinge_is_a_spring_in_series_that_has_been_condensed)
 {
-    (void)state;
     const struct element *e = &elements[2];
     for (int end = 0; end < 2; end++)
         for (double c = 1e-3; c < 1e4; c *= 10) {
@@ -340,9 +332,8 @@ static void place_of_hinge(const struct rotor *rotor, double z, int end)
     assert_false(hinge_at(&beam, beam.hinge[0].element, !end));
 }
 
-static void the_hinge_is_between_the_rods_and_else_on_the_left(void **state)
+POOL_TEST(the_hinge_is_between_the_rods_and_else_on_the_left)
 {
-    (void)state;
     for (int interface = 0; interface < 2; interface++)
         for (int rods = 0; rods < 2; rods++) {
             struct rotor *rotor = bench_rotor(BUNDLE_RODS, rods, 4);
@@ -359,9 +350,8 @@ static void the_hinge_is_between_the_rods_and_else_on_the_left(void **state)
 }
 
 /* A mass at the interface itself is on the node, on either side of the hinge. */
-static void a_mass_at_the_interface_hangs_on_the_node(void **state)
+POOL_TEST(a_mass_at_the_interface_hangs_on_the_node)
 {
-    (void)state;
     for (int rods = 0; rods < 2; rods++) {
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, rods, 4);
         struct beam lump, disk;
@@ -382,9 +372,8 @@ static void a_mass_at_the_interface_hangs_on_the_node(void **state)
 
 /* ---- parameters ---- */
 
-static void names_find_the_parameters_of_effects(void **state)
+POOL_TEST(names_find_the_parameters_of_effects)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct parameter parameter;
     const char *unit = NULL;
@@ -407,9 +396,8 @@ static void names_find_the_parameters_of_effects(void **state)
     assert_int_equal(parameter.component, 0);
 }
 
-static void parameters_move_the_beams_own_copy_of_an_effect(void **state)
+POOL_TEST(parameters_move_the_beams_own_copy_of_an_effect)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct effect *effect = bench_add(rotor, cause_density.effect, 1, 0, (double[]){1.1});
     struct parameter parameter = {PARAMETER_EFFECT, 0, 0, 0, NULL};
@@ -421,9 +409,8 @@ static void parameters_move_the_beams_own_copy_of_an_effect(void **state)
     assert_close(effect->value[0], 1.1, 0, 0);
 }
 
-static void no_memory_is_reported_at_every_allocation(void **state)
+POOL_TEST(no_memory_is_reported_at_every_allocation)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 4);
     int status = ROTID_ERROR_MEMORY;
     bench_add(rotor, cause_joint.effect, 0, 0, (double[]){1e-9});
@@ -442,27 +429,4 @@ static void no_memory_is_reported_at_every_allocation(void **state)
             assert_status(status, ROTID_ERROR_MEMORY);
         assert_true(n < 100);
     }
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(effects_at_their_neutral_values_change_nothing),
-        TEST(rods_instead_of_a_tube_are_the_rods_of_the_deck),
-        TEST(shapes_are_those_that_the_mass_matrix_integrates),
-        TEST(shapes_are_differentiated_by_place_and_shear_factor),
-        TEST(springs_inside_an_element_are_at_a_node_that_has_been_condensed),
-        TEST(a_mass_at_a_node_is_a_disk),
-        TEST(a_mass_moves_smoothly_from_element_to_element),
-        TEST(mass_properties_know_of_effects),
-        TEST(a_hinge_is_a_spring_in_series_that_has_been_condensed),
-        TEST(the_hinge_is_between_the_rods_and_else_on_the_left),
-        TEST(a_mass_at_the_interface_hangs_on_the_node),
-        TEST(names_find_the_parameters_of_effects),
-        TEST(parameters_move_the_beams_own_copy_of_an_effect),
-        TEST(no_memory_is_reported_at_every_allocation),
-    };
-    return cmocka_run_group_tests_name("effect", tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "effect_bench.h"
+#include "support.h"
 
 /* Left shaft, core, right shaft: interfaces of the paper's rotor [m] */
 #define LEFT_INTERFACE  0.625822
@@ -112,9 +113,8 @@ static int acts_on_rods(const struct subject *subject)
     return subject->cause && subject->cause->target == TARGET_TIEROD;
 }
 
-static void every_cause_alone_agrees_with_differences(void **state)
+POOL_TEST(every_cause_alone_agrees_with_differences)
 {
-    (void)state;
     for (int variant = 0; variant < 3; variant++)
         for (int s = 0; s < SUBJECTS; s++) {
             struct rotor *rotor = open_rotor(variant);
@@ -127,9 +127,8 @@ static void every_cause_alone_agrees_with_differences(void **state)
         }
 }
 
-static void pairs_of_causes_agree_with_differences(void **state)
+POOL_TEST(pairs_of_causes_agree_with_differences)
 {
-    (void)state;
     double worst = 0;
     for (int variant = 0; variant < 3; variant++)
         for (int s = 0; s < SUBJECTS; s++)
@@ -145,9 +144,8 @@ static void pairs_of_causes_agree_with_differences(void **state)
 }
 
 /* Hinges at both ends of one element, a mass inside it and a soft core. */
-static void an_element_with_two_hinges_agrees_with_differences(void **state)
+POOL_TEST(an_element_with_two_hinges_agrees_with_differences)
 {
-    (void)state;
     const double soft[] = {0.3};
     struct rotor *rotor = open_rotor(0);
     for (int s = 0; s < rotor->nsegment; s++)
@@ -170,9 +168,8 @@ static void an_element_with_two_hinges_agrees_with_differences(void **state)
 }
 
 /* At a node the slope of the deflection differs by the shear angle between both sides: one-sided, on that of the element. */
-static void a_mass_at_nodes_and_ends_is_differentiated_to_one_side(void **state)
+POOL_TEST(a_mass_at_nodes_and_ends_is_differentiated_to_one_side)
 {
-    (void)state;
     const double node[] = {0, 0.256018, LENGTH};
     for (int n = 0; n < 3; n++) {
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
@@ -188,9 +185,8 @@ static void a_mass_at_nodes_and_ends_is_differentiated_to_one_side(void **state)
     }
 }
 
-static void a_mass_beyond_the_ends_stays_there_and_does_not_move(void **state)
+POOL_TEST(a_mass_beyond_the_ends_stays_there_and_does_not_move)
 {
-    (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct effect *lump = bench_add(rotor, &bench_lump, -1, 0, (double[]){9, -0.1, 0.3});
     struct parameter parameter[] = {{PARAMETER_EFFECT, 0, 1, 0, NULL}};
@@ -206,18 +202,4 @@ static void a_mass_beyond_the_ends_stays_there_and_does_not_move(void **state)
     dm = bench_zero(&outside);
     beam_differentiate(&outside, 0, &dk, &dm);
     assert_close(bench_largest(&dm, NULL), 0, 0, 0);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(every_cause_alone_agrees_with_differences),
-        TEST(pairs_of_causes_agree_with_differences),
-        TEST(an_element_with_two_hinges_agrees_with_differences),
-        TEST(a_mass_at_nodes_and_ends_is_differentiated_to_one_side),
-        TEST(a_mass_beyond_the_ends_stays_there_and_does_not_move),
-    };
-    return cmocka_run_group_tests_name("effect_derivative", tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "linalg/linalg.h"
+#include "support.h"
 
 /* ---- the matrices */
 
@@ -134,7 +135,7 @@ static double *solve_and_check(struct pool *pool, const rotid_matrix *k, const r
 
 /* ---- banded */
 
-static void random_pencils_agree_with_dsygv(void **state)
+POOL_TEST(random_pencils_agree_with_dsygv)
 {
     struct random_stream stream = {21};
     const int far[6] = {0, 1, 4, 5, 8, 9};
@@ -151,7 +152,7 @@ static void random_pencils_agree_with_dsygv(void **state)
         }
 }
 
-static void the_papers_rotor_agrees_with_dsygv(void **state)
+POOL_TEST(the_papers_rotor_agrees_with_dsygv)
 {
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         rotid_matrix k, m;
@@ -165,7 +166,7 @@ static void the_papers_rotor_agrees_with_dsygv(void **state)
     }
 }
 
-static void free_beams_have_their_rigid_motions_at_zero(void **state)
+POOL_TEST(free_beams_have_their_rigid_motions_at_zero)
 {
     struct either_band e;
     rotid_matrix k, m;
@@ -195,7 +196,7 @@ static void free_beams_have_their_rigid_motions_at_zero(void **state)
         assert_close(lambda[j], expected[j], 1e-9, 0);
 }
 
-static void a_short_request_is_served_when_all_of_it_is_rigid(void **state)
+POOL_TEST(a_short_request_is_served_when_all_of_it_is_rigid)
 {
     for (int count = 1; count <= 3; count++) {
         rotid_matrix k, m;
@@ -206,7 +207,7 @@ static void a_short_request_is_served_when_all_of_it_is_rigid(void **state)
 }
 
 /* Rotors in two planes, or with several bodies, have four rigid motions and more. */
-static void any_number_of_rigid_motions_is_served(void **state)
+POOL_TEST(any_number_of_rigid_motions_is_served)
 {
     for (int bodies = 2; bodies <= 7; bodies++) {
         enum { each = 30 };
@@ -221,7 +222,7 @@ static void any_number_of_rigid_motions_is_served(void **state)
     }
 }
 
-static void no_partner_of_a_repeated_eigenvalue_is_missed(void **state)
+POOL_TEST(no_partner_of_a_repeated_eigenvalue_is_missed)
 {
     enum { each = 60 };
     rotid_matrix k, m;
@@ -237,7 +238,7 @@ static void no_partner_of_a_repeated_eigenvalue_is_missed(void **state)
         }
 }
 
-static void a_warm_start_gives_what_a_cold_one_gives(void **state)
+POOL_TEST(a_warm_start_gives_what_a_cold_one_gives)
 {
     const double factors[][2] = {{1, 1}, {5, 5}, {0.2, 1}, {1, 5}, {5, 0.2}, {1, 1}, {1, 1}, {1 + 1e-9, 1}};
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
@@ -261,7 +262,7 @@ static void a_warm_start_gives_what_a_cold_one_gives(void **state)
 }
 
 /* The lowest modes move from one of two uncoupled chains to the other, of which the old vectors contain nothing. */
-static void modes_that_a_warm_start_cannot_see_are_found(void **state)
+POOL_TEST(modes_that_a_warm_start_cannot_see_are_found)
 {
     enum { each = 60, n = 2 * each, count = 4 };
     const double stiffness[4] = {100, 1e-4, 1e4, 0.5}; /* of the second chain */
@@ -290,7 +291,7 @@ static void modes_that_a_warm_start_cannot_see_are_found(void **state)
 }
 
 /* Whatever the unit of mass: a part of grams counted in tonnes, or the one of a micromechanical sensor. */
-static void light_structures_have_the_same_pairs(void **state)
+POOL_TEST(light_structures_have_the_same_pairs)
 {
     enum { n = 60, count = 4 };
     for (int power = -300; power <= 300; power += 20)
@@ -312,7 +313,7 @@ static void light_structures_have_the_same_pairs(void **state)
         }
 }
 
-static void one_pair_and_nearly_all_pairs_are_served(void **state)
+POOL_TEST(one_pair_and_nearly_all_pairs_are_served)
 {
     const int counts[][2] = {{1, 1}, {2, 1}, {2, 2}, {3, 2}, {17, 1}, {17, 15}, {17, 16}, {17, 17}, {60, 57}, {60, 60}};
     struct random_stream stream = {22};
@@ -331,7 +332,7 @@ static void one_pair_and_nearly_all_pairs_are_served(void **state)
     }
 }
 
-static void twenty_thousand_degrees_of_freedom_agree_with_closed_forms(void **state)
+POOL_TEST(twenty_thousand_degrees_of_freedom_agree_with_closed_forms)
 {
     enum { n = 20000 };
     rotid_matrix k, m;
@@ -348,22 +349,9 @@ static void twenty_thousand_degrees_of_freedom_agree_with_closed_forms(void **st
         assert_close(lambda[j], pinned_beam_eigenvalue(20, j + 1), 1e-5, 0);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(random_pencils_agree_with_dsygv),
-        WITH_POOL(the_papers_rotor_agrees_with_dsygv),
-        WITH_POOL(free_beams_have_their_rigid_motions_at_zero),
-        WITH_POOL(a_short_request_is_served_when_all_of_it_is_rigid),
-        WITH_POOL(any_number_of_rigid_motions_is_served),
-        WITH_POOL(no_partner_of_a_repeated_eigenvalue_is_missed),
-        WITH_POOL(a_warm_start_gives_what_a_cold_one_gives),
-        WITH_POOL(modes_that_a_warm_start_cannot_see_are_found),
-        WITH_POOL(light_structures_have_the_same_pairs),
-        WITH_POOL(one_pair_and_nearly_all_pairs_are_served),
-        WITH_POOL(twenty_thousand_degrees_of_freedom_agree_with_closed_forms),
-    };
-    int failed = cmocka_run_group_tests_name("narrow", tests, NULL, NULL);
+    int failed = test_main(argc, argv); /* narrow bands */
     either_band_wide = 1;
-    return failed + cmocka_run_group_tests_name("wide", tests, NULL, NULL);
+    return failed + test_main(argc, argv);
 }

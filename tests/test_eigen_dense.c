@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "linalg/linalg.h"
+#include "support.h"
 
 /* Residuals relative to |K| + |lambda| |M|, phi' M phi = I, lambda ascending. */
 static void check_pairs(struct pool *pool, int n, const double *k, const double *m, int count, const double *lambda,
@@ -38,7 +39,7 @@ static double *solve_and_check(struct pool *pool, int n, const double *k, const 
     return lambda;
 }
 
-static void a_part_and_all_pairs_agree_with_the_banded_solver(void **state)
+POOL_TEST(a_part_and_all_pairs_agree_with_the_banded_solver)
 {
     struct random_stream stream = {31};
     for (int n = 1; n <= 61; n += 12) {
@@ -77,7 +78,7 @@ static void random_strings(struct pool *pool, struct random_stream *stream, int 
 }
 
 /* Shafts in two planes have four rigid motions, bodies in space six; a request may end among them. */
-static void any_number_of_rigid_motions_is_served(void **state)
+POOL_TEST(any_number_of_rigid_motions_is_served)
 {
     enum { each = 10 };
     struct random_stream stream = {34};
@@ -95,7 +96,7 @@ static void any_number_of_rigid_motions_is_served(void **state)
 }
 
 /* Two strings of n/2 masses 1 and springs 1: 4 sin^2(j pi/n), each twice. */
-static void repeated_eigenvalues_are_found_for_any_request(void **state)
+POOL_TEST(repeated_eigenvalues_are_found_for_any_request)
 {
     enum { n = 40 };
     double *k = numbers(*state, n * n), *m = numbers(*state, n * n);
@@ -115,7 +116,7 @@ static void repeated_eigenvalues_are_found_for_any_request(void **state)
 }
 
 /* From parameters five times as stiff or as soft to others: what was found before must not matter. */
-static void the_solution_before_does_not_show(void **state)
+POOL_TEST(the_solution_before_does_not_show)
 {
     enum { n = 30, count = 7 };
     const double factors[] = {1, 5, 0.2, 25, 1e-3, 1};
@@ -148,7 +149,7 @@ static double *lowered(struct pool *pool, int n, const double *a, int row, doubl
     return copy;
 }
 
-static void a_pencil_that_is_not_of_a_structure_is_an_error(void **state)
+POOL_TEST(a_pencil_that_is_not_of_a_structure_is_an_error)
 {
     enum { n = 20 };
     struct random_stream stream = {33};
@@ -171,14 +172,4 @@ static void a_pencil_that_is_not_of_a_structure_is_an_error(void **state)
                 assert_status(eigen_dense_solve(&e, full_k, full_m, lambda, phi), ROTID_OK); /* an error spoils nothing */
                 check_pairs(*state, n, full_k, full_m, counts[c], lambda, phi);
             }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(a_part_and_all_pairs_agree_with_the_banded_solver), WITH_POOL(any_number_of_rigid_motions_is_served),
-        WITH_POOL(repeated_eigenvalues_are_found_for_any_request),    WITH_POOL(the_solution_before_does_not_show),
-        WITH_POOL(a_pencil_that_is_not_of_a_structure_is_an_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

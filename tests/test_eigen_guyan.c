@@ -7,6 +7,7 @@
 
 #include "modal/modal.h"
 #include "model/model.h"
+#include "support.h"
 
 #define MOST_MASTERS 80
 
@@ -58,7 +59,7 @@ static void compare(struct prediction *bands, struct prediction *dense, const do
 }
 
 /* Steps of a fit: first large, then small ones */
-static void pairs_and_derivatives_are_those_of_the_dense_matrices(void **state)
+POOL_TEST(pairs_and_derivatives_are_those_of_the_dense_matrices)
 {
     struct random_stream stream = {71};
     int solved = 0;
@@ -87,7 +88,7 @@ static void pairs_and_derivatives_are_those_of_the_dense_matrices(void **state)
 }
 
 /* Modes of the full model to begin with, as a run has them */
-static void modes_of_the_full_model_are_near_enough(void **state)
+POOL_TEST(modes_of_the_full_model_are_near_enough)
 {
     struct random_stream stream = {72};
     struct chosen c;
@@ -107,7 +108,7 @@ static void modes_of_the_full_model_are_near_enough(void **state)
 }
 
 /* Vectors that lead to the second to ninth bending modes: a Sturm count tells. */
-static void a_mode_that_is_left_out_is_noticed(void **state)
+POOL_TEST(a_mode_that_is_left_out_is_noticed)
 {
     struct random_stream stream = {73};
     struct chosen c;
@@ -141,7 +142,7 @@ static int host_matrices(void *user, const double *x, rotid_matrix *k, rotid_mat
 }
 
 /* A band in which no two neighbours part the left from the right */
-static void other_matrices_take_the_dense_way(void **state)
+POOL_TEST(other_matrices_take_the_dense_way)
 {
     enum { N = 60 };
     struct random_stream stream = {74};
@@ -159,15 +160,4 @@ static void other_matrices_take_the_dense_way(void **state)
         assert_status(prediction_compute(&p, NULL), ROTID_OK);
         assert_int_equal(p.by_bands, 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(pairs_and_derivatives_are_those_of_the_dense_matrices),
-        WITH_POOL(modes_of_the_full_model_are_near_enough),
-        WITH_POOL(a_mode_that_is_left_out_is_noticed),
-        WITH_POOL(other_matrices_take_the_dense_way),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 
 #include "linalg/linalg.h"
 #include "model/model.h"
+#include "support.h"
 
 enum { count = 9 };
 
@@ -28,7 +29,7 @@ static void rotor_matrices(struct pool *pool, int springs, double part_e, double
 }
 
 /* The block iteration alone is the second solver; steps as a fit takes them, and two rigid motions that share a shift. */
-static void polished_pairs_are_those_of_the_block_iteration(void **state)
+POOL_TEST(polished_pairs_are_those_of_the_block_iteration)
 {
     static const double part[][2] = {{1, 1}, {1.2, 0.9}, {1.21, 0.95}, {1.2101, 0.9501}, {1.2101, 0.9501 + 1e-9}, {0.5, 2}};
     for (int springs = 0; springs <= 1; springs++) {
@@ -58,7 +59,7 @@ static void polished_pairs_are_those_of_the_block_iteration(void **state)
 }
 
 /* Pairs 1, 2 and 4 in place of 1, 2 and 3: every residual is small, and the count of eigenvalues tells. */
-static void a_skipped_mode_is_noticed(void **state)
+POOL_TEST(a_skipped_mode_is_noticed)
 {
     rotid_matrix k, m;
     struct eigen_band e;
@@ -77,7 +78,7 @@ static void a_skipped_mode_is_noticed(void **state)
 }
 
 /* Dependent vectors are refused, whatever their length. */
-static void dependent_vectors_are_refused(void **state)
+POOL_TEST(dependent_vectors_are_refused)
 {
     rotid_matrix k, m;
     struct eigen_band e;
@@ -109,7 +110,7 @@ static void check_solution(int n, int kd, const double *full, const double *b, c
     assert_close(worst, 0, 0, 1e-10);
 }
 
-static void bands_of_any_width_are_solved_the_same_in_every_lane(void **state)
+POOL_TEST(bands_of_any_width_are_solved_the_same_in_every_lane)
 {
     static const int widths[] = {0, 1, 2, 3, 4, 5, 11, 12, 13, 30};
     enum { n = 31 };
@@ -151,7 +152,7 @@ static void bands_of_any_width_are_solved_the_same_in_every_lane(void **state)
         }
 }
 
-static void what_is_singular_or_indefinite_is_told(void **state)
+POOL_TEST(what_is_singular_or_indefinite_is_told)
 {
     static const int widths[] = {0, 3, 5, 20};
     enum { n = 31 };
@@ -165,16 +166,4 @@ static void what_is_singular_or_indefinite_is_told(void **state)
         assert_int_equal(band_cholesky(n, kd, a.band), 1);
         assert_int_equal(band_lu(n, kd, lu, pivot), 1);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(polished_pairs_are_those_of_the_block_iteration),
-        WITH_POOL(a_skipped_mode_is_noticed),
-        WITH_POOL(dependent_vectors_are_refused),
-        WITH_POOL(bands_of_any_width_are_solved_the_same_in_every_lane),
-        WITH_POOL(what_is_singular_or_indefinite_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

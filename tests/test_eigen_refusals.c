@@ -1,6 +1,7 @@
 /* Pencils that no structure has are refused by the banded eigen-solvers, and always in the same way. */
 #include "dense.h"
 #include "either_band.h"
+#include "support.h"
 
 static int status_of(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count)
 {
@@ -10,7 +11,7 @@ static int status_of(struct pool *pool, const rotid_matrix *k, const rotid_matri
     return either_band_solve(&e, k, m, lambda, phi);
 }
 
-static void a_mass_that_is_not_positive_definite_is_an_error(void **state)
+POOL_TEST(a_mass_that_is_not_positive_definite_is_an_error)
 {
     struct random_stream stream = {23};
     const int n = 40;
@@ -29,7 +30,7 @@ static void a_mass_that_is_not_positive_definite_is_an_error(void **state)
     }
 }
 
-static void a_stiffness_that_is_indefinite_is_an_error(void **state)
+POOL_TEST(a_stiffness_that_is_indefinite_is_an_error)
 {
     struct random_stream stream = {24};
     const int n = 40;
@@ -47,7 +48,7 @@ static void a_stiffness_that_is_indefinite_is_an_error(void **state)
 }
 
 /* Whether K is refused must not depend on what was solved before. */
-static void an_indefinite_stiffness_is_an_error_warm_as_well(void **state)
+POOL_TEST(an_indefinite_stiffness_is_an_error_warm_as_well)
 {
     struct random_stream stream = {25};
     const int n = 40;
@@ -68,14 +69,9 @@ static void an_indefinite_stiffness_is_an_error_warm_as_well(void **state)
     assert_close(lambda[0], first, 1e-9, 0);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(a_mass_that_is_not_positive_definite_is_an_error),
-        WITH_POOL(a_stiffness_that_is_indefinite_is_an_error),
-        WITH_POOL(an_indefinite_stiffness_is_an_error_warm_as_well),
-    };
-    int failed = cmocka_run_group_tests_name("narrow", tests, NULL, NULL);
+    int failed = test_main(argc, argv); /* narrow bands */
     either_band_wide = 1;
-    return failed + cmocka_run_group_tests_name("wide", tests, NULL, NULL);
+    return failed + test_main(argc, argv);
 }

@@ -2,6 +2,7 @@
  * bands, counts, clusters and scales of 1e12. Meant for the address sanitizer too: each solver owns a workspace. */
 #include "base/base.h"
 #include "dense.h"
+#include "support.h"
 
 #include <float.h>
 #include <math.h>
@@ -81,7 +82,7 @@ static void solve_stated(struct pool *pool, int n, int kd, int count, enum spect
         assert_close(lambda[j], d[j], 1e-6, 64 * n * DBL_EPSILON * largest);
 }
 
-static void eigenvalues_are_those_stated(void **state)
+POOL_TEST(eigenvalues_are_those_stated)
 {
     static const int sizes[][2] = {{1, 0}, {13, 12}, {40, 3}, {60, 12}, {100, 99}, {120, 11}, {200, 48}},
                      counts[] = {1, 4, 12, 30};
@@ -96,17 +97,8 @@ static void eigenvalues_are_those_stated(void **state)
 
 /* Too many rows for the dense solver, which would answer in place of the bands: the count below a shift sees the rounding of the
  * stiff pairs in the soft ones. */
-static void soft_pairs_among_stiff_ones_are_all_found(void **state)
+POOL_TEST(soft_pairs_among_stiff_ones_are_all_found)
 {
     solve_stated(*state, 2400, 1, 1, STIFF_PAIRS, 1e12, 1);
     solve_stated(*state, 2400, 1, 4, STIFF_PAIRS, 1e12, 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(eigenvalues_are_those_stated),
-        WITH_POOL(soft_pairs_among_stiff_ones_are_all_found),
-    };
-    return cmocka_run_group_tests_name("eigen_sweep", tests, NULL, NULL);
 }

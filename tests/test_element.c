@@ -105,9 +105,8 @@ static void integrate(const struct element *e, double *stiffness, double *geomet
     }
 }
 
-static void matrices_are_symmetric(void **state)
+UNIT_TEST(matrices_are_symmetric)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         double k[16], m[16];
         element_matrices(&elements[n], k, m);
@@ -119,9 +118,8 @@ static void matrices_are_symmetric(void **state)
     }
 }
 
-static void element_matrices_are_the_sum_of_the_public_ones(void **state)
+UNIT_TEST(element_matrices_are_the_sum_of_the_public_ones)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
         double k[16], m[16], flexural[16], geometric[16], mass[16], phi = shear_factor(e);
@@ -136,9 +134,8 @@ static void element_matrices_are_the_sum_of_the_public_ones(void **state)
     }
 }
 
-static void rigid_motion_meets_no_elastic_force(void **state)
+UNIT_TEST(rigid_motion_meets_no_elastic_force)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         double k[16], l = elements[n].length;
         const double rigid[2][4] = {{1, 0, 1, 0}, {0, 1, -l, 1}};
@@ -154,9 +151,8 @@ static void rigid_motion_meets_no_elastic_force(void **state)
     }
 }
 
-static void rigid_motion_carries_the_whole_mass_and_inertia(void **state)
+UNIT_TEST(rigid_motion_carries_the_whole_mass_and_inertia)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
         double k[16], m[16], l = e->length;
@@ -168,9 +164,8 @@ static void rigid_motion_carries_the_whole_mass_and_inertia(void **state)
     }
 }
 
-static void rigid_rotation_stores_force_times_length_in_the_geometric_matrix(void **state)
+UNIT_TEST(rigid_rotation_stores_force_times_length_in_the_geometric_matrix)
 {
-    (void)state;
     const double phi[] = {0, 1e-6, 0.1, 1, 10, 1e3, 1e6}, force = -3.7, l = 0.6;
     for (int n = 0; n < 7; n++) {
         double kg[16];
@@ -184,9 +179,8 @@ static void rigid_rotation_stores_force_times_length_in_the_geometric_matrix(voi
 
 /* Fixed at the left end. Tip load P: v = P (l^3/3EI + l/kGS), theta = -P l^2/2EI; tip moment M: theta = M l/EI, v = -M l^2/2EI.
  */
-static void cantilever_bends_and_shears_as_the_closed_form(void **state)
+UNIT_TEST(cantilever_bends_and_shears_as_the_closed_form)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
         double k[16], l = e->length;
@@ -207,9 +201,8 @@ static void cantilever_bends_and_shears_as_the_closed_form(void **state)
     }
 }
 
-static void matrices_are_the_integrals_of_the_static_shapes(void **state)
+UNIT_TEST(matrices_are_the_integrals_of_the_static_shapes)
 {
-    (void)state;
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
         double k[16], kg[16], m[16], k_expected[16], kg_expected[16], m_expected[16];
@@ -260,9 +253,8 @@ static double derivative_error(const struct element *e, const struct element *d,
     return worst;
 }
 
-static void derivatives_agree_with_differences_in_each_quantity_and_a_mixed_direction(void **state)
+UNIT_TEST(derivatives_agree_with_differences_in_each_quantity_and_a_mixed_direction)
 {
-    (void)state;
     double worst = 0;
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
@@ -283,9 +275,8 @@ static void derivatives_agree_with_differences_in_each_quantity_and_a_mixed_dire
 
 /* In phi the geometric part has no other test: with an axial force that carries the whole stiffness it must not hide behind K_f.
  */
-static void geometric_part_is_differentiated_through_the_shear_factor(void **state)
+UNIT_TEST(geometric_part_is_differentiated_through_the_shear_factor)
 {
-    (void)state;
     const double l = 0.8, ei = 1.3, kgs = 12 * ei / (l * l) / 0.7, force = 1e12, h = 1e-3;
     const struct element e = {ei, kgs, 1, 0.1, force, l}, d = {.kgs = kgs};
     double dk[16], dm[16], kg[16], expected[16] = {0};
@@ -300,20 +291,4 @@ static void geometric_part_is_differentiated_through_the_shear_factor(void **sta
     scale(l, expected);
     assert_true(largest(expected) > 1e9);
     assert_close(relative_difference(16, dk, expected), 0, 0, 1e-9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrices_are_symmetric),
-        cmocka_unit_test(element_matrices_are_the_sum_of_the_public_ones),
-        cmocka_unit_test(rigid_motion_meets_no_elastic_force),
-        cmocka_unit_test(rigid_motion_carries_the_whole_mass_and_inertia),
-        cmocka_unit_test(rigid_rotation_stores_force_times_length_in_the_geometric_matrix),
-        cmocka_unit_test(cantilever_bends_and_shears_as_the_closed_form),
-        cmocka_unit_test(matrices_are_the_integrals_of_the_static_shapes),
-        cmocka_unit_test(derivatives_agree_with_differences_in_each_quantity_and_a_mixed_direction),
-        cmocka_unit_test(geometric_part_is_differentiated_through_the_shear_factor),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

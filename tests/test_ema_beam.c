@@ -43,13 +43,12 @@ static void read_excerpt(struct frf_set *set)
 }
 
 /* Frequencies and damping that other programs find in the whole file, where a bar has (2 r + 1)^2. */
-static void nine_modes_of_a_real_bar(void **state)
+POOL_TEST(nine_modes_of_a_real_bar)
 {
     static const double hz[9] = {52.553, 144.632, 283.127, 468.277, 698.466, 972.977, 1292.957, 1655.35, 2064.51};
     static const double zeta[9] = {0.001821, 0.000715, 0.000392, 0.000216, 0.000186, 0.000228, 0.000217, 0.000333, 0.000210};
     struct frf_set set;
     struct ema ema;
-    (void)state;
     read_excerpt(&set);
     assert_status(ema_compute(&test_pool, &set, NULL, NULL, &ema), ROTID_OK);
     assert_int_equal(ema.nmode, 9);
@@ -62,12 +61,4 @@ static void nine_modes_of_a_real_bar(void **state)
     assert_int_equal(ema.std_from_impacts, 0);
     for (int k = 0; k < ema.npole; k++)
         assert_true(ema.pole[k].mode >= -1 && ema.pole[k].mode < 9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(nine_modes_of_a_real_bar, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,11 +35,10 @@ static void assert_shapes(const struct ema *ema, int npoint, double atol)
         }
 }
 
-static void a_transducer_turned_round_turns_its_sign(void **state)
+POOL_TEST(a_transducer_turned_round_turns_its_sign)
 {
     struct frf_set set;
     struct ema ema;
-    (void)state;
     measure(8, 0, 0, &set);
     set.frf[0].response_direction = set.frf[5].response_direction = -2;
     for (int i = 0; i < set.nline; i++) {
@@ -51,11 +50,10 @@ static void a_transducer_turned_round_turns_its_sign(void **state)
     assert_close(ema.mode[1].modal_mass, 1, 1e-4, 0);
 }
 
-static void a_hammer_that_roves_gives_the_same(void **state)
+POOL_TEST(a_hammer_that_roves_gives_the_same)
 {
     struct frf_set set;
     struct ema ema;
-    (void)state;
     measure(8, 0, 0, &set);
     for (int c = 0; c < 8; c++) {
         set.frf[c].reference_node = set.frf[c].response_node;
@@ -68,11 +66,10 @@ static void a_hammer_that_roves_gives_the_same(void **state)
 }
 
 /* Eight points over two references, one of which sees no middle mode at its node. */
-static void two_references_make_one_shape(void **state)
+POOL_TEST(two_references_make_one_shape)
 {
     struct frf_set a, b, set;
     struct ema ema;
-    (void)state;
     measure(9, 4, 0, &b);
     measure(9, 0, 0, &a);
     set = a;
@@ -86,12 +83,11 @@ static void two_references_make_one_shape(void **state)
     assert_close(ema.mode[0].modal_mass, 1, 1e-3, 0);
 }
 
-static void bad_channels_are_named(void **state)
+POOL_TEST(bad_channels_are_named)
 {
     struct frf_set set;
     struct ema ema;
     struct random_stream random = {.state = 4};
-    (void)state;
     measure(10, 0, 1e-2, &set);
     for (int i = 0; i < set.nline; i++) {
         set.frf[2].h[i] *= 1e-5;
@@ -116,12 +112,11 @@ static void bad_channels_are_named(void **state)
     assert_true(ema.channel[0].fit > 0.99);
 }
 
-static void what_cannot_be_done_is_refused(void **state)
+POOL_TEST(what_cannot_be_done_is_refused)
 {
     struct frf_set set;
     struct ema ema;
     struct ema_options options = {.low_hz = 59, .high_hz = 61};
-    (void)state;
     measure(3, 0, 0, &set);
     assert_status(ema_compute(&test_pool, &set, &options, NULL, &ema), ROTID_ERROR_ARGUMENT);
     options = (struct ema_options){.low_hz = 5000};
@@ -145,22 +140,20 @@ static int always(void *context)
     return 1;
 }
 
-static void it_can_be_cancelled(void **state)
+POOL_TEST(it_can_be_cancelled)
 {
     struct frf_set set;
     struct ema ema;
     rotid_environment environment = {.size = sizeof environment, .cancelled = always};
-    (void)state;
     measure(3, 0, 0, &set);
     assert_status(ema_compute(&test_pool, &set, NULL, &environment, &ema), ROTID_STOP_CANCELLED);
 }
 
-static void every_allocation_may_fail(void **state)
+POOL_TEST(every_allocation_may_fail)
 {
     struct frf_set set;
     struct ema_options options = {.order = 10, .per_point = 1, .low_hz = 40, .high_hz = 80};
     int status = ROTID_ERROR_MEMORY;
-    (void)state;
     measure(3, 0, 1e-2, &set);
     for (long n = 1; status != ROTID_OK; n += n < 60 ? 1 : 17) {
         struct failing_allocator failing;
@@ -175,12 +168,11 @@ static void every_allocation_may_fail(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
+POOL_TEST(threads_change_no_bit)
 {
     struct frf_set set;
     struct ema one, four;
     struct ema_options options = {.order = 40, .threads = 1};
-    (void)state;
     measure(19, 0, 1e-2, &set);
     assert_status(ema_compute(&test_pool, &set, &options, NULL, &one), ROTID_OK);
     options.threads = 4;
@@ -193,11 +185,10 @@ static void threads_change_no_bit(void **state)
     }
 }
 
-static void how_far_from_real_in_closed_form(void **state)
+UNIT_TEST(how_far_from_real_in_closed_form)
 {
     double complex line[3] = {CMPLX(3, 4), CMPLX(-6, -8), CMPLX(0.3, 0.4)}, circle[4] = {1, I, -1, -I};
     double complex cross[2] = {2, 3 * I};
-    (void)state;
     assert_close(mode_phase_collinearity(3, line), 1, 1e-14, 0);
     assert_close(mode_phase_deviation(3, line), 0, 0, 1e-12);
     assert_close(fabs(creal(line[1] * conj(mode_axis(3, line)))), 10, 1e-14, 0);
@@ -210,20 +201,4 @@ static void how_far_from_real_in_closed_form(void **state)
     assert_close(mode_phase_collinearity(3, line), 1, 1e-14, 0);
     memset(line, 0, sizeof line);
     assert_close(mode_phase_collinearity(3, line), 0, 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_transducer_turned_round_turns_its_sign, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_hammer_that_roves_gives_the_same, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(two_references_make_one_shape, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bad_channels_are_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_cannot_be_done_is_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(it_can_be_cancelled, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_allocation_may_fail, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(threads_change_no_bit, open_test_pool, close_test_pool),
-        cmocka_unit_test(how_far_from_real_in_closed_form),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

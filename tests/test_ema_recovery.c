@@ -26,9 +26,8 @@ static void assert_modes(const struct ema *ema, const struct truth *truth, int n
     }
 }
 
-static void poles_are_exact_without_noise(void **state)
+POOL_TEST(poles_are_exact_without_noise)
 {
-    (void)state;
     for (int q = FRF_DISPLACEMENT; q <= FRF_ACCELERATION; q++) {
         struct truth truth;
         struct frf_set set;
@@ -51,24 +50,22 @@ static void poles_are_exact_without_noise(void **state)
     }
 }
 
-static void modes_outside_the_band_leave_the_inner_ones_alone(void **state)
+POOL_TEST(modes_outside_the_band_leave_the_inner_ones_alone)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    (void)state;
     truth_beam(12, 9, 0, 60, 5e-3, &truth);
     truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.2, 3300, 0, 0, NULL, &set);
     compute(&set, NULL, &ema);
     assert_modes(&ema, &truth, 4, 1e-5, 2e-3);
 }
 
-static void two_modes_half_a_percent_apart(void **state)
+POOL_TEST(two_modes_half_a_percent_apart)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    (void)state;
     truth_beam(4, 9, 0, 60, 1e-3, &truth);
     truth.frequency_hz[2] = truth.frequency_hz[1] * 1.005;
     struct random_stream random = {.state = 7};
@@ -83,12 +80,11 @@ static void two_modes_half_a_percent_apart(void **state)
     assert_int_equal(ema.std_from_impacts, 1);
 }
 
-static void the_window_comes_off_the_damping(void **state)
+POOL_TEST(the_window_comes_off_the_damping)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    (void)state;
     truth_beam(1, 5, 0, 60, 5e-3, &truth);
     truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.1, 1000, 0, 0, NULL, &set);
     set.window_decay = 0.8;
@@ -140,33 +136,30 @@ static void a_moving_mass(int with_variance)
     }
 }
 
-static void a_moving_mass_shifts_each_point(void **state)
+POOL_TEST(a_moving_mass_shifts_each_point)
 {
-    (void)state;
     a_moving_mass(1);
     a_moving_mass(0);
 }
 
-static void nothing_to_find(void **state)
+POOL_TEST(nothing_to_find)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
     struct random_stream random = {.state = 3};
-    (void)state;
     truth_beam(1, 6, 0, 60, 5e-3, &truth);
     truth_measure(&test_pool, &truth, FRF_ACCELERATION, 200, 0.5, 800, 1e-2, 1, &random, &set);
     compute(&set, NULL, &ema);
     assert_int_equal(ema.nmode, 0);
 }
 
-static void one_channel_and_picked_frequencies(void **state)
+POOL_TEST(one_channel_and_picked_frequencies)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
     struct random_stream random = {.state = 5};
-    (void)state;
     truth_beam(3, 1, 0, 60, 5e-3, &truth);
     truth_measure(&test_pool, &truth, FRF_ACCELERATION, 20, 0.2, 2000, 1e-3, 1, &random, &set);
     compute(&set, NULL, &ema);
@@ -179,12 +172,11 @@ static void one_channel_and_picked_frequencies(void **state)
     assert_close(ema.mode[1].frequency_hz, truth.frequency_hz[2], 1e-4, 0);
 }
 
-static void quadrature_picking_finds_the_peaks(void **state)
+POOL_TEST(quadrature_picking_finds_the_peaks)
 {
     struct truth truth;
     struct frf_set set;
     struct ema ema;
-    (void)state;
     truth_beam(4, 9, 0, 60, 5e-3, &truth);
     for (int q = FRF_DISPLACEMENT; q <= FRF_ACCELERATION; q++) {
         truth_measure(&test_pool, &truth, (enum frf_quantity)q, 20, 0.05, 13000, 0, 0, NULL, &set);
@@ -195,19 +187,4 @@ static void quadrature_picking_finds_the_peaks(void **state)
             for (int j = 0; j < 9; j++)
                 assert_close(ema.mode[r].shape[j] * truth.phi[r][0], truth.phi[r][j] * ema.mode[r].shape[0], 0.02, 0.01);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(poles_are_exact_without_noise, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(modes_outside_the_band_leave_the_inner_ones_alone, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(two_modes_half_a_percent_apart, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_window_comes_off_the_damping, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_moving_mass_shifts_each_point, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(nothing_to_find, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(one_channel_and_picked_frequencies, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(quadrature_picking_finds_the_peaks, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,24 +68,21 @@ static void scatter(int with_variance)
     assert_honest(&shape, 0.1, "shape");
 }
 
-static void stated_deviations_are_the_true_ones(void **state)
+UNIT_TEST(stated_deviations_are_the_true_ones)
 {
-    (void)state;
     scatter(1);
 }
 
-static void so_are_those_from_what_is_left_over(void **state)
+UNIT_TEST(so_are_those_from_what_is_left_over)
 {
-    (void)state;
     scatter(0);
 }
 
 /* 6 to 14 modes, damping 5e-4 to 3e-2, noise 1e-4 to 3e-2: exactly the true ones, but in one system of ten at most. */
-static void the_table_proposes_the_true_modes(void **state)
+UNIT_TEST(the_table_proposes_the_true_modes)
 {
     int systems = 0, failures = 0;
     struct random_stream random = {.state = 2024};
-    (void)state;
     while (systems < 8) {
         struct truth truth;
         int n = 6 + (int)(9 * random_uniform(&random)), npoint = 8 + (int)(8 * random_uniform(&random));
@@ -116,14 +113,4 @@ static void the_table_proposes_the_true_modes(void **state)
     }
     print_message("%d systems, %d not exactly right\n", systems, failures);
     assert_true(failures <= 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stated_deviations_are_the_true_ones),
-        cmocka_unit_test(so_are_those_from_what_is_left_over),
-        cmocka_unit_test(the_table_proposes_the_true_modes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -120,9 +120,8 @@ static void deck_is_run(const char *host)
     assert_close(g_high - g_low, 2 * 1.95996 * std[1], 0.02, 0);
 }
 
-static void run_deck_finds_the_moduli_behind_exact_frequencies(void **state)
+POOL_TEST(run_deck_finds_the_moduli_behind_exact_frequencies)
 {
-    (void)state;
     for_each("run_deck", in_c, deck_is_run);
 }
 
@@ -135,9 +134,8 @@ static void bad_deck_is_told(const char *host)
     assert_string_equal(out, "");
 }
 
-static void run_deck_tells_every_error_with_its_place(void **state)
+POOL_TEST(run_deck_tells_every_error_with_its_place)
 {
-    (void)state;
     for_each("bad_deck", in_c, bad_deck_is_told);
 }
 
@@ -154,9 +152,8 @@ static void curve_is_certified(const char *host)
         assert_close(b[i], certified[i], 5e-8, 0); /* eight digits are printed */
 }
 
-static void curve_agrees_with_the_values_that_nist_certifies(void **state)
+POOL_TEST(curve_agrees_with_the_values_that_nist_certifies)
 {
-    (void)state;
     for_each("curve", in_c, curve_is_certified);
 }
 
@@ -166,9 +163,8 @@ static void wrong_column_is_named(const char *host)
     assert_string_equal(out, "");
 }
 
-static void a_derivative_of_the_wrong_sign_is_found_before_the_fit(void **state)
+POOL_TEST(a_derivative_of_the_wrong_sign_is_found_before_the_fit)
 {
-    (void)state;
     for_each("wrong_curve", in_c, wrong_column_is_named);
 }
 
@@ -177,9 +173,8 @@ static void nothing_is_printed(const char *host)
     assert_string_equal(ran(host, "0", ""), "");
 }
 
-static void the_library_prints_nothing_in_good_and_in_bad_fortune(void **state)
+POOL_TEST(the_library_prints_nothing_in_good_and_in_bad_fortune)
 {
-    (void)state;
     for_each("silent", in_c, nothing_is_printed);
 }
 
@@ -209,9 +204,8 @@ static void read_stepped(void)
 }
 
 /* What the program says of its measured values is so. */
-static void the_stepped_beams_measurements_are_exact_ones_with_their_noise(void **state)
+POOL_TEST(the_stepped_beams_measurements_are_exact_ones_with_their_noise)
 {
-    (void)state;
     const double truth[2] = {1.2e11, 8e5};
     double hz[STEPPED_MODES], shape[STEPPED_MODES * STEPPED_SENSORS], square = 0, shape_square = 0;
     read_stepped();
@@ -261,16 +255,14 @@ static void stepped_beam_is_identified(const char *host)
     }
 }
 
-static void the_fortran_solver_finds_modulus_and_bearing(void **state)
+POOL_TEST(the_fortran_solver_finds_modulus_and_bearing)
 {
-    (void)state;
     read_stepped();
     for_each("stepped_beam", in_fortran, stepped_beam_is_identified);
 }
 
-static void a_solver_that_traps_floating_point_errors_is_not_trapped_by_the_library(void **state)
+POOL_TEST(a_solver_that_traps_floating_point_errors_is_not_trapped_by_the_library)
 {
-    (void)state;
     needs_compiler(&test_pool, "FC");
     if (!strstr(shell(&test_pool, "%s --version", compiler("FC")), "GNU"))
         skip();
@@ -287,9 +279,8 @@ static void fortran_checks_hold(const char *host)
         fail_msg("%s:\n%s%s", host, out, left(host, "err"));
 }
 
-static void what_rotid_f90_has_for_fortran_does_what_it_says(void **state)
+POOL_TEST(what_rotid_f90_has_for_fortran_does_what_it_says)
 {
-    (void)state;
     for_each("fortran_host", in_fortran, fortran_checks_hold);
 }
 
@@ -311,9 +302,8 @@ static void critical_speeds_are_those_of_the_other_language(const char *host)
     assert_non_null(strstr(mine, "% by bearing de"));
 }
 
-static void a_machine_is_computed_from_c_and_fortran(void **state)
+POOL_TEST(a_machine_is_computed_from_c_and_fortran)
 {
-    (void)state;
     for_each("critical", in_fortran, critical_speeds_are_those_of_the_other_language);
 }
 
@@ -324,18 +314,16 @@ static void every_routine_is_there(const char *host)
     assert_string_equal(ran(host, "0", ""), pool_format(&test_pool, "%d\n", header.nfunction));
 }
 
-static void every_routine_of_the_header_links_from_fortran(void **state)
+POOL_TEST(every_routine_of_the_header_links_from_fortran)
 {
-    (void)state;
     for_each("callers", in_fortran, every_routine_is_there);
 }
 
 /* ---- the document */
 
 /* Every file of docs/examples stands in it word for word, in a block of its own, and every block of a program is such a file. */
-static void the_document_shows_the_programs_that_were_built(void **state)
+POOL_TEST(the_document_shows_the_programs_that_were_built)
 {
-    (void)state;
     static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "margins.c"},          {"c", "curve.c"},
                                           {"make", "Makefile"},      {"fortran", "critical.f90"}, {"fortran", "stepped_beam.f90"},
                                           {"python", "run_deck.py"}, {"cmake", "CMakeLists.txt"}};
@@ -355,9 +343,8 @@ static void the_document_shows_the_programs_that_were_built(void **state)
 }
 
 /* Its table of statuses, and what it says the programs print. */
-static void the_document_has_the_statuses_and_the_output_of_now(void **state)
+POOL_TEST(the_document_has_the_statuses_and_the_output_of_now)
 {
-    (void)state;
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
 #define ROW(name, value, text)                                                                                                   \
     if (!strstr(document, "\n| `" #name "` " #value " | " text " |\n"))                                                          \
@@ -372,24 +359,4 @@ static void the_document_has_the_statuses_and_the_output_of_now(void **state)
     }
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(run_deck_finds_the_moduli_behind_exact_frequencies),
-        TEST(run_deck_tells_every_error_with_its_place),
-        TEST(curve_agrees_with_the_values_that_nist_certifies),
-        TEST(a_derivative_of_the_wrong_sign_is_found_before_the_fit),
-        TEST(the_library_prints_nothing_in_good_and_in_bad_fortune),
-        TEST(the_stepped_beams_measurements_are_exact_ones_with_their_noise),
-        TEST(the_fortran_solver_finds_modulus_and_bearing),
-        TEST(a_solver_that_traps_floating_point_errors_is_not_trapped_by_the_library),
-        TEST(what_rotid_f90_has_for_fortran_does_what_it_says),
-        TEST(a_machine_is_computed_from_c_and_fortran),
-        TEST(every_routine_of_the_header_links_from_fortran),
-        TEST(the_document_shows_the_programs_that_were_built),
-        TEST(the_document_has_the_statuses_and_the_output_of_now),
-    };
-    return cmocka_run_group_tests_name("embedding", tests, install_and_build, remove_all);
-}
+TEST_GROUP(install_and_build, remove_all);

@@ -31,9 +31,8 @@ static double energy(const double *a, const double *u)
     return sum;
 }
 
-static void a4_rigid_rotation_stores_force_times_length_but_printed_only_two_fifths(void **state)
+POOL_TEST(a4_rigid_rotation_stores_force_times_length_but_printed_only_two_fifths)
 {
-    (void)state;
     const double phi[] = {0, 1, 10, 1000}, l = 0.7, force = 5;
     for (int i = 0; i < 4; i++) {
         double kg[16];
@@ -48,9 +47,8 @@ static void a4_rigid_rotation_stores_force_times_length_but_printed_only_two_fif
 
 /* v' of the static shape for v1 = 1 is -(6 s (1 - s) + phi)/((1 + phi) l), s = z/l: k_G11 is F times the integral of its square.
  */
-static void a4_corner_is_the_integral_of_the_slope_squared_and_printed_is_half_of_it(void **state)
+POOL_TEST(a4_corner_is_the_integral_of_the_slope_squared_and_printed_is_half_of_it)
 {
-    (void)state;
     const double phi[] = {0, 0.3, 2, 40}, l = 0.7;
     for (int i = 0; i < 4; i++) {
         double kg[16], printed[16], integral = 0;
@@ -100,9 +98,8 @@ static double buckling_over_engesser(geometric_matrix *geometric)
     return low * (1 / euler + 1 / kgs);
 }
 
-static void a4_column_buckles_at_engessers_load_but_printed_at_twice_that(void **state)
+POOL_TEST(a4_column_buckles_at_engessers_load_but_printed_at_twice_that)
 {
-    (void)state;
     double corrected = buckling_over_engesser(rotid_element_geometric), printed = buckling_over_engesser(printed_geometric);
     print_message("A.4 buckling load over Engesser's: corrected %.6f, printed %.4f\n", corrected, printed);
     assert_close(corrected, 1, 3e-4, 0);
@@ -111,9 +108,8 @@ static void a4_column_buckles_at_engessers_load_but_printed_at_twice_that(void *
 
 /* ---- (6, 7) */
 
-static void eq7_rods_have_half_of_s_e_squared_and_printed_is_six_times_too_stiff(void **state)
+POOL_TEST(eq7_rods_have_half_of_s_e_squared_and_printed_is_six_times_too_stiff)
 {
-    (void)state;
     const int number = 12;
     const double d = 0.03, e = 0.2;
     double area, own, pitch, exact = 0, half = 0;
@@ -131,9 +127,8 @@ static void eq7_rods_have_half_of_s_e_squared_and_printed_is_six_times_too_stiff
 }
 
 /* The plus sign belongs to the outer diameter. Named as the text does, the section of a real annulus comes out with area -S. */
-static void eq6_plus_sign_is_the_outer_diameter_and_the_text_swaps_them(void **state)
+POOL_TEST(eq6_plus_sign_is_the_outer_diameter_and_the_text_swaps_them)
 {
-    (void)state;
     double outer, inner, area = pi / 4 * (0.3 * 0.3 - 0.2 * 0.2), inertia = pi / 64 * (pow(0.3, 4) - pow(0.2, 4));
     assert_status(rotid_equivalent_cylinder(area, inertia, NULL, &outer, &inner), ROTID_OK);
     assert_close(outer, 0.3, 1e-14, 0);
@@ -144,9 +139,8 @@ static void eq6_plus_sign_is_the_outer_diameter_and_the_text_swaps_them(void **s
 
 /* Of all sections of an area the disc has the least second moment, so only rods that overlap have no annulus: an error of the
  * input. */
-static void eq6_has_no_annulus_for_overlapping_rods_where_printed_is_not_a_number(void **state)
+POOL_TEST(eq6_has_no_annulus_for_overlapping_rods_where_printed_is_not_a_number)
 {
-    (void)state;
     double area, own, pitch, outer, inner;
     section_rods(12, 0.032, 0.02, &area, &own, &pitch);
     double squared = 8 * (own + pitch) / area - 2 * area / pi;
@@ -157,9 +151,8 @@ static void eq6_has_no_annulus_for_overlapping_rods_where_printed_is_not_a_numbe
 
 /* ---- (44) */
 
-static void eq44_gives_9790_and_2002_where_table_2_has_9450_and_1930(void **state)
+POOL_TEST(eq44_gives_9790_and_2002_where_table_2_has_9450_and_1930)
 {
-    (void)state;
     const double m = 998, g = 9.81, sling = 1, z = 1.0594, length = 2.03;
     double ke = m * g / sling, kl = m * g * z / (length * length + z * sling);
     print_message("(44) %.1f and %.1f N/m; Table 2 is that of %.1f and %.1f kg\n", ke, kl, 9450 / ke * m, 1930 / kl * m);
@@ -174,20 +167,4 @@ static void eq44_gives_9790_and_2002_where_table_2_has_9450_and_1930(void **stat
     assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_OK);
     assert_close(beam.rotor.spring[0].lateral, ke, 1e-3, 0); /* its own mass is 998.28 kg */
     assert_close(beam.rotor.spring[1].lateral, kl, 1e-3, 0);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(a4_rigid_rotation_stores_force_times_length_but_printed_only_two_fifths),
-        TEST(a4_corner_is_the_integral_of_the_slope_squared_and_printed_is_half_of_it),
-        TEST(a4_column_buckles_at_engessers_load_but_printed_at_twice_that),
-        TEST(eq7_rods_have_half_of_s_e_squared_and_printed_is_six_times_too_stiff),
-        TEST(eq6_plus_sign_is_the_outer_diameter_and_the_text_swaps_them),
-        TEST(eq6_has_no_annulus_for_overlapping_rods_where_printed_is_not_a_number),
-        TEST(eq44_gives_9790_and_2002_where_table_2_has_9450_and_1930),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,9 +100,8 @@ static double curvature_at(const struct curve *curve, double eps)
     return (16 * near - far - 30 * value_at(curve, eps)) / (12 * h * h);
 }
 
-static void eq20_has_a_cubic_term_that_little_o_denies(void **state)
+FIXTURE_TEST(eq20_has_a_cubic_term_that_little_o_denies, open_pool, close_pool)
 {
-    (void)state;
     struct functional e;
     open_functional(ROTID_HYBRID, &e);
     const struct curve curves[2] = {{NULL, ROTID_HYBRID}, {&e, ROTID_HYBRID}};
@@ -121,9 +120,8 @@ static void eq20_has_a_cubic_term_that_little_o_denies(void **state)
     }
 }
 
-static void eq21_and_eq22_change_in_first_order_beyond_what_little_o_allows(void **state)
+FIXTURE_TEST(eq21_and_eq22_change_in_first_order_beyond_what_little_o_allows, open_pool, close_pool)
 {
-    (void)state;
     const struct curve ideal = {NULL, ROTID_HYBRID};
     for (double eps = 0.04; eps > 0.009; eps /= 2) { /* 4 m eps + 6 m eps^2 and 4 m + 12 m eps */
         assert_close((slope_at(&ideal, eps) - 4 * MODES * eps) / (eps * eps), 6 * MODES, eps, 0);
@@ -131,9 +129,8 @@ static void eq21_and_eq22_change_in_first_order_beyond_what_little_o_allows(void
     }
 }
 
-static void eq23_and_eq24_contradict_eq20_in_their_intercepts_and_agree_in_their_difference(void **state)
+FIXTURE_TEST(eq23_and_eq24_contradict_eq20_in_their_intercepts_and_agree_in_their_difference, open_pool, close_pool)
 {
-    (void)state;
     struct functional functional[2];
     double slope[2], intercept[2];
     for (int kind = 0; kind < 2; kind++) {
@@ -173,9 +170,8 @@ static void eq23_and_eq24_contradict_eq20_in_their_intercepts_and_agree_in_their
 
 /* (25) prints value >= slope >= curvature >= 4. The ratios are 4 + 4s, 4 + 6s, 4 + 12s in first order of the frequency error s:
  * the other way round above the optimum, and all below 4 beneath it. */
-static void eq25_ratios_tend_to_four_in_the_reverse_order(void **state)
+FIXTURE_TEST(eq25_ratios_tend_to_four_in_the_reverse_order, open_pool, close_pool)
 {
-    (void)state;
     struct functional e, f;
     open_functional(ROTID_HYBRID, &e);
     open_functional(ROTID_HYBRID_F, &f);
@@ -202,9 +198,8 @@ static void eq25_ratios_tend_to_four_in_the_reverse_order(void **state)
 }
 
 /* x_p -> (1 + eps) x_p for every modulus of a free rotor multiplies every lambda by 1 + eps: omega rises by eps/2, not by eps. */
-static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
+FIXTURE_TEST(eq19b_frequencies_rise_by_at_most_half_of_epsilon, open_pool, close_pool)
 {
-    (void)state;
     static const char *const name[] = {"left.E", "core.E", "core.G", "right.E", "ties.E"};
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     struct parameter parameter[5];
@@ -254,9 +249,8 @@ static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
 
 /* K~ phi~ = lambda~ M~ phi~ makes phi^' K~ phi~/(phi^' M~ phi~) = lambda~ for every phi^: no shape enters (14). The likelihood
  * sees them. */
-static void hybrid_quotient_is_the_eigenvalue_whatever_the_measured_shape(void **state)
+FIXTURE_TEST(hybrid_quotient_is_the_eigenvalue_whatever_the_measured_shape, open_pool, close_pool)
 {
-    (void)state;
     static double noisy[MODES * SENSORS], std[MODES * SENSORS];
     double worst = 0, x[2] = {0.75e11, 0.2e11}, r[MODES * (1 + SENSORS)], frequency_std[MODES], clean = 0, disturbed = 0;
     int same = 0;
@@ -293,9 +287,8 @@ static void hybrid_quotient_is_the_eigenvalue_whatever_the_measured_shape(void *
 }
 
 /* E_k is scaled by the measured frequency, so is its derivative; scaled by the predicted one it is off by (omega^/omega~)^2. */
-static void eq43_jacobian_is_scaled_by_the_measured_frequency(void **state)
+FIXTURE_TEST(eq43_jacobian_is_scaled_by_the_measured_frequency, open_pool, close_pool)
 {
-    (void)state;
     struct functional f;
     const double h = 1e-3, step[4] = {h, -h, 2 * h, -2 * h}, weight[4] = {8, -8, -1, 1};
     double jacobian[2 * MODES], printed[2 * MODES], difference[2 * MODES] = {0}, r[MODES], noisy[MODES * SENSORS];
@@ -325,20 +318,4 @@ static void eq43_jacobian_is_scaled_by_the_measured_frequency(void **state)
         }
     print_message("(43) printed is off by %.1f %% to %.1f %%\n", 100 * least, 100 * most);
     assert_true(most > 0.1);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(eq19b_frequencies_rise_by_at_most_half_of_epsilon),
-        TEST(eq20_has_a_cubic_term_that_little_o_denies),
-        TEST(eq21_and_eq22_change_in_first_order_beyond_what_little_o_allows),
-        TEST(eq23_and_eq24_contradict_eq20_in_their_intercepts_and_agree_in_their_difference),
-        TEST(eq25_ratios_tend_to_four_in_the_reverse_order),
-        TEST(hybrid_quotient_is_the_eigenvalue_whatever_the_measured_shape),
-        TEST(eq43_jacobian_is_scaled_by_the_measured_frequency),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

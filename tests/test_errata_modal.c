@@ -114,9 +114,8 @@ static void open_mode(const struct dense *d, int mode, struct mode *e)
 
 /* The text gains c_j by premultiplying (34) with phi_k'. That row of A_k is zero and so is phi_k' P_k: nothing is left to find
  * c_j from. With phi_j' it works. */
-static void eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k(void **state)
+POOL_TEST(eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k)
 {
-    (void)state;
     double worst = 0, least = INFINITY;
     for (uint64_t seed = 1; seed <= 4; seed++)
         for (int mode = 0; mode < N; mode++) {
@@ -146,9 +145,8 @@ static void eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k(void **sta
 /* c_k needs the number phi_k' M V_k. Without the transpose the product of two columns only exists component by component;
  * dropped, the normalisation (35) is lost. Seen with Nelson's V, which has a zero component; that of (37) is M-orthogonal to
  * phi_k already. */
-static void eq38_needs_the_transpose_that_is_not_printed(void **state)
+POOL_TEST(eq38_needs_the_transpose_that_is_not_printed)
 {
-    (void)state;
     double worst = 0, off_printed = 0, off_dropped = 0;
     struct nelson_dense nelson;
     assert_status(nelson_dense_new(&test_pool, N, &nelson), ROTID_OK);
@@ -280,9 +278,8 @@ static double largest(size_t count, const double *a)
     return most;
 }
 
-static void eq39_has_a_plus_between_its_terms(void **state)
+POOL_TEST(eq39_has_a_plus_between_its_terms)
 {
-    (void)state;
     for (int parameter = 0; parameter < 2; parameter++) {
         struct condensed c;
         open_condensed(parameter, &c);
@@ -304,9 +301,8 @@ static void eq39_has_a_plus_between_its_terms(void **state)
     }
 }
 
-static void eq40_second_term_is_zero(void **state)
+POOL_TEST(eq40_second_term_is_zero)
 {
-    (void)state;
     for (int parameter = 0; parameter < 2; parameter++) {
         struct condensed c;
         open_condensed(parameter, &c);
@@ -321,9 +317,8 @@ static void eq40_second_term_is_zero(void **state)
     }
 }
 
-static void eq41_is_symmetric_in_its_second_term_where_printed_is_not(void **state)
+POOL_TEST(eq41_is_symmetric_in_its_second_term_where_printed_is_not)
 {
-    (void)state;
     struct random_stream stream = {41};
     for (int parameter = 0; parameter < 2; parameter++) {
         struct condensed c;
@@ -357,18 +352,4 @@ static void eq41_is_symmetric_in_its_second_term_where_printed_is_not(void **sta
         assert_true(fabs(product[1] / product[0] - 1) > 0.01);
         assert_close(same[1], same[0], 1e-9, 0); /* why it goes unnoticed in (36) */
     }
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k),
-        TEST(eq38_needs_the_transpose_that_is_not_printed),
-        TEST(eq39_has_a_plus_between_its_terms),
-        TEST(eq40_second_term_is_zero),
-        TEST(eq41_is_symmetric_in_its_second_term_where_printed_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "paper_rotor.h"
 #include "run/run.h"
+#include "support.h"
 
 static const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
 
@@ -51,9 +52,8 @@ static void converge(const struct rotor *rotor, int levels, double error[][EXACT
 }
 
 /* 64, 128, 256 elements. Shear carries the error: an element has one shear angle, so the order is 2. */
-static void thick_bar_converges_with_order_two(void **state)
+UNIT_TEST(thick_bar_converges_with_order_two)
 {
-    (void)state;
     struct rotor rotor = uniform(0.3, 64);
     double error[3][EXACT_MODES], order[2][EXACT_MODES];
     assert_true(element_phi(4) > element_phi(1) && element_phi(1) > 500);
@@ -66,9 +66,8 @@ static void thick_bar_converges_with_order_two(void **state)
 
 /* 16, 32, 64 elements. Bending carries the error, and the cubic deflection has order 4. With 8 elements the sixth mode has less
  * than three a wave; from 256 on the error nears rounding, 1e-9 of the frequency and growing. */
-static void slender_bar_converges_with_order_four(void **state)
+UNIT_TEST(slender_bar_converges_with_order_four)
 {
-    (void)state;
     struct rotor rotor = uniform(0.001, 16);
     double error[3][EXACT_MODES], order[2][EXACT_MODES];
     assert_true(element_phi(4) < 0.01);
@@ -80,9 +79,8 @@ static void slender_bar_converges_with_order_four(void **state)
 }
 
 /* Rounding of K leaves residuals of 1e-7 with 640 elements; frequencies must come through it. */
-static void fine_mesh_of_a_slender_bar_is_limited_by_rounding_alone(void **state)
+UNIT_TEST(fine_mesh_of_a_slender_bar_is_limited_by_rounding_alone)
 {
-    (void)state;
     struct rotor rotor = uniform(0.005, 640);
     struct exact exact;
     double truth[EXACT_MODES], hz[EXACT_MODES];
@@ -93,9 +91,8 @@ static void fine_mesh_of_a_slender_bar_is_limited_by_rounding_alone(void **state
 }
 
 /* A bar between the two on the way from phi = 0.014 with 8 elements to phi = 14 with 256. */
-static void order_falls_from_four_to_two_as_phi_passes_one(void **state)
+UNIT_TEST(order_falls_from_four_to_two_as_phi_passes_one)
 {
-    (void)state;
     struct rotor rotor = uniform(0.01, 8);
     double error[6][EXACT_MODES], order[5][EXACT_MODES];
     assert_true(element_phi(1) < 0.02 && element_phi(32) > 10);
@@ -128,9 +125,8 @@ static struct rotor *identified_rotor(void)
 }
 
 /* Expected: transfer matrices by SciPy's matrix exponential, a third implementation. */
-static void oracle_agrees_with_the_matrix_exponential(void **state)
+UNIT_TEST(oracle_agrees_with_the_matrix_exponential)
 {
-    (void)state;
     static const double expected[] = {416.2978321479,  794.9331931309,  1187.7662703982,
                                       1771.3895878451, 2255.2820616733, 2859.1468944284};
     struct exact exact;
@@ -140,9 +136,8 @@ static void oracle_agrees_with_the_matrix_exponential(void **state)
     assert_hz(EXACT_MODES, hz, expected, 1e-9);
 }
 
-static void paper_rotor_keeps_its_mesh_error(void **state)
+UNIT_TEST(paper_rotor_keeps_its_mesh_error)
 {
-    (void)state;
     for (int v = 0; v < 4; v++)
         for (int i = 0; i < 2; i++) { /* its own 175 elements; 32 in every segment, which leave longer ones in the core */
             struct rotor *rotor = variant(v, i ? 32 : 0);
@@ -158,9 +153,8 @@ static void paper_rotor_keeps_its_mesh_error(void **state)
         }
 }
 
-static void paper_rotor_converges_with_order_two(void **state)
+UNIT_TEST(paper_rotor_converges_with_order_two)
 {
-    (void)state;
     for (int v = 0; v < 4; v++) {
         double error[3][EXACT_MODES], order[2][EXACT_MODES];
         converge(variant(v, 0), 3, error, order);
@@ -172,9 +166,8 @@ static void paper_rotor_converges_with_order_two(void **state)
 }
 
 /* The rods press on the core with 1.8 MN: 1e-4 to 1.5e-3 of the frequencies, more than the mesh error in the first modes. */
-static void compression_by_the_rods_lowers_frequencies_as_it_should(void **state)
+UNIT_TEST(compression_by_the_rods_lowers_frequencies_as_it_should)
 {
-    (void)state;
     for (int v = 0; v < 4; v += 2) {
         double without[EXACT_MODES], with[EXACT_MODES], truth_without[EXACT_MODES], truth_with[EXACT_MODES];
         struct exact exact;
@@ -192,9 +185,8 @@ static void compression_by_the_rods_lowers_frequencies_as_it_should(void **state
     }
 }
 
-static void stated_mesh_error_is_the_true_one(void **state)
+UNIT_TEST(stated_mesh_error_is_the_true_one)
 {
-    (void)state;
     for (int v = -1; v < 4; v++) {
         const struct rotor *rotor = v < 0 ? identified_rotor() : variant(v, 0);
         struct pool pool;
@@ -234,9 +226,8 @@ static void check_shape(const struct prediction *p, int pair, const struct exact
     assert_close(relative_difference(PAPER_SENSORS, rotation, exact_rotation), 0, 0, 1e-3);
 }
 
-static void paper_rotor_has_the_exact_shapes(void **state)
+UNIT_TEST(paper_rotor_has_the_exact_shapes)
 {
-    (void)state;
     for (int v = 0; v < 4; v++) {
         const struct rotor *rotor = variant(v, 0);
         struct pool pool;
@@ -376,9 +367,8 @@ static void random_rotor(struct random_stream *stream, int index, struct random_
     attach(stream, index, r);
 }
 
-static void random_rotors_converge_to_the_truth(void **state)
+UNIT_TEST(random_rotors_converge_to_the_truth)
 {
-    (void)state;
     struct random_stream stream = {20170521};
     int bundles[2] = {0, 0};
     for (int index = 0; index < RANDOM_ROTORS; index++) {
@@ -395,22 +385,4 @@ static void random_rotors_converge_to_the_truth(void **state)
         bundles[r.rod.model] += r.rotor.ntierod;
     }
     assert_true(bundles[BUNDLE_RODS] >= 5 && bundles[BUNDLE_TUBE] >= 5); /* a seed that draws no rods would show little */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thick_bar_converges_with_order_two),
-        cmocka_unit_test(slender_bar_converges_with_order_four),
-        cmocka_unit_test(fine_mesh_of_a_slender_bar_is_limited_by_rounding_alone),
-        cmocka_unit_test(order_falls_from_four_to_two_as_phi_passes_one),
-        cmocka_unit_test(oracle_agrees_with_the_matrix_exponential),
-        cmocka_unit_test(paper_rotor_keeps_its_mesh_error),
-        cmocka_unit_test(paper_rotor_converges_with_order_two),
-        cmocka_unit_test(compression_by_the_rods_lowers_frequencies_as_it_should),
-        cmocka_unit_test(stated_mesh_error_is_the_true_one),
-        cmocka_unit_test(paper_rotor_has_the_exact_shapes),
-        cmocka_unit_test(random_rotors_converge_to_the_truth),
-    };
-    return cmocka_run_group_tests_name("exact", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "support.h"
 
 /* Two Richardson meshes of the bench are within 6e-7 of the truth; every check demands an effect that is far above this. */
 #define TOLERANCE 1e-6
@@ -96,9 +97,8 @@ static void check(const struct bench *with, const struct bench *without, int ski
 
 /* ---- sections ---- */
 
-static void annular_sections(void **state)
+UNIT_TEST(annular_sections)
 {
-    (void)state;
     struct bench solid, hollow, limited;
     open_bench(&solid);
     open_bench(&hollow);
@@ -112,9 +112,8 @@ static void annular_sections(void **state)
     check(&limited, &hollow, 2, 0.05);
 }
 
-static void rectangular_sections(void **state)
+UNIT_TEST(rectangular_sections)
 {
-    (void)state;
     struct bench flat, upright;
     open_bench(&flat);
     flat.segment[2].rectangular = 1;
@@ -128,9 +127,8 @@ static void rectangular_sections(void **state)
     check(&upright, &flat, 2, 0.05);
 }
 
-static void perforated_sections(void **state)
+UNIT_TEST(perforated_sections)
 {
-    (void)state;
     struct bench full, holed, outside;
     open_bench(&full);
     open_bench(&holed);
@@ -146,9 +144,8 @@ static void perforated_sections(void **state)
 
 /* ---- points ---- */
 
-static void disks(void **state)
+UNIT_TEST(disks)
 {
-    (void)state;
     struct bench bare, masses, disks;
     open_bench(&bare);
     open_bench(&masses);
@@ -161,9 +158,8 @@ static void disks(void **state)
     check(&disks, &masses, 2, 0.05);
 }
 
-static void springs(void **state)
+UNIT_TEST(springs)
 {
-    (void)state;
     struct bench ends, inside, rotational;
     open_bench(&ends);
     add_spring(&ends, 0, 3e8, 0);
@@ -182,9 +178,8 @@ static void springs(void **state)
 
 /* ---- axial forces ---- */
 
-static void tension_and_compression(void **state)
+UNIT_TEST(tension_and_compression)
 {
-    (void)state;
     struct bench bare, tense, held, compressed;
     open_bench(&bare);
     open_bench(&tense);
@@ -203,9 +198,8 @@ static void tension_and_compression(void **state)
 
 /* ---- tie rods ---- */
 
-static void tie_rods_between_any_two_positions(void **state)
+UNIT_TEST(tie_rods_between_any_two_positions)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct bench bare, one, two, equilibrated;
         open_bench(&bare);
@@ -225,9 +219,8 @@ static void tie_rods_between_any_two_positions(void **state)
     }
 }
 
-static void tie_rods_of_different_material_and_tension(void **state)
+UNIT_TEST(tie_rods_of_different_material_and_tension)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct bench plain, titanium, slack;
         open_bench(&plain);
@@ -244,9 +237,8 @@ static void tie_rods_of_different_material_and_tension(void **state)
 }
 
 /* Compared with the single element, bundles of many have more modes: two of the slender rods' own in the band. */
-static void tie_rods_of_many_elements(void **state)
+UNIT_TEST(tie_rods_of_many_elements)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct bench b;
         double limit[EXACT_MODES], single[EXACT_MODES];
@@ -300,9 +292,8 @@ static void symmetric_branch_hz(const struct bench *b, double *hz)
     memcpy(hz, all + 2, EXACT_MODES * sizeof *hz);
 }
 
-static void bars_held_at_their_centre(void **state)
+UNIT_TEST(bars_held_at_their_centre)
 {
-    (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct bench b;
         double truth[EXACT_MODES], bare[EXACT_MODES], limit[EXACT_MODES];
@@ -337,9 +328,8 @@ static void bars_held_at_their_centre(void **state)
 /* The springs of (44) move elastic modes by 3e-6 only: the two modes of the suspension show them. These come from the coarse
  * mesh, which bends nothing in them; rounding of entries of 1e13 N/m beside springs of 1e3 N/m leaves 1e-7 there, and several
  * times as much on a mesh twice as fine. */
-static void sling(void **state)
+UNIT_TEST(sling)
 {
-    (void)state;
     struct bench b;
     struct exact exact;
     double truth[ALL_MODES], other[ALL_MODES], hz[ALL_MODES];
@@ -360,9 +350,8 @@ static void sling(void **state)
 }
 
 /* input/solid_rotor.inp with its 193 elements */
-static void solid_rotor(void **state)
+UNIT_TEST(solid_rotor)
 {
-    (void)state;
     static const struct {
         int group, elements;
         double length, diameter;
@@ -384,23 +373,4 @@ static void solid_rotor(void **state)
     assert_true(worst_ratio(EXACT_MODES, hz, truth) > 1e-4); /* the mesh error is there: limit and mesh are not mixed up */
     limit_hz(&b.rotor, 1, 2, EXACT_MODES, hz);
     assert_hz(EXACT_MODES, hz, truth, TOLERANCE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(annular_sections),
-        cmocka_unit_test(rectangular_sections),
-        cmocka_unit_test(perforated_sections),
-        cmocka_unit_test(disks),
-        cmocka_unit_test(springs),
-        cmocka_unit_test(tension_and_compression),
-        cmocka_unit_test(tie_rods_between_any_two_positions),
-        cmocka_unit_test(tie_rods_of_different_material_and_tension),
-        cmocka_unit_test(tie_rods_of_many_elements),
-        cmocka_unit_test(bars_held_at_their_centre),
-        cmocka_unit_test(sling),
-        cmocka_unit_test(solid_rotor),
-    };
-    return cmocka_run_group_tests_name("exact_ties", tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #include "export/export.h"
 #include "exported.h"
 #include "linalg/linalg.h"
+#include "support.h"
 
 /* A writer's output as a stream to read. */
 static FILE *written(int (*write)(FILE *, const struct export_model *), const struct export_model *model)
@@ -71,9 +72,8 @@ static void assert_same(const struct dense_file *file, const double *a, double r
 
 static const char *const decks[] = {FREE, MIXED, BARS, STEEL CORE SHAFT};
 
-static void test_matrices_come_back_to_the_last_bit(void **state)
+POOL_TEST(test_matrices_come_back_to_the_last_bit)
 {
-    (void)state;
     for (size_t d = 0; d < sizeof decks / sizeof *decks; d++) {
         struct export_model model = model_of(decks[d]);
         const double *k = dense_of(&model.k), *m = dense_of(&model.m);
@@ -107,9 +107,8 @@ static void test_matrices_come_back_to_the_last_bit(void **state)
 }
 
 /* The rows that the table of nodes tells, moved as a rigid body: U = 1, V = -1, and v = 1 of rods. */
-static void test_nodes_of_a_solid_tell_its_rows(void **state)
+POOL_TEST(test_nodes_of_a_solid_tell_its_rows)
 {
-    (void)state;
     struct export_model model = model_of(FREE TIES ", 4\n*FIT, MODEL=SOLID\n");
     double *u = calloc((size_t)model.k.n, sizeof *u), *ku = calloc((size_t)model.k.n, sizeof *ku);
     int sensors = 0, members = 0;
@@ -148,9 +147,8 @@ static void add_cylinder(struct body *body, double rho, double from, double to, 
 }
 
 /* A free rotor moved and turned as a rigid body: no stiffness, its own mass. Wrong signs of the rotation would show in both. */
-static void test_rigid_bodies_and_signs(void **state)
+POOL_TEST(test_rigid_bodies_and_signs)
 {
-    (void)state;
     struct export_model model = model_of(FREE);
     struct dmig_file full = bulk(dmig_full, &model), reduced = bulk(dmig_condensed, &model);
     struct body body = {0, 0, 0};
@@ -184,9 +182,8 @@ static void test_rigid_bodies_and_signs(void **state)
 }
 
 /* One element by (A.1), written out here. */
-static void test_one_element_by_hand(void **state)
+POOL_TEST(test_one_element_by_hand)
 {
-    (void)state;
     struct export_model model = model_of(STEEL "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.1, 0, 1\n*SPRING\n0, 1000\n");
     struct dense_file k = market(matrix_market_stiffness, &model);
     struct dmig_file full = bulk(dmig_full, &model);
@@ -210,9 +207,8 @@ static void test_one_element_by_hand(void **state)
     free(full.text);
 }
 
-static void test_numbers_of_sixteen_columns(void **state)
+UNIT_TEST(test_numbers_of_sixteen_columns)
 {
-    (void)state;
     static const double some[] = {1,       -1,      1.0 / 3,  -1.0 / 3, 2.0 / 3e9, -5.7410459570050156e10, 1e100,
                                   -1e-100, 9999999, 0.999999, 1.5e-300, -1.5e+300, 9.9999999999999995,     123456789012345678.0};
     for (size_t i = 0; i < sizeof some / sizeof *some; i++) {
@@ -226,9 +222,8 @@ static void test_numbers_of_sixteen_columns(void **state)
     }
 }
 
-static void test_remarks_are_plain_and_broken(void **state)
+UNIT_TEST(test_remarks_are_plain_and_broken)
 {
-    (void)state;
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
@@ -241,19 +236,4 @@ static void test_remarks_are_plain_and_broken(void **state)
     assert_string_equal(text, "$ one two three four\n$   five six seven\n$ k??se?SOL 101\n$\n$ abcdefghijklmnopqr\n"
                               "$   stuvwxyzabcdefgh\n$   ijklmnopqrstuvwx\n$   yz\n");
     free(text);
-}
-
-#define WITH_POOL(test) cmocka_unit_test_setup_teardown(test, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(test_matrices_come_back_to_the_last_bit),
-        WITH_POOL(test_nodes_of_a_solid_tell_its_rows),
-        WITH_POOL(test_rigid_bodies_and_signs),
-        WITH_POOL(test_one_element_by_hand),
-        cmocka_unit_test(test_numbers_of_sixteen_columns),
-        cmocka_unit_test(test_remarks_are_plain_and_broken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

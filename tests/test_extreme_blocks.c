@@ -9,6 +9,7 @@
 #include "base/base.h"
 #include "dense.h"
 #include "host_beam.h"
+#include "support.h"
 
 enum fault { NONE, NOT_A_NUMBER, INFINITE, HUGE_ONE, FAILS, FAULTS };
 
@@ -143,9 +144,8 @@ static void check(struct problem *p)
 
 static const double sizes[] = {1e-300, 1e-150, 1, 1e150, 1e300};
 
-static void fits_of_any_size_end_where_they_say(void **state)
+POOL_TEST(fits_of_any_size_end_where_they_say)
 {
-    (void)state;
     static const int shape[][2] = {{1, 1}, {1, 5}, {3, 7}, {7, 3}, {40, 10}};
     for (size_t s = 0; s < sizeof shape / sizeof *shape; s++)
         for (int rank = 0; rank < RANKS; rank++)
@@ -163,9 +163,8 @@ static void fits_of_any_size_end_where_they_say(void **state)
             }
 }
 
-static void unknowns_of_any_unit_give_the_same_fit(void **state)
+POOL_TEST(unknowns_of_any_unit_give_the_same_fit)
 {
-    (void)state;
     static const double units[] = {1e-200, 1e-100, 1e100, 1e200};
     for (size_t u = 0; u < sizeof units / sizeof *units; u++) {
         struct problem p;
@@ -210,9 +209,8 @@ static void condense(int n, int kd, int nmaster, int kind, double stiff, double 
     free(master);
 }
 
-static void condensations_of_any_size_are_springs_in_series(void **state)
+POOL_TEST(condensations_of_any_size_are_springs_in_series)
 {
-    (void)state;
     static const int size[][3] = {{1, 0, 1}, {5, 1, 1}, {5, 4, 5}, {50, 12, 7}, {50, 49, 3}, {120, 13, 40}};
     for (size_t s = 0; s < sizeof size / sizeof *size; s++)
         for (size_t a = 0; a < sizeof sizes / sizeof *sizes; a++)
@@ -221,9 +219,8 @@ static void condensations_of_any_size_are_springs_in_series(void **state)
                     condense(size[s][0], size[s][1], size[s][2], kind, sizes[a], sizes[b]);
 }
 
-static void half_bands_beyond_the_matrix_are_refused(void **state)
+POOL_TEST(half_bands_beyond_the_matrix_are_refused)
 {
-    (void)state;
     static const int wrong[][2] = {{3, INT_MAX}, {3, 1 << 30}, {3, -1}, {INT_MAX, INT_MAX}, {-1, 0}, {0, 0}};
     double *one = exact(1), kc[9], mc[9];
     const int master[] = {0, 1};
@@ -270,7 +267,7 @@ static int hostile_derivatives(void *user, const double *x, int p, rotid_matrix 
     return failed;
 }
 
-static void models_that_fail_anyhow_end_the_fit(void **state)
+POOL_TEST(models_that_fail_anyhow_end_the_fit)
 {
     static const int reduction[] = {ROTID_REDUCTION_NONE, ROTID_GUYAN, ROTID_IRS};
     static const double scale[][2] = {{1, 1}, {1e-200, 1e-200}, {1e200, 1e200}, {1e-300, 1}, {1, 1e300}, {1e290, 1e-290}};
@@ -308,16 +305,4 @@ static void models_that_fail_anyhow_end_the_fit(void **state)
                         pool_close(&pool);
                     }
     (void)state;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(fits_of_any_size_end_where_they_say),
-        WITH_POOL(unknowns_of_any_unit_give_the_same_fit),
-        WITH_POOL(condensations_of_any_size_are_springs_in_series),
-        WITH_POOL(half_bands_beyond_the_matrix_are_refused),
-        WITH_POOL(models_that_fail_anyhow_end_the_fit),
-    };
-    return cmocka_run_group_tests_name("extreme_blocks", tests, NULL, NULL);
 }

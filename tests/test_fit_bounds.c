@@ -5,9 +5,10 @@
 
 #include "base/base.h"
 #include "paper_fit.h"
+#include "support.h"
 
 /* With one modulus held at a bound the other is found by golden section on an objective of our own. */
-static void test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_otherwise(void **state)
+UNIT_TEST(test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_otherwise)
 {
     static const struct {
         int p;
@@ -17,7 +18,6 @@ static void test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_ot
                  {0, 1.2e11, 2.3e11, 2e11},
                  {1, 0.35e11, 0.898e11, 0.5e11},
                  {1, 1e6, 0.25e11, 0.1e11}};
-    (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         int p = cases[c].p, other = 1 - p;
         struct paper_fit fit;
@@ -63,10 +63,9 @@ static void check_minimum(struct paper_fit *fit, const char *text)
 
 /* A first step that saturates the sigmoid leaves the Jacobian without that column: the parameter would be caught at a bound
  * towards which nothing presses it. */
-static void test_starts_all_over_the_interval_reach_the_one_minimum(void **state)
+UNIT_TEST(test_starts_all_over_the_interval_reach_the_one_minimum)
 {
     static const double part[] = {0.01, 0.1, 0.5, 0.9, 0.99};
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     for (int i = 0; i < 5; i++)
@@ -79,9 +78,8 @@ static void test_starts_all_over_the_interval_reach_the_one_minimum(void **state
 }
 
 /* Between a thousandth of the interval and the same from the other end, evenly in y. */
-static void test_random_starts_near_and_far_from_the_bounds_reach_the_minimum(void **state)
+UNIT_TEST(test_random_starts_near_and_far_from_the_bounds_reach_the_minimum)
 {
-    (void)state;
     struct random_stream stream = {7};
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -95,9 +93,8 @@ static void test_random_starts_near_and_far_from_the_bounds_reach_the_minimum(vo
 }
 
 /* G is where it has to be for an E at its upper bound; E starts next to that bound and one step cannot bring it away. */
-static void test_parameter_that_a_bound_only_holds_back_is_not_converged(void **state)
+UNIT_TEST(test_parameter_that_a_bound_only_holds_back_is_not_converged)
 {
-    (void)state;
     struct paper_fit fit;
     double gradient[2];
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -113,11 +110,10 @@ static void test_parameter_that_a_bound_only_holds_back_is_not_converged(void **
 }
 
 /* Whatever the start and the limit: `converged` means that no move within the bounds lowers the objective. */
-static void test_converged_is_never_said_where_the_objective_falls_towards_the_inside(void **state)
+UNIT_TEST(test_converged_is_never_said_where_the_objective_falls_towards_the_inside)
 {
     static const double part[] = {1e-9, 1e-6, 1e-3, 0.3, 1 - 1e-6};
     int said = 0, runs = 0;
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     for (int i = 0; i < 5; i++)
@@ -149,14 +145,13 @@ static void refused(struct paper_fit *fit, const char *expected)
     assert_null(result);
 }
 
-static void test_bounds_and_starts_that_make_no_sense_are_refused(void **state)
+UNIT_TEST(test_bounds_and_starts_that_make_no_sense_are_refused)
 {
     /* lower, upper, start */
     static const double bad[][3] = {{1e6, 2e11, 3e11},  {1e6, 2e11, 1e5},        {1e6, 2e11, 1e6},      {1e6, 2e11, 2e11},
                                     {2e11, 1e6, 1e11},  {1e11, 1e11, 1e11},      {NAN, 2e11, 1e11},     {1e6, NAN, 1e11},
                                     {1e6, 2e11, NAN},   {-INFINITY, 2e11, 1e11}, {1e6, INFINITY, 1e11}, {-1e11, 1e11, 0},
                                     {-1e308, 1e308, 1}, {0, 10, 5e-324}};
-    (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         for (int p = 0; p < 2; p++) {
             struct paper_fit fit;
@@ -167,9 +162,8 @@ static void test_bounds_and_starts_that_make_no_sense_are_refused(void **state)
         }
 }
 
-static void test_measured_data_that_make_no_sense_are_refused(void **state)
+UNIT_TEST(test_measured_data_that_make_no_sense_are_refused)
 {
-    (void)state;
     struct paper_fit fit;
     static const double bad_hz[] = {0, -1, NAN, INFINITY};
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -210,9 +204,8 @@ static void test_measured_data_that_make_no_sense_are_refused(void **state)
     paper_fit_close(&fit);
 }
 
-static void test_options_and_models_that_make_no_sense_are_refused(void **state)
+UNIT_TEST(test_options_and_models_that_make_no_sense_are_refused)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     const rotid_model model = fit.client.equations;
@@ -261,9 +254,8 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
 }
 
 /* a host may forget one: an error is better than a crash inside its solver */
-static void test_missing_arrays_are_refused(void **state)
+UNIT_TEST(test_missing_arrays_are_refused)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     const rotid_model model = fit.client.equations;
@@ -294,10 +286,9 @@ static int broken(void *user, const double *x, rotid_matrix *stiffness, rotid_ma
     return 0;
 }
 
-static void test_failures_of_the_model_come_back_as_themselves(void **state)
+UNIT_TEST(test_failures_of_the_model_come_back_as_themselves)
 {
     static const char *const expected[] = {"ROTID_ERROR_CALLBACK", "ROTID_ERROR_FINITE", "ROTID_ERROR_MASS"};
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         struct paper_fit fit;
         paper_fit_open(&fit, BUNDLE_TUBE);
@@ -306,21 +297,4 @@ static void test_failures_of_the_model_come_back_as_themselves(void **state)
         refused(&fit, expected[kind]);
         paper_fit_close(&fit);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_otherwise),
-        cmocka_unit_test(test_starts_all_over_the_interval_reach_the_one_minimum),
-        cmocka_unit_test(test_random_starts_near_and_far_from_the_bounds_reach_the_minimum),
-        cmocka_unit_test(test_parameter_that_a_bound_only_holds_back_is_not_converged),
-        cmocka_unit_test(test_converged_is_never_said_where_the_objective_falls_towards_the_inside),
-        cmocka_unit_test(test_bounds_and_starts_that_make_no_sense_are_refused),
-        cmocka_unit_test(test_measured_data_that_make_no_sense_are_refused),
-        cmocka_unit_test(test_options_and_models_that_make_no_sense_are_refused),
-        cmocka_unit_test(test_missing_arrays_are_refused),
-        cmocka_unit_test(test_failures_of_the_model_come_back_as_themselves),
-    };
-    return cmocka_run_group_tests_name("fit_bounds", tests, NULL, NULL);
 }

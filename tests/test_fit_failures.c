@@ -6,6 +6,7 @@
 
 #include "dense.h"
 #include "host_beam.h"
+#include "support.h"
 
 enum {
     MATRICES,
@@ -84,7 +85,7 @@ static void assert_belongs_together(const rotid_fit_result *result, const struct
 
 /* At the start a failure ends the call; later the fit ends with the best point it has reached, which it would have passed through
  * without the failure as well, and if that came once only, at the same minimum. */
-static void the_best_point_comes_back_whenever_the_host_fails(void **state)
+POOL_TEST(the_best_point_comes_back_whenever_the_host_fails)
 {
     for (int kind = 0; kind < KINDS; kind++) {
         struct failing f;
@@ -131,7 +132,7 @@ static int idle_derivatives(void *user, const double *x, int p, rotid_matrix *dk
     return 0;
 }
 
-static void a_parameter_that_does_nothing_holds_nothing_up(void **state)
+POOL_TEST(a_parameter_that_does_nothing_holds_nothing_up)
 {
     struct beam_host host;
     struct beam_data data;
@@ -156,7 +157,7 @@ static void a_parameter_that_does_nothing_holds_nothing_up(void **state)
 }
 
 /* The history is as long as it gets, not as long as it might: INT_MAX says that there is no limit. */
-static void a_history_grows_with_the_iterations(void **state)
+POOL_TEST(a_history_grows_with_the_iterations)
 {
     struct beam_host host;
     struct beam_data data;
@@ -179,7 +180,7 @@ static void a_history_grows_with_the_iterations(void **state)
 }
 
 /* The minimum lies beyond the edge of the model: the fit ends near the edge, and says that it is no minimum. */
-static void a_fit_ends_at_the_edge_of_the_model(void **state)
+POOL_TEST(a_fit_ends_at_the_edge_of_the_model)
 {
     for (int kind = MATRICES; kind < KINDS; kind += DIFFERENCES) {
         struct failing f;
@@ -194,15 +195,4 @@ static void a_fit_ends_at_the_edge_of_the_model(void **state)
         assert_belongs_together(result, &data);
         rotid_fit_free(result);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(the_best_point_comes_back_whenever_the_host_fails),
-        WITH_POOL(a_parameter_that_does_nothing_holds_nothing_up),
-        WITH_POOL(a_history_grows_with_the_iterations),
-        WITH_POOL(a_fit_ends_at_the_edge_of_the_model),
-    };
-    return cmocka_run_group_tests_name("fit_failures", tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "paper_fit.h"
+#include "support.h"
 
 static const double truth[2] = {1.157e11, 0.316e11};
 
@@ -41,9 +42,8 @@ static int cancel(void *context)
     return ++*(int *)context > 0;
 }
 
-static void test_without_parameters_the_model_is_compared(void **state)
+UNIT_TEST(test_without_parameters_the_model_is_compared)
 {
-    (void)state;
     struct paper_fit fit, with;
     open_noisy(&fit, 0, ROTID_LIKELIHOOD);
     open_noisy(&with, 2, ROTID_LIKELIHOOD);
@@ -89,9 +89,8 @@ static void test_without_parameters_the_model_is_compared(void **state)
 }
 
 /* Its seconds are those since the iteration began: they rise, and the last are not more than the whole took. */
-static void test_history_tells_the_time(void **state)
+UNIT_TEST(test_history_tells_the_time)
 {
-    (void)state;
     struct paper_fit fit;
     open_noisy(&fit, 2, ROTID_LIKELIHOOD);
     rotid_fit_result *result = paper_run(&fit);
@@ -104,9 +103,8 @@ static void test_history_tells_the_time(void **state)
 }
 
 /* A channel that recorded nothing leaves zeros: of a mode with nothing else no scale is fitted. */
-static void test_a_shape_of_zeros_is_none(void **state)
+UNIT_TEST(test_a_shape_of_zeros_is_none)
 {
-    (void)state;
     rotid_fit_result *result[2];
     struct paper_fit fit[2];
     for (int zero = 0; zero < 2; zero++) {
@@ -125,9 +123,8 @@ static void test_a_shape_of_zeros_is_none(void **state)
 }
 
 /* Of every functional, condensed or not, and where noise is not known. */
-static void test_every_functional_compares_without_parameters(void **state)
+UNIT_TEST(test_every_functional_compares_without_parameters)
 {
-    (void)state;
     for (int functional = ROTID_LIKELIHOOD; functional <= ROTID_HYBRID_F; functional++)
         for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
             struct paper_fit fit;
@@ -184,9 +181,8 @@ static void check_residuals(int functional, int max_iterations)
     paper_fit_close(&there);
 }
 
-static void test_residuals_and_jacobian_are_those_at_the_solution(void **state)
+UNIT_TEST(test_residuals_and_jacobian_are_those_at_the_solution)
 {
-    (void)state;
     for (int functional = ROTID_LIKELIHOOD; functional <= ROTID_HYBRID_F; functional++) {
         check_residuals(functional, 100);
         check_residuals(functional, 1);
@@ -194,9 +190,8 @@ static void test_residuals_and_jacobian_are_those_at_the_solution(void **state)
 }
 
 /* A looser tolerance saves iterations and moves the result by as much as it says. */
-static void test_loose_tolerances_stop_earlier(void **state)
+UNIT_TEST(test_loose_tolerances_stop_earlier)
 {
-    (void)state;
     struct paper_fit fit;
     open_noisy(&fit, 2, ROTID_LIKELIHOOD);
     rotid_fit_result *tight = paper_run(&fit);
@@ -209,17 +204,4 @@ static void test_loose_tolerances_stop_earlier(void **state)
     rotid_fit_free(tight);
     rotid_fit_free(loose);
     paper_fit_close(&fit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_without_parameters_the_model_is_compared),
-        cmocka_unit_test(test_history_tells_the_time),
-        cmocka_unit_test(test_a_shape_of_zeros_is_none),
-        cmocka_unit_test(test_every_functional_compares_without_parameters),
-        cmocka_unit_test(test_residuals_and_jacobian_are_those_at_the_solution),
-        cmocka_unit_test(test_loose_tolerances_stop_earlier),
-    };
-    return cmocka_run_group_tests_name("fit_result", tests, NULL, NULL);
 }

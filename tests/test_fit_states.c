@@ -7,6 +7,7 @@
 
 #include "dense.h"
 #include "modal/modal.h"
+#include "support.h"
 
 static const struct {
     int functional, reduction;
@@ -58,7 +59,7 @@ static rotid_fit_result *fit_one(const struct pair *pair, int s, const rotid_mea
 }
 
 /* The modes 1, 3, 5 in one state and 2, 4 in the other are the five modes in one. */
-static void states_of_one_model_are_one_state_with_all_data(void **state)
+POOL_TEST(states_of_one_model_are_one_state_with_all_data)
 {
     static int odd_out[BEAM_MODES] = {1, 0, 1, 0, 1}, even_out[BEAM_MODES] = {0, 1, 0, 1, 0};
     for (int w = 0; w < WAYS; w++) {
@@ -93,7 +94,7 @@ static void states_of_one_model_are_one_state_with_all_data(void **state)
     }
 }
 
-static void one_state_is_rotid_fit(void **state)
+POOL_TEST(one_state_is_rotid_fit)
 {
     for (int w = 0; w < WAYS; w++) {
         struct pair pair;
@@ -117,7 +118,7 @@ static void one_state_is_rotid_fit(void **state)
 
 /* One frequency of the tied beam leaves three unknowns open (that of mode 2, where the ends part), and the plain beam has no tie:
  * together they leave none open. NLopt finds the same point. */
-static void two_states_determine_what_neither_does(void **state)
+POOL_TEST(two_states_determine_what_neither_does)
 {
     struct pair pair;
     pair_open(*state, 0, 1, &pair);
@@ -146,7 +147,7 @@ static void two_states_determine_what_neither_does(void **state)
 }
 
 /* The unknowns in another order, and each state with sensors of its own: the map decides. */
-static void the_map_decides_which_unknown_a_parameter_is(void **state)
+POOL_TEST(the_map_decides_which_unknown_a_parameter_is)
 {
     static const int swapped[] = {2, 0, 1};
     const rotid_parameter turned[] = {beam_parameters[1], beam_parameters[2], beam_parameters[0]};
@@ -170,7 +171,7 @@ static void the_map_decides_which_unknown_a_parameter_is(void **state)
 }
 
 /* A state that is held out is predicted by what the other found, and has no part in that. */
-static void a_held_out_state_is_predicted(void **state)
+POOL_TEST(a_held_out_state_is_predicted)
 {
     struct pair pair;
     pair_open(*state, 0, 1, &pair);
@@ -199,7 +200,7 @@ static int stacked(void *user, int m, int n, const double *x, double *r, double 
 }
 
 /* Against differences of its residual, with a parameter for each half of one beam and one for both halves of the other. */
-static void the_jacobian_is_that_of_the_residual(void **state)
+POOL_TEST(the_jacobian_is_that_of_the_residual)
 {
     static const int halves[] = {0, 1}, both_halves[] = {1, 1, 2};
     for (int w = 0; w < WAYS; w++) {
@@ -249,7 +250,7 @@ static void count_calls(struct pair *pair, struct counted *counted)
 }
 
 /* An evaluation asks each model once. */
-static void an_evaluation_costs_the_sum_of_the_states(void **state)
+POOL_TEST(an_evaluation_costs_the_sum_of_the_states)
 {
     struct pair pair;
     struct counted counted[2];
@@ -273,7 +274,7 @@ static int ends(const struct pair *pair, int nstate, int nparam, const rotid_par
     return status;
 }
 
-static void what_is_refused_is_named(void **state)
+POOL_TEST(what_is_refused_is_named)
 {
     static const int beyond[] = {0, 3, 1}, below[] = {0, -1}, twice[] = {0, 0, 1};
     struct pair pair;
@@ -311,7 +312,7 @@ static void what_is_refused_is_named(void **state)
     assert_string_equal(failure, "state[0]: state->size is 0, expected sizeof(rotid_state), here 32");
 }
 
-static void a_model_that_fails_is_named(void **state)
+POOL_TEST(a_model_that_fails_is_named)
 {
     struct pair pair;
     struct counted counted[2];
@@ -323,7 +324,7 @@ static void a_model_that_fails_is_named(void **state)
 }
 
 /* Hosts of a later version have more behind the last member: zeros are taken, anything else is refused. */
-static void states_of_a_later_version_are_taken(void **state)
+POOL_TEST(states_of_a_later_version_are_taken)
 {
     struct {
         rotid_state state;
@@ -345,7 +346,7 @@ static void states_of_a_later_version_are_taken(void **state)
     assert_non_null(strstr(failure, "state[1]: state->size is 40"));
 }
 
-static void every_failing_allocation_is_survived(void **state)
+POOL_TEST(every_failing_allocation_is_survived)
 {
     struct pair pair;
     pair_open(*state, 0, 1, &pair);
@@ -367,22 +368,4 @@ static void every_failing_allocation_is_survived(void **state)
             return;
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(states_of_one_model_are_one_state_with_all_data),
-        WITH_POOL(one_state_is_rotid_fit),
-        WITH_POOL(two_states_determine_what_neither_does),
-        WITH_POOL(the_map_decides_which_unknown_a_parameter_is),
-        WITH_POOL(a_held_out_state_is_predicted),
-        WITH_POOL(the_jacobian_is_that_of_the_residual),
-        WITH_POOL(an_evaluation_costs_the_sum_of_the_states),
-        WITH_POOL(what_is_refused_is_named),
-        WITH_POOL(a_model_that_fails_is_named),
-        WITH_POOL(states_of_a_later_version_are_taken),
-        WITH_POOL(every_failing_allocation_is_survived),
-    };
-    return cmocka_run_group_tests_name("fit_states", tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "paper_fit.h"
+#include "support.h"
 
 static const double truth[PAPER_MOST_PARAMETERS] = {1.157e11, 0.316e11, 7380.66, 150e3, 9790};
 
@@ -16,10 +17,9 @@ static void open_two(struct paper_fit *fit, int functional, int reduction, doubl
 }
 
 /* docs/method: condensed frequencies are up to 3.3 % high, and the moduli pay for it. */
-static void test_guyan_reduction_biases_the_moduli_and_the_full_model_does_not(void **state)
+UNIT_TEST(test_guyan_reduction_biases_the_moduli_and_the_full_model_does_not)
 {
     static const double percent[3][2] = {{0, 0}, {0.9366, -9.616}, {0, 0}}, allowed[3] = {1e-6, 0.05, 0.05};
-    (void)state;
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
         struct paper_fit fit;
         open_two(&fit, ROTID_HYBRID, reduction, 0, 0);
@@ -37,9 +37,8 @@ static void test_guyan_reduction_biases_the_moduli_and_the_full_model_does_not(v
 
 /* phi~ solves the condensed problem, so R* of (15) is its eigenvalue whatever phi^ is: 30 % noise on the shapes changes nothing,
  * by either derivative of the vectors. */
-static void test_hybrid_quotient_carries_no_shape_information(void **state)
+UNIT_TEST(test_hybrid_quotient_carries_no_shape_information)
 {
-    (void)state;
     struct random_stream stream = {1};
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++)
         for (int derivative = ROTID_NELSON; derivative <= ROTID_MODAL; derivative++) {
@@ -67,9 +66,8 @@ static void test_hybrid_quotient_carries_no_shape_information(void **state)
 }
 
 /* The scale and sign of a measured shape are free, and a sensor may be missing. */
-static void test_scale_sign_and_gaps_of_the_shapes_do_not_matter(void **state)
+UNIT_TEST(test_scale_sign_and_gaps_of_the_shapes_do_not_matter)
 {
-    (void)state;
     struct paper_fit fit;
     open_two(&fit, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, 1e-3, 0.015);
     rotid_fit_result *plain = paper_run(&fit);
@@ -121,9 +119,8 @@ static int has_direction(const rotid_fit_result *result, int p)
 
 /* Noise of 0.1 % and 1.5 % leaves the tension and the sling to chance: their values come out right without noise, and are said to
  * mean nothing. */
-static void test_five_parameters_are_found_and_the_undetermined_ones_named(void **state)
+UNIT_TEST(test_five_parameters_are_found_and_the_undetermined_ones_named)
 {
-    (void)state;
     struct paper_fit fit;
     open_five(&fit, ROTID_LIKELIHOOD, 1e-3, 0.015);
     rotid_fit_result *result = paper_run(&fit);
@@ -146,9 +143,8 @@ static void test_five_parameters_are_found_and_the_undetermined_ones_named(void 
 }
 
 /* Six exact frequencies determine five parameters. */
-static void test_five_parameters_are_found_from_exact_frequencies(void **state)
+UNIT_TEST(test_five_parameters_are_found_from_exact_frequencies)
 {
-    (void)state;
     for (int functional = ROTID_HYBRID; functional <= ROTID_HYBRID_F; functional++) {
         struct paper_fit fit;
         open_five(&fit, functional, 0, 0);
@@ -209,9 +205,8 @@ static void check_coverage(const char *text, struct paper_fit *fit, double shape
         tally->square[p] /= REPLICATES;
 }
 
-static void test_likelihood_intervals_cover_the_truth(void **state)
+UNIT_TEST(test_likelihood_intervals_cover_the_truth)
 {
-    (void)state;
     struct paper_fit fit;
     struct tally tally;
     open_two(&fit, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, 1e-3, 0.015);
@@ -223,9 +218,8 @@ static void test_likelihood_intervals_cover_the_truth(void **state)
     paper_fit_close(&fit);
 }
 
-static void test_hybrid_intervals_cover_the_truth_with_known_and_unknown_noise(void **state)
+UNIT_TEST(test_hybrid_intervals_cover_the_truth_with_known_and_unknown_noise)
 {
-    (void)state;
     struct paper_fit fit;
     struct tally tally;
     open_two(&fit, ROTID_HYBRID, ROTID_REDUCTION_NONE, 1e-3, 0);
@@ -236,18 +230,4 @@ static void test_hybrid_intervals_cover_the_truth_with_known_and_unknown_noise(v
     fit.measured.frequency_std = NULL;
     check_coverage("HYBRID, noise from the residuals", &fit, 0, 13, &tally);
     paper_fit_close(&fit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_guyan_reduction_biases_the_moduli_and_the_full_model_does_not),
-        cmocka_unit_test(test_hybrid_quotient_carries_no_shape_information),
-        cmocka_unit_test(test_scale_sign_and_gaps_of_the_shapes_do_not_matter),
-        cmocka_unit_test(test_five_parameters_are_found_and_the_undetermined_ones_named),
-        cmocka_unit_test(test_five_parameters_are_found_from_exact_frequencies),
-        cmocka_unit_test(test_likelihood_intervals_cover_the_truth),
-        cmocka_unit_test(test_hybrid_intervals_cover_the_truth_with_known_and_unknown_noise),
-    };
-    return cmocka_run_group_tests_name("fit_truth", tests, NULL, NULL);
 }

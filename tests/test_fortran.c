@@ -33,9 +33,8 @@ static const char *changed(const char *text, const char *from, const char *to)
     return pool_format(&test_pool, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
 }
 
-static void the_module_declares_what_the_header_declares(void **state)
+POOL_TEST(the_module_declares_what_the_header_declares)
 {
-    (void)state;
     struct header header;
     struct fortran_module module;
     read_header(shell_file(&test_pool, HEADER), &header);
@@ -45,9 +44,8 @@ static void the_module_declares_what_the_header_declares(void **state)
     assert_string_equal(fortran_differences(&test_pool, &header, &module), "");
 }
 
-static void the_types_of_results_are_those_of_the_header(void **state)
+POOL_TEST(the_types_of_results_are_those_of_the_header)
 {
-    (void)state;
     struct header header;
     const char *module = shell_file(&test_pool, MODULE);
     read_header(shell_file(&test_pool, HEADER), &header);
@@ -59,9 +57,8 @@ static void the_types_of_results_are_those_of_the_header(void **state)
 }
 
 /* Every kind of drift, made on purpose: what the comparison has to say about it. */
-static void drift_is_told(void **state)
+POOL_TEST(drift_is_told)
 {
-    (void)state;
     static const struct {
         const char *from, *to, *told;
     } drift[] = {
@@ -138,9 +135,8 @@ static void drift_is_told(void **state)
 }
 
 /* The other way: the header goes on and the module stays behind. */
-static void a_header_that_goes_on_is_told(void **state)
+POOL_TEST(a_header_that_goes_on_is_told)
 {
-    (void)state;
     static const struct {
         const char *from, *to, *told;
     } change[] = {
@@ -166,9 +162,8 @@ static void a_header_that_goes_on_is_told(void **state)
     }
 }
 
-static void what_the_reader_does_not_know_is_an_error(void **state)
+POOL_TEST(what_the_reader_does_not_know_is_an_error)
 {
-    (void)state;
     static const struct {
         const char *text, *error;
         int line;
@@ -218,9 +213,8 @@ static void run_witnesses(const char *folder, const struct header *header, const
     *in_fortran = shell(&test_pool, "cd %s && ./f", folder);
 }
 
-static void both_compilers_give_the_same_values_sizes_and_offsets(void **state)
+POOL_TEST(both_compilers_give_the_same_values_sizes_and_offsets)
 {
-    (void)state;
     needs_compiler(&test_pool, "FC");
     const char *in_c, *in_fortran, *folder = make_folder(&test_pool);
     struct header header;
@@ -246,9 +240,8 @@ static void both_compilers_give_the_same_values_sizes_and_offsets(void **state)
     remove_folder(&test_pool, folder);
 }
 
-static void the_module_is_standard_fortran(void **state)
+POOL_TEST(the_module_is_standard_fortran)
 {
-    (void)state;
     needs_compiler(&test_pool, "FC");
     const char *folder = make_folder(&test_pool), *version = shell(&test_pool, "%s --version", compiler("FC"));
     compile("cd %s && %s %s -c %s -o rotid.o", folder, compiler("FC"), strstr(version, "GNU") ? STRICT : "", MODULE);
@@ -280,14 +273,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "--write") == 0)
         return write_types();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_types_of_results_are_those_of_the_header, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_module_declares_what_the_header_declares, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(drift_is_told, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_header_that_goes_on_is_told, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_the_reader_does_not_know_is_an_error, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(both_compilers_give_the_same_values_sizes_and_offsets, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_module_is_standard_fortran, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("fortran", tests, NULL, NULL);
+    return test_main(argc, argv);
 }

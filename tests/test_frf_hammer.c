@@ -82,9 +82,8 @@ static double worst_of(const cJSON *function)
     return apart / largest;
 }
 
-static void the_synthesised_functions_are_the_exact_ones(void **state)
+UNIT_TEST(the_synthesised_functions_are_the_exact_ones)
 {
-    (void)state;
     double worst = 0;
     write_deck("alone.inp", "*FRF, LOW=60, HIGH=3000, STEP=5\n");
     cJSON *json = result_of("alone.inp");
@@ -99,9 +98,8 @@ static void the_synthesised_functions_are_the_exact_ones(void **state)
     cJSON_Delete(json);
 }
 
-static void the_functions_out_of_the_records_agree(void **state)
+UNIT_TEST(the_functions_out_of_the_records_agree)
 {
-    (void)state;
     char message[256];
     assert_int_equal(hammer_write(&truth, 7, 0, folder_path("records.unv"), message, sizeof message), HAMMER_OK);
     write_deck("beside.inp", "*FRF, FILE=records.unv, LOW=60, HIGH=1300\n");
@@ -142,11 +140,4 @@ static int close_truth(void **state)
     return folder_remove(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_synthesised_functions_are_the_exact_ones),
-        cmocka_unit_test(the_functions_out_of_the_records_agree),
-    };
-    return cmocka_run_group_tests(tests, open_truth, close_truth);
-}
+TEST_GROUP(open_truth, close_truth);

@@ -136,9 +136,8 @@ static void open_measured(double factor)
 
 /* ------------------------------------------------------------------------------------------------ agreement */
 
-static void the_model_agrees_with_itself(void **state)
+POOL_TEST(the_model_agrees_with_itself)
 {
-    (void)state;
     open_measured(1);
     assert_status(run(&bench, &test_pool), ROTID_OK);
     const struct frf_result *r = &bench.result;
@@ -167,9 +166,8 @@ static void the_model_agrees_with_itself(void **state)
 
 /* All moduli 8 % too high: every frequency 4 % off, shapes and masses right. FRAC is ruined, and whole again at the measured
  * frequencies; what the static part keeps of the stiffness makes the rest. */
-static void a_frequency_error_is_told_from_an_error_of_the_shape(void **state)
+POOL_TEST(a_frequency_error_is_told_from_an_error_of_the_shape)
 {
-    (void)state;
     open_measured(1);
     for (int g = 0; g < 3; g++)
         bench.group[g].material.e *= 1.08;
@@ -186,9 +184,8 @@ static void a_frequency_error_is_told_from_an_error_of_the_shape(void **state)
 }
 
 /* Functions of another specimen than the modes: they fit the model where its frequencies are, not where the modes are. */
-static void functions_and_modes_of_different_tests_are_noticed(void **state)
+POOL_TEST(functions_and_modes_of_different_tests_are_noticed)
 {
-    (void)state;
     open_measured(1);
     for (int k = 0; k < MODES; k++)
         bench.hz[k] *= 1.05;
@@ -198,9 +195,8 @@ static void functions_and_modes_of_different_tests_are_noticed(void **state)
 }
 
 /* Twice the mass: H^ is half of H; FRAC does not see it, scale and level do. */
-static void a_wrong_calibration_shows_in_scale_and_level(void **state)
+POOL_TEST(a_wrong_calibration_shows_in_scale_and_level)
 {
-    (void)state;
     open_measured(1);
     for (int l = 0; l < LINES; l++)
         bench.h[1][l] *= 0.5;
@@ -219,9 +215,8 @@ static void a_wrong_calibration_shows_in_scale_and_level(void **state)
     close_bench();
 }
 
-static void directions_and_reciprocity_are_respected(void **state)
+POOL_TEST(directions_and_reciprocity_are_respected)
 {
-    (void)state;
     struct frf_pair pairs[] = {{30, 50}, {20, 30}};
     open_measured(1);
     for (int l = 0; l < LINES; l++)
@@ -250,9 +245,8 @@ static void directions_and_reciprocity_are_respected(void **state)
 }
 
 /* Mobilities asked for where accelerances were measured; and the lines of the file within LOW and HIGH, but that at 0 Hz. */
-static void quantity_and_lines_are_those_of_card_and_file(void **state)
+POOL_TEST(quantity_and_lines_are_those_of_card_and_file)
 {
-    (void)state;
     open_measured(1);
     bench.job.options.frf.has_quantity = 1;
     bench.job.options.frf.quantity = FRF_VELOCITY;
@@ -274,9 +268,8 @@ static void quantity_and_lines_are_those_of_card_and_file(void **state)
 
 /* ------------------------------------------------------------------------------------------------ points */
 
-static void nodes_of_the_file_are_placed_in_the_model(void **state)
+POOL_TEST(nodes_of_the_file_are_placed_in_the_model)
 {
-    (void)state;
     static const struct frf_node nodes[] = {{777, {0.25, 0, 0}}, {778, {1.5, 0, 0}}};
     open_measured(1);
     bench.job.options.frf.axis = 0;
@@ -298,9 +291,8 @@ static void nodes_of_the_file_are_placed_in_the_model(void **state)
     close_bench();
 }
 
-static void without_a_card_every_sensor_over_the_first(void **state)
+POOL_TEST(without_a_card_every_sensor_over_the_first)
 {
-    (void)state;
     open_bench(&bench, &test_pool, 1);
     measure_modes(&bench, &test_pool);
     bench.job.options.frf = (struct frf_request){.axis = 2, .quantity = FRF_ACCELERATION};
@@ -318,9 +310,8 @@ static void without_a_card_every_sensor_over_the_first(void **state)
 
 /* ------------------------------------------------------------------------------------------------ damping */
 
-static void damping_is_measured_stated_or_refused(void **state)
+POOL_TEST(damping_is_measured_stated_or_refused)
 {
-    (void)state;
     open_bench(&bench, &test_pool, 1);
     measure_modes(&bench, &test_pool);
     bench.damping[1] = NAN;
@@ -369,9 +360,8 @@ static int cancel_at_the_third(void *unused)
 }
 
 /* 680 points over one, 30,000 lines: one curve stands for all of them, so that the test itself stays small. */
-static void a_test_of_680_points_and_30000_lines_takes_seconds(void **state)
+POOL_TEST(a_test_of_680_points_and_30000_lines_takes_seconds)
 {
-    (void)state;
     enum { MANY = 680, LONG = 30000 };
     static struct frf frf[MANY];
     static double hz[LONG];
@@ -400,9 +390,8 @@ static void a_test_of_680_points_and_30000_lines_takes_seconds(void **state)
     close_bench();
 }
 
-static void memory_that_runs_out_is_an_answer(void **state)
+POOL_TEST(memory_that_runs_out_is_an_answer)
 {
-    (void)state;
     open_measured(1);
     for (long n = 1;; n++) {
         struct failing_allocator failing;
@@ -421,24 +410,4 @@ static void memory_that_runs_out_is_an_answer(void **state)
         assert_true(n < 10000);
     }
     close_bench();
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(the_model_agrees_with_itself),
-        TEST(a_frequency_error_is_told_from_an_error_of_the_shape),
-        TEST(functions_and_modes_of_different_tests_are_noticed),
-        TEST(a_wrong_calibration_shows_in_scale_and_level),
-        TEST(directions_and_reciprocity_are_respected),
-        TEST(quantity_and_lines_are_those_of_card_and_file),
-        TEST(nodes_of_the_file_are_placed_in_the_model),
-        TEST(without_a_card_every_sensor_over_the_first),
-        TEST(damping_is_measured_stated_or_refused),
-        TEST(a_test_of_680_points_and_30000_lines_takes_seconds),
-        TEST(memory_that_runs_out_is_an_answer),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

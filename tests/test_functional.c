@@ -8,6 +8,7 @@
 #include "linalg/linalg.h"
 #include "modal/modal.h"
 #include "model/model.h"
+#include "support.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -86,7 +87,7 @@ static double *residual_here(struct pool *pool, struct functional *f, int kind, 
 }
 
 /* (15, 16) from dense matrices and dense eigenvectors. */
-static void hybrid_residuals_are_those_of_their_definition(void **state)
+POOL_TEST(hybrid_residuals_are_those_of_their_definition)
 {
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++)
         for (int lost = 0; lost < 2; lost++) {
@@ -126,7 +127,7 @@ static void hybrid_residuals_are_those_of_their_definition(void **state)
 }
 
 /* phi~ solves K~ phi~ = lambda~ M~ phi~, so the left vector cancels: the quotient carries no shape. */
-static void the_hybrid_quotient_is_the_eigenvalue_under_any_noise(void **state)
+POOL_TEST(the_hybrid_quotient_is_the_eigenvalue_under_any_noise)
 {
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++)
         for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -142,7 +143,7 @@ static void the_hybrid_quotient_is_the_eigenvalue_under_any_noise(void **state)
 }
 
 /* Frequencies first, then the shapes mode by mode, (a phi - phi^)/s with the a of least squares. */
-static void likelihood_residuals_are_those_of_their_definition(void **state)
+POOL_TEST(likelihood_residuals_are_those_of_their_definition)
 {
     for (int kind = ROTID_REDUCTION_NONE; kind <= ROTID_IRS; kind++) {
         struct data data;
@@ -175,7 +176,7 @@ static void likelihood_residuals_are_those_of_their_definition(void **state)
     }
 }
 
-static void likelihood_does_not_see_scale_and_sign_of_a_shape(void **state)
+POOL_TEST(likelihood_does_not_see_scale_and_sign_of_a_shape)
 {
     const double scale[nmode] = {-1, 1e-9, -3e7, 0.5, 1};
     const int kind = ROTID_LIKELIHOOD, full = ROTID_REDUCTION_NONE;
@@ -228,7 +229,7 @@ static void check_jacobian(struct pool *pool, int kind, int reduction, int deriv
     }
 }
 
-static void jacobians_match_central_differences(void **state)
+POOL_TEST(jacobians_match_central_differences)
 {
     for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++)
         for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++)
@@ -246,7 +247,7 @@ static void jacobians_match_central_differences(void **state)
             }
 }
 
-static void held_out_modes_are_predicted_but_not_fitted(void **state)
+POOL_TEST(held_out_modes_are_predicted_but_not_fitted)
 {
     for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {
         struct data data;
@@ -272,7 +273,7 @@ static void held_out_modes_are_predicted_but_not_fitted(void **state)
 }
 
 /* A shape that is M~-orthogonal to the mode it is said to be leaves (15) without meaning, unless the mode is only compared. */
-static void a_shape_orthogonal_to_its_partner_is_unpaired(void **state)
+POOL_TEST(a_shape_orthogonal_to_its_partner_is_unpaired)
 {
     for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {
         struct data data;
@@ -300,7 +301,7 @@ static int status_of(struct pool *pool, int kind, int reduction, const rotid_mod
     return functional_new(pool, kind, reduction, ROTID_NELSON, model, measured, &f);
 }
 
-static void measured_data_out_of_range_are_refused(void **state)
+POOL_TEST(measured_data_out_of_range_are_refused)
 {
     struct data data;
     const rotid_model *model = measure(*state, 0.02, 67, &data);
@@ -349,7 +350,7 @@ static void measured_data_out_of_range_are_refused(void **state)
     assert_status(status_of(*state, ROTID_LIKELIHOOD, ROTID_GUYAN, model, &data.measured), ROTID_ERROR_ARGUMENT);
 }
 
-static void any_allocation_that_fails_is_reported(void **state)
+POOL_TEST(any_allocation_that_fails_is_reported)
 {
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
         struct data data;
@@ -370,20 +371,4 @@ static void any_allocation_that_fails_is_reported(void **state)
         }
         assert_true(n > 50);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(hybrid_residuals_are_those_of_their_definition),
-        WITH_POOL(the_hybrid_quotient_is_the_eigenvalue_under_any_noise),
-        WITH_POOL(likelihood_residuals_are_those_of_their_definition),
-        WITH_POOL(likelihood_does_not_see_scale_and_sign_of_a_shape),
-        WITH_POOL(jacobians_match_central_differences),
-        WITH_POOL(held_out_modes_are_predicted_but_not_fitted),
-        WITH_POOL(a_shape_orthogonal_to_its_partner_is_unpaired),
-        WITH_POOL(measured_data_out_of_range_are_refused),
-        WITH_POOL(any_allocation_that_fails_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,41 +33,29 @@ static int run_folder(const char *folder, void (*one)(const uint8_t *, size_t))
     return count;
 }
 
-static void universal_files(void **state)
+UNIT_TEST(universal_files)
 {
-    (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/uff", fuzz_one_uff) > 10);
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/uff", fuzz_one_import) > 10);
 }
 
-static void decks(void **state)
+UNIT_TEST(decks)
 {
-    (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/deck", fuzz_one_deck) > 3);
 }
 
-static void tables(void **state)
+UNIT_TEST(tables)
 {
-    (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/table", fuzz_one_table) > 3);
 }
 
-static void suggestions(void **state)
+UNIT_TEST(suggestions)
 {
-    (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/suggest", fuzz_one_suggest) > 2);
 }
 
-static void studies(void **state)
+UNIT_TEST(studies)
 {
-    (void)state;
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/plan", fuzz_one_plan) > 2);
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/results", fuzz_one_results) > 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks), cmocka_unit_test(tables),
-                                       cmocka_unit_test(suggestions), cmocka_unit_test(studies)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

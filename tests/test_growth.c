@@ -18,9 +18,8 @@ static void make_bar(struct job *job, struct group *group, struct segment *segme
     rotid_fit_defaults(sizeof job->options.fit, &job->options.fit);
 }
 
-static void of_a_bar_it_is_that_of_its_modulus(void **state)
+POOL_TEST(of_a_bar_it_is_that_of_its_modulus)
 {
-    (void)state;
     static const struct parameter young = {PARAMETER_E, 0, 0, 0, NULL};
     const double x0 = 2.1e11;
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
@@ -52,9 +51,8 @@ static double local_slope(const struct growth *growth, const struct growth_line 
     return log(line->objective[i + 1] / line->objective[i]) / log(growth->epsilon_squared[i + 1] / growth->epsilon_squared[i]);
 }
 
-static void the_slope_tends_to_one_at_the_optimum(void **state)
+POOL_TEST(the_slope_tends_to_one_at_the_optimum)
 {
-    (void)state;
     struct job job = {.rotor = *paper_rotor(BUNDLE_TUBE, 0)};
     struct sensitivity result;
     static const rotid_parameter named[2] = {{.name = "core.E", .unit = "Pa"}, {.name = "core.G", .unit = "Pa"}};
@@ -81,9 +79,8 @@ static void the_slope_tends_to_one_at_the_optimum(void **state)
     assert_true(noise > 0 && noise < 1e-20); /* the shapes take part in the quotient, and change it by rounding */
 }
 
-static void a_parameter_without_effect_has_no_slope(void **state)
+POOL_TEST(a_parameter_without_effect_has_no_slope)
 {
-    (void)state;
     static const struct parameter mass = {PARAMETER_DISK_INERTIA, 0, 0, 0, NULL};
     const double x0 = 1e-30;
     struct group group;
@@ -98,14 +95,4 @@ static void a_parameter_without_effect_has_no_slope(void **state)
     for (int i = 0; i < growth.nepsilon_squared; i++)
         assert_true(growth.hybrid.objective[i] < 1e-16);
     assert_true(isnan(growth.hybrid.slope) && isnan(growth.hybrid_f.intercept));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(of_a_bar_it_is_that_of_its_modulus, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_slope_tends_to_one_at_the_optimum, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_parameter_without_effect_has_no_slope, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "hammer_bench.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -53,10 +54,9 @@ static double complex modal_sum(const struct hammer_test *test, double hz, const
 
 /* Off the lines of a transform of the record, on which leakage of what has not decayed would hide. What is left comes from the
  * suspension, which swings on, and from what the filter lets through above half the sampling rate. */
-static void records_hold_the_accelerance(void **state)
+UNIT_TEST(records_hold_the_accelerance)
 {
     static const char *const rotor[] = {"paper", "beam"};
-    (void)state;
     for (int r = 0; r < 2; r++) {
         struct bench_state s;
         struct hammer_impact drawn;
@@ -75,12 +75,11 @@ static void records_hold_the_accelerance(void **state)
 }
 
 /* From 100 Hz on, where the suspension does not matter, and at a higher sampling rate the error falls to what has not decayed. */
-static void records_are_exact_at_a_higher_rate(void **state)
+UNIT_TEST(records_are_exact_at_a_higher_rate)
 {
     struct bench_state s;
     struct hammer_impact drawn;
     double worst = 0;
-    (void)state;
     hammer_bench_open("paper", &s.bench);
     s.bench.options.rate = 4 * 8192;
     s.bench.options.suspension_damping = 0.9; /* gone before the record ends */
@@ -97,13 +96,12 @@ static void records_are_exact_at_a_higher_rate(void **state)
 }
 
 /* Simpson's rule on int exp(p (t - u)) sin(pi u/T) du, and the exponential that is multiplied on for 1e5 samples. */
-static void pulse_and_recursion(void **state)
+UNIT_TEST(pulse_and_recursion)
 {
     enum { count = 100000, steps = 2000 };
     const double rate = 8192, start = 0.3 / rate, duration = 3.1e-4, amplitude = 7;
     struct hammer_poles poles = {.count = 1, .pole = {CMPLX(-2, 9000)}, .residue = {CMPLX(0.3, -1.2)}};
     double *y = calloc(count, sizeof *y), worst = 0;
-    (void)state;
     hammer_pulse_add(&poles, rate, start, duration, amplitude, count, y);
     for (int n = 0; n < count; n = n < 8 ? n + 1 : n + 997) {
         double t = n / rate - start, end = fmin(fmax(t, 0), duration), h = end / steps;
@@ -121,10 +119,9 @@ static void pulse_and_recursion(void **state)
 }
 
 /* Partial fractions against the product; flat to 0.1 dB in the band and 80 dB down where 0.39 of the rate is folded from. */
-static void filter(void **state)
+UNIT_TEST(filter)
 {
     struct hammer_filter f;
-    (void)state;
     hammer_filter_open(8192, &f);
     assert_close(cabs(hammer_filter_at(&f, 0)), 1, 1e-12, 0);
     for (double hz = 0; hz < 8000; hz += 57) {
@@ -148,12 +145,11 @@ static double rms(int count, const double *y)
 }
 
 /* The same impact with and without noise. */
-static void noise_is_as_asked(void **state)
+UNIT_TEST(noise_is_as_asked)
 {
     struct bench_state s;
     struct hammer_impact drawn;
     double *clean, peak = 0;
-    (void)state;
     hammer_bench_open("paper", &s.bench);
     s.bench.options.force_noise = 2e-3;
     s.bench.options.noise = 0.05;
@@ -178,13 +174,12 @@ static void noise_is_as_asked(void **state)
     close_state(&s);
 }
 
-static void seeds(void **state)
+UNIT_TEST(seeds)
 {
     struct bench_state s;
     struct hammer_impact first, again, drawn;
     size_t bytes;
     double lowest = 1e9, highest = 0, latest = 0, earliest = 1;
-    (void)state;
     hammer_bench_open("paper", &s.bench);
     s.bench.options.noise = 0.01;
     open_state(&s);
@@ -216,13 +211,12 @@ static double complex drifted(const struct hammer_test *test, double hz, const v
     return hammer_frf(test, 30, CMPLX(0, 2 * pi * hz / drift));
 }
 
-static void drift(void **state)
+UNIT_TEST(drift)
 {
     enum { draws = 400 };
     struct bench_state s;
     struct hammer_impact drawn, other;
     double sum = 0, square = 0;
-    (void)state;
     hammer_bench_open("paper", &s.bench);
     s.bench.options.drift = 2e-3;
     s.bench.options.seconds = 0.5;
@@ -243,12 +237,11 @@ static void drift(void **state)
 }
 
 /* 20,000 records of 8192 samples have to be made in a test of coverage. Twenty times what a quiet machine takes. */
-static void speed(void **state)
+UNIT_TEST(speed)
 {
     struct bench_state s;
     struct hammer_impact drawn;
     struct timespec begin, end;
-    (void)state;
     hammer_bench_open("paper", &s.bench);
     s.bench.options.noise = 0.01;
     open_state(&s);
@@ -261,17 +254,4 @@ static void speed(void **state)
     print_message("a record with noise takes %.2f ms\n", milliseconds);
     assert_true(milliseconds < 20);
     close_state(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(records_hold_the_accelerance),
-                                       cmocka_unit_test(records_are_exact_at_a_higher_rate),
-                                       cmocka_unit_test(pulse_and_recursion),
-                                       cmocka_unit_test(filter),
-                                       cmocka_unit_test(noise_is_as_asked),
-                                       cmocka_unit_test(seeds),
-                                       cmocka_unit_test(drift),
-                                       cmocka_unit_test(speed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

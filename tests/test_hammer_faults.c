@@ -7,6 +7,7 @@
 
 #include "hammer/hammer_command.h"
 #include "hammer_bench.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -56,10 +57,9 @@ static void with_fault(enum hammer_fault_kind kind, long other, double value, st
     open_pair(p);
 }
 
-static void flip_and_gain(void **state)
+UNIT_TEST(flip_and_gain)
 {
     struct pair p;
-    (void)state;
     with_fault(HAMMER_FLIP, 0, 0, &p);
     for (int n = 0; n < p.test.count; n++)
         assert_close(p.response[n], -p.clean[n], 0, 0);
@@ -71,11 +71,10 @@ static void flip_and_gain(void **state)
     close_pair(&p);
 }
 
-static void dead_and_duplicate(void **state)
+UNIT_TEST(dead_and_duplicate)
 {
     struct pair p;
     double dead = 0, alive = 0;
-    (void)state;
     with_fault(HAMMER_DEAD, 0, 0, &p);
     for (int n = 0; n < p.test.count; n++) {
         dead += p.response[n] * p.response[n];
@@ -96,11 +95,10 @@ static double complex through_mount(const struct hammer_test *test, double hz, c
     return hammer_frf(test, POINT, CMPLX(0, 2 * pi * hz)) / (1 + 2 * 0.02 * x + x * x);
 }
 
-static void loose_sensor(void **state)
+UNIT_TEST(loose_sensor)
 {
     const double mount = 1500;
     struct pair p;
-    (void)state;
     with_fault(HAMMER_LOOSE, 0, mount, &p);
     struct hammer_misfit m = hammer_compare(&p.test, p.force, p.response, 100.5, 3200, 43, through_mount, &mount);
     assert_true(m.error < 2e-4 * m.largest);
@@ -114,11 +112,10 @@ static double complex as_it_is(const struct hammer_test *test, double hz, const 
 }
 
 /* Two hits are still an input and its output; both pulses are in the force. */
-static void double_hit(void **state)
+UNIT_TEST(double_hit)
 {
     struct pair p;
     double second = 0;
-    (void)state;
     hammer_bench_open("paper", &p.bench);
     p.bench.options.double_hits = 1;
     open_pair(&p);
@@ -133,10 +130,9 @@ static void double_hit(void **state)
     close_pair(&p);
 }
 
-static void clipped(void **state)
+UNIT_TEST(clipped)
 {
     struct pair p;
-    (void)state;
     hammer_bench_open("paper", &p.bench);
     p.bench.options.clipped = 1;
     open_pair(&p);
@@ -153,11 +149,10 @@ static void clipped(void **state)
 }
 
 /* How far the filter lets a short pulse ring, which a search for double hits has to bear; 3 ms later it is over. */
-static void ringing(void **state)
+UNIT_TEST(ringing)
 {
     struct pair p;
     double lobe = 0, undershoot = 0, late = 0;
-    (void)state;
     hammer_bench_open("paper", &p.bench);
     open_pair(&p);
     for (uint64_t seed = 0; seed < 300; seed++) {
@@ -202,10 +197,9 @@ static void refused(const struct hammer_bench *bench, const char *expected)
         hammer_bench_close(&b);                                                                                                  \
     } while (0)
 
-static void options_out_of_range(void **state)
+UNIT_TEST(options_out_of_range)
 {
     struct hammer_bench b;
-    (void)state;
     REFUSED(rate, -1, "--rate -1: expected 100 to 1e6 Hz");
     REFUSED(rate, NAN, "--rate");
     REFUSED(band_hz, 4000, "--band 4000: expected above 0 and at most 0.4 of the rate");
@@ -257,7 +251,7 @@ static int command(const char *line, char *copy, struct hammer_command *c, char 
     return code;
 }
 
-static void command_line(void **state)
+UNIT_TEST(command_line)
 {
     static const char *const wrong[][2] = {{"paper", "usage: hammer ROTOR"},
                                            {"-o x paper beam", "usage: hammer ROTOR"},
@@ -273,7 +267,6 @@ static void command_line(void **state)
                                            {"paper -o x --fault dead:x", "expected an integer"}};
     struct hammer_command c;
     char said[8000], copy[LINE];
-    (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(command(wrong[i][0], copy, &c, said, sizeof said), HAMMER_INPUT);
         if (!strstr(said, wrong[i][1]))
@@ -298,11 +291,10 @@ static void command_line(void **state)
 }
 
 /* A file that cannot be written is said so, and none is left. */
-static void files(void **state)
+UNIT_TEST(files)
 {
     struct pair p;
     char message[600] = "";
-    (void)state;
     hammer_bench_open("beam", &p.bench);
     p.bench.options.seconds = 0.5;
     open_pair(&p);
@@ -311,14 +303,4 @@ static void files(void **state)
     assert_int_equal(hammer_write_truth(&p.test, 1, "/nonexistent/x.json", message, sizeof message), HAMMER_FAILURE);
     assert_int_equal(hammer_write_deck(&p.test, "m.unv", "/nonexistent/x.inp", message, sizeof message), HAMMER_FAILURE);
     close_pair(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flip_and_gain), cmocka_unit_test(dead_and_duplicate),
-                                       cmocka_unit_test(loose_sensor),  cmocka_unit_test(double_hit),
-                                       cmocka_unit_test(clipped),       cmocka_unit_test(ringing),
-                                       cmocka_unit_test(files),         cmocka_unit_test(options_out_of_range),
-                                       cmocka_unit_test(command_line)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

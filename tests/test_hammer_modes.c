@@ -6,6 +6,7 @@
 #include "hammer_bench.h"
 #include "hide/hide_model.h"
 #include "hide/hide_parameter.h"
+#include "support.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -153,10 +154,9 @@ static void place_nodes(const struct oracle_system *system, int points, const do
 /* Without damping and half a per cent off every resonance. The error is that of modes, masses and what the higher modes add, all
  * of it, as a share of the rms of the receptance over the points: relative to each, it would be that of the zeros between
  * resonances. */
-static void modal_sum_is_the_exact_receptance(void **state)
+UNIT_TEST(modal_sum_is_the_exact_receptance)
 {
     static const char *const name[] = {"paper", "beam"};
-    (void)state;
     for (int r = 0; r < 2; r++) {
         struct opened o;
         struct hammer_test test;
@@ -195,13 +195,12 @@ static void modal_sum_is_the_exact_receptance(void **state)
 }
 
 /* Both solutions of the same equations, below zero, off and near resonance. */
-static void receptance_is_the_direct_solution(void **state)
+UNIT_TEST(receptance_is_the_direct_solution)
 {
     static const double lambda[] = {-4e8, -1e6, 3e6, 1.1e8};
     struct opened o;
     struct direct d;
     double z[3] = {0.028446, 0.9, 2.030003}, receptance[3], solution[2 * most_nodes];
-    (void)state;
     open_system("paper", NULL, &o);
     place_nodes(&o.model.system, 3, z, &d);
     for (int i = 0; i < 4; i++) {
@@ -214,25 +213,23 @@ static void receptance_is_the_direct_solution(void **state)
 }
 
 /* Free-free Euler-Bernoulli: at the end |v| is the largest and m v^2 / int m v^2 = 4 for every elastic mode. */
-static void masses_of_a_free_beam(void **state)
+UNIT_TEST(masses_of_a_free_beam)
 {
     struct oracle_segment bar = {.length = 2, .bending = 1e6, .shear = INFINITY, .mass = 50};
     struct oracle_system system = {.segments = 1, .segment = &bar};
     double z[1] = {0}, hz[6], shape[6];
-    (void)state;
     assert_int_equal(hammer_modes(&system, 6, 1, z, hz, shape), ORACLE_OK);
     for (int k = 2; k < 6; k++)
         assert_close(shape[k] * shape[k] * 50 * 2, 4, 1e-8, 0);
 }
 
 /* f'/f = 1 - m phi^2/2 to first order, and exactly the oracle's with the mass as a point of the rotor. */
-static void moving_accelerometer(void **state)
+UNIT_TEST(moving_accelerometer)
 {
     const double mass = 0.03;
     struct opened o;
     struct hammer_test test;
     double hz[10], largest = 0;
-    (void)state;
     open_system("beam", NULL, &o);
     o.bench.options.sensor_mass = mass;
     o.bench.options.seconds = 1;
@@ -257,11 +254,10 @@ static void moving_accelerometer(void **state)
 }
 
 /* The fixed accelerometer belongs to every system alike, and its place is the response. */
-static void fixed_accelerometer(void **state)
+UNIT_TEST(fixed_accelerometer)
 {
     struct opened o;
     struct hammer_test roving, fixed;
-    (void)state;
     open_system("beam", NULL, &o);
     o.bench.options.seconds = 1;
     o.bench.options.fixed = 4;
@@ -284,12 +280,4 @@ static void fixed_accelerometer(void **state)
     hammer_close(&roving);
     hammer_close(&fixed);
     close_system(&o);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modal_sum_is_the_exact_receptance), cmocka_unit_test(receptance_is_the_direct_solution),
-        cmocka_unit_test(masses_of_a_free_beam), cmocka_unit_test(moving_accelerometer), cmocka_unit_test(fixed_accelerometer)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

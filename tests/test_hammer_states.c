@@ -32,9 +32,8 @@ static char *text_of(const char *deck, const char *name, char *message, size_t r
     return text;
 }
 
-static void a_state_has_the_modes_of_its_own_rotor(void **state)
+POOL_TEST(a_state_has_the_modes_of_its_own_rotor)
 {
-    (void)state;
     static const char *const name[] = {"free", "disc"}, *const own[] = {COMMON SENSORS, COMMON SENSORS DISC};
     static const char *const truth[] = {"bar.E=2.06e11"};
     struct hammer_options options = hammer_options_default();
@@ -69,9 +68,8 @@ static const char *written(const char *deck, const char *name, const char *modes
 }
 
 /* A state that was tested has the sensors of its file, the others those of the deck until then. */
-static void the_deck_of_one_test_is_the_rotor_of_the_next(void **state)
+POOL_TEST(the_deck_of_one_test_is_the_rotor_of_the_next)
 {
-    (void)state;
     const char *one = written(DECK, "Free", "free.unv"), *both = written(one, "disc", "disc.unv");
     assert_string_equal(one, COMMON UNKNOWN FIT "*STATE, NAME=free\n*MEASURED, FILE=free.unv, AXIS=Z, DIRECTION=X\n"
                                                 "*STATE, NAME=disc\n" SENSORS DISC);
@@ -79,9 +77,8 @@ static void the_deck_of_one_test_is_the_rotor_of_the_next(void **state)
                                                  "*STATE, NAME=disc\n" DISC "*MEASURED, FILE=disc.unv, AXIS=Z, DIRECTION=X\n");
 }
 
-static void another_state_is_refused(void **state)
+POOL_TEST(another_state_is_refused)
 {
-    (void)state;
     char message[600] = "";
     assert_null(text_of(DECK, "bearings", message, sizeof message));
     assert_string_equal(message, "--state bearings: expected a *STATE of deck");
@@ -89,12 +86,4 @@ static void another_state_is_refused(void **state)
     assert_int_equal(hammer_write_state(DECK, "x", "m.unv", folder_path("none.inp"), message, sizeof message), HAMMER_INPUT);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_state_has_the_modes_of_its_own_rotor, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_deck_of_one_test_is_the_rotor_of_the_next, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(another_state_is_refused, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("hammer_states", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

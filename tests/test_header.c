@@ -5,9 +5,8 @@
 #include "header.h"
 #include "support.h"
 
-static void declarations_are_read_as_c_means_them(void **state)
+POOL_TEST(declarations_are_read_as_c_means_them)
 {
-    (void)state;
     static const char text[] =
         "#ifndef H\n#define H\n#define H_TEXT \"a /* \\\" b\" /* no */ /* more */\n#define H_COUNT 3 // three\n"
         "#define H_LIST(X) \\\n    X(H_ONE, 1, \"it, 1\") \\\n  X(H_TWO, -2, \"\")\n"
@@ -65,9 +64,8 @@ static void declarations_are_read_as_c_means_them(void **state)
     assert_null(header_function(&header, "h_call"));
 }
 
-static void what_is_not_understood_is_named(void **state)
+POOL_TEST(what_is_not_understood_is_named)
 {
-    (void)state;
     static const struct {
         const char *text, *error;
         int line;
@@ -103,9 +101,8 @@ static void what_is_not_understood_is_named(void **state)
 }
 
 /* The same list, made by the compiler. */
-static void every_status_of_the_public_header_is_found(void **state)
+POOL_TEST(every_status_of_the_public_header_is_found)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int value;
@@ -131,9 +128,8 @@ static void every_status_of_the_public_header_is_found(void **state)
 }
 
 /* Every declaration is written out and read again: nothing is lost, and the spelling is C. */
-static void what_is_written_out_reads_the_same(void **state)
+POOL_TEST(what_is_written_out_reads_the_same)
 {
-    (void)state;
     struct header header, again;
     assert_int_equal(header_read(&test_pool, ROTID_SOURCE_DIR "/include/rotid.h", &header), 0);
     assert_true(header.nfunction > 20 && header.nstruct > 10 && header.ncallback > 0);
@@ -150,9 +146,8 @@ static void what_is_written_out_reads_the_same(void **state)
         }
 }
 
-static void memory_that_runs_out_is_an_error(void **state)
+POOL_TEST(memory_that_runs_out_is_an_error)
 {
-    (void)state;
     static const char text[] =
         "#define L(X) X(A, 1, \"a\")\nenum { L(E) };\ntypedef struct a { unsigned long b; int (*f)(int c); } a;\n"
         "ROTID_API int f(const a *b);\n";
@@ -169,16 +164,4 @@ static void memory_that_runs_out_is_an_error(void **state)
         assert_int_equal(status, -1);
         assert_true(n < 1000);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(declarations_are_read_as_c_means_them, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_not_understood_is_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_status_of_the_public_header_is_found, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_written_out_reads_the_same, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(memory_that_runs_out_is_an_error, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

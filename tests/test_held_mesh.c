@@ -11,6 +11,7 @@
 #include "deck/deck.h"
 #include "model/model.h"
 #include "run/run.h"
+#include "support.h"
 
 #define SENSORS 9
 #define MODES   4
@@ -83,9 +84,8 @@ static rotid_fit_result *fit_fine(const struct job *job, const double *x, double
     return fit;
 }
 
-static void a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts(void **state)
+POOL_TEST(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts)
 {
-    (void)state;
     for (int shapes = 0; shapes < 2; shapes++) {
         struct message_list messages;
         struct identification found;
@@ -110,9 +110,8 @@ static void a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts(void **stat
 }
 
 /* Errors at a corner fall with the power 1.089 of the size of its elements: test_solid_frequencies. */
-static void the_limit_is_that_of_refined_meshes_within_the_mesh_column(void **state)
+POOL_TEST(the_limit_is_that_of_refined_meshes_within_the_mesh_column)
 {
-    (void)state;
     for (int which = 0; which < 2; which++) {
         struct rig b;
         struct spectrum s;
@@ -133,13 +132,4 @@ static void the_limit_is_that_of_refined_meshes_within_the_mesh_column(void **st
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(the_limit_is_that_of_refined_meshes_within_the_mesh_column, open_test_pool,
-                                        close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -11,6 +11,7 @@
 #include "exact.h"
 #include "hide/hide.h"
 #include "paper_rotor.h"
+#include "support.h"
 
 #define MODES   6
 #define SENSORS 68
@@ -114,9 +115,8 @@ static int deck_hz(const char *deck, double *frequency)
 
 /* ---- physics ---- */
 
-static void without_effect_it_is_the_oracle(void **state)
+UNIT_TEST(without_effect_it_is_the_oracle)
 {
-    (void)state;
     struct result r = make_with(paper, NULL);
     struct exact exact;
     double truth[MODES], frequency[MODES], shape[SENSORS], z[SENSORS], written[MODES * SENSORS];
@@ -137,9 +137,8 @@ static void without_effect_it_is_the_oracle(void **state)
 }
 
 /* Rayleigh: less stiffness or more mass lowers every frequency, more stiffness raises it. */
-static void frequencies_move_as_they_must(void **state)
+UNIT_TEST(frequencies_move_as_they_must)
 {
-    (void)state;
     static const struct {
         const char *spec;
         int sign;
@@ -179,9 +178,8 @@ static void frequencies_move_as_they_must(void **state)
 }
 
 /* Nothing at the neutral size, and near it a change in proportion. */
-static void effects_vanish_smoothly(void **state)
+UNIT_TEST(effects_vanish_smoothly)
 {
-    (void)state;
     static const struct {
         const char *format;
         double neutral, step, tolerance;
@@ -230,9 +228,8 @@ static char *edited(const char *deck, const char *old, const char *new)
 }
 
 /* An effect does what a deck with other cards says. */
-static void effects_are_what_other_cards_say(void **state)
+UNIT_TEST(effects_are_what_other_cards_say)
 {
-    (void)state;
     static const char core[] = "*SHAFT, NAME=core, MATERIAL=lamination\n0.924192, 0.334092, 0, 50\n";
     static const char tie[] = "FROM=core.start, TO=core.end, MODEL=TUBE, SELF_EQUILIBRATED=NO\n12, 0.032, 0.13364, 150e3, 1";
     /* a joint is a disc that bends with EI = length/flexibility, does not shear and weighs nothing, inside of the rods' ends */
@@ -282,9 +279,8 @@ static void effects_are_what_other_cards_say(void **state)
 }
 
 /* A pin in the bore of a shaft makes a solid one, and made stiff in shear, both stay the same beam. */
-static void a_layer_is_a_part_of_the_section(void **state)
+UNIT_TEST(a_layer_is_a_part_of_the_section)
 {
-    (void)state;
     static const char solid_bar[] =
         "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=bar, MATERIAL=steel\n"
         "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9\n*SENSORS\n1, 0.3\n";
@@ -329,9 +325,8 @@ static void a_layer_is_a_part_of_the_section(void **state)
 }
 
 /* input/solid_steel_stiff.inp has cones of 30 degrees as stairs of four: within 1e-3, of an effect of up to 6 %. */
-static void cones_are_those_of_the_deck_with_stairs(void **state)
+UNIT_TEST(cones_are_those_of_the_deck_with_stairs)
 {
-    (void)state;
     char *steel = read_deck("solid_steel.inp"), *stairs = read_deck("solid_steel_stiff.inp");
     const char *cone = "step_stiffness:angle=30";
     struct hide_request r = hide_request_default();
@@ -353,9 +348,8 @@ static void cones_are_those_of_the_deck_with_stairs(void **state)
 }
 
 /* Cutting finer changes what cannot be seen. */
-static void varying_stiffness_is_converged(void **state)
+UNIT_TEST(varying_stiffness_is_converged)
 {
-    (void)state;
     static const char *const table[] = {"step_stiffness:angle=30", "stiffness_local:depth=0.9,z=0.62,width=0.06",
                                         "stiffness_gradient:group=core,slope=0.6", "stiffness_profile:group=core,profile=-0.8",
                                         "outside:kind=sine,group=core,amplitude=0.5,waves=3"};
@@ -375,9 +369,8 @@ static void varying_stiffness_is_converged(void **state)
 
 /* ---- noise ---- */
 
-static void noise_is_as_stated(void **state)
+UNIT_TEST(noise_is_as_stated)
 {
-    (void)state;
     struct hide_request r = clean(solid);
     enum { sensors = 1000, modes = 10, seeds = 300 };
     double *shape = malloc(2 * modes * sensors * sizeof *shape), *without = shape + modes * sensors, sum = 0, lag = 0,
@@ -420,9 +413,8 @@ static void noise_is_as_stated(void **state)
     assert_close(sqrt(squares / (seeds * MODES)), 1, 0.05, 0);
 }
 
-static void a_seed_is_a_case(void **state)
+UNIT_TEST(a_seed_is_a_case)
 {
-    (void)state;
     struct hide_request r = hide_request_default();
     const char *mass = "added_mass:mass=1e-9,z=1";
     double shape[2][MODES * SENSORS];
@@ -450,9 +442,8 @@ static void a_seed_is_a_case(void **state)
 
 /* ---- faults of the data ---- */
 
-static void faults_are_where_they_are_said_to_be(void **state)
+UNIT_TEST(faults_are_where_they_are_said_to_be)
 {
-    (void)state;
     static const char *const table[] = {"sensor_gain:sensor=23,gain=1.4",   "sensor_sign:sensor=5",
                                         "sensor_swap:sensors=12+13",        "duplicate_channel:sensor=7,of=6",
                                         "noise_level:block=SHAPE,factor=2", "mode_pairing:swap=2+3"};
@@ -492,9 +483,8 @@ static void faults_are_where_they_are_said_to_be(void **state)
     }
 }
 
-static void sensors_and_modes_change_as_asked(void **state)
+UNIT_TEST(sensors_and_modes_change_as_asked)
 {
-    (void)state;
     double all[MODES], some[MODES + 1], shape[MODES * SENSORS];
     struct result bare = make_with(paper, NULL), missing = make_with(paper, "mode_pairing:missing=3"),
                   twice = make_with(paper, "mode_pairing:double=3,split=0.01"),
@@ -542,9 +532,8 @@ static void *draw(void *seed)
 }
 
 /* Cases made beside each other are the cases made alone; what was drawn can be typed; the deck does not say it. */
-static void draws(void **state)
+UNIT_TEST(draws)
 {
-    (void)state;
     enum { together = 4 };
     int effects = 0;
     for (uint64_t first = 1; first <= 60; first += together) {
@@ -582,9 +571,8 @@ static void draws(void **state)
     assert_in_range(effects, 30, 90);
 }
 
-static void messages_say_what_was_expected(void **state)
+UNIT_TEST(messages_say_what_was_expected)
 {
-    (void)state;
     static const struct {
         const char *spec, *text;
     } table[] = {{"stiffnes:group=left", "expected one of --list"},
@@ -651,22 +639,4 @@ static int close_decks(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_effect_it_is_the_oracle),
-        cmocka_unit_test(frequencies_move_as_they_must),
-        cmocka_unit_test(effects_vanish_smoothly),
-        cmocka_unit_test(effects_are_what_other_cards_say),
-        cmocka_unit_test(a_layer_is_a_part_of_the_section),
-        cmocka_unit_test(cones_are_those_of_the_deck_with_stairs),
-        cmocka_unit_test(varying_stiffness_is_converged),
-        cmocka_unit_test(noise_is_as_stated),
-        cmocka_unit_test(a_seed_is_a_case),
-        cmocka_unit_test(faults_are_where_they_are_said_to_be),
-        cmocka_unit_test(sensors_and_modes_change_as_asked),
-        cmocka_unit_test(draws),
-        cmocka_unit_test(messages_say_what_was_expected),
-    };
-    return cmocka_run_group_tests_name("hide", tests, open_decks, close_decks);
-}
+TEST_GROUP(open_decks, close_decks);

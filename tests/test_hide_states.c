@@ -51,9 +51,8 @@ static void assert_data(const struct job *a, const struct job *b)
 }
 
 /* Without noise: what the rotor of that state alone gives, written out as a deck without *STATE. */
-static void data_are_those_of_each_state(void **state)
+POOL_TEST(data_are_those_of_each_state)
 {
-    (void)state;
     static const char *const alone[] = {
         COMMON, COMMON DISC,
         "*HEADING\nbar\n*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"
@@ -107,9 +106,8 @@ static double truth_of(const char *truth)
 }
 
 /* Noise of its own in each state, and a truth that all of them together find. */
-static void states_together_find_the_truth(void **state)
+POOL_TEST(states_together_find_the_truth)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 3; seed++) {
         struct hide_request r = request_of(STATES);
         struct identification found[4];
@@ -132,9 +130,8 @@ static void states_together_find_the_truth(void **state)
 }
 
 /* What is hidden in one state leaves the others as they were, and what is drawn is in all. */
-static void effects_are_in_all_states_or_in_one(void **state)
+POOL_TEST(effects_are_in_all_states_or_in_one)
 {
-    (void)state;
     static const char *const in = "disc=added_mass:mass=0.5,z=0.9";
     struct hide_request r = request_of(STATES);
     char *deck[3], *truth[3];
@@ -176,9 +173,8 @@ static void assert_refused(const char *deck, const char *in, const char *says)
 }
 
 /* Lines are those of the deck. */
-static void what_is_wrong_has_its_line(void **state)
+POOL_TEST(what_is_wrong_has_its_line)
 {
-    (void)state;
     assert_refused(COMMON "*STATE\n", NULL, "deck:21: *STATE: expected NAME=name, without quotes");
     assert_refused(COMMON "*STATE, NAME=a\n*STATE, NAME=b\n*SET\ncore.E, 2e11\n", NULL,
                    "deck:24: *SET: expected GROUP.length, SPRING.k or SPRING.k_rot and a value above zero: this program cannot "
@@ -188,13 +184,4 @@ static void what_is_wrong_has_its_line(void **state)
     assert_refused(COMMON, "disc=added_mass:mass=1,z=0.5", "--effect-in: deck has no *STATE, expected --effect");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(data_are_those_of_each_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(states_together_find_the_truth, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(effects_are_in_all_states_or_in_one, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_wrong_has_its_line, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("hide_states", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -17,6 +17,7 @@
 #include "api_dump.h"
 #include "base/base.h"
 #include "paper_fit.h"
+#include "support.h"
 
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 
@@ -102,9 +103,8 @@ static void assert_trapping(void)
     assert_int_equal(rounding, FE_TONEAREST);
 }
 
-static void a_host_with_traps_survives_the_first_layer(void **state)
+UNIT_TEST(a_host_with_traps_survives_the_first_layer)
 {
-    (void)state;
     if (!traps_work())
         skip();
     trap();
@@ -137,9 +137,8 @@ static int has_no_number(void *user, int m, int n, const double *x, double *r, d
     return 0;
 }
 
-static void a_host_with_traps_survives_a_fit(void **state)
+UNIT_TEST(a_host_with_traps_survives_a_fit)
 {
-    (void)state;
     if (!traps_work())
         skip();
     struct paper_fit fit;
@@ -229,9 +228,8 @@ static void run_in(const char *name, const char *text_of_number)
     }
 }
 
-static void a_host_with_a_decimal_comma_gets_the_same_numbers(void **state)
+UNIT_TEST(a_host_with_a_decimal_comma_gets_the_same_numbers)
 {
-    (void)state;
     if (!build_locale("de_DE", "UTF-8", "de_DE.UTF-8")) {
         print_message("skipped: localedef cannot build de_DE.UTF-8\n");
         skip();
@@ -240,9 +238,8 @@ static void a_host_with_a_decimal_comma_gets_the_same_numbers(void **state)
 }
 
 /* There the capital of i is no I, so that "fit" would not be FIT. */
-static void a_turkish_host_may_write_cards_in_small_letters(void **state)
+UNIT_TEST(a_turkish_host_may_write_cards_in_small_letters)
 {
-    (void)state;
     if (!build_locale("tr_TR", "ISO-8859-9", "tr_TR.ISO-8859-9")) {
         print_message("skipped: localedef cannot build tr_TR.ISO-8859-9\n");
         skip();
@@ -271,9 +268,8 @@ static int look(void *context, int index, int worker)
     return 0;
 }
 
-static void workers_compute_as_their_caller(void **state)
+UNIT_TEST(workers_compute_as_their_caller)
 {
-    (void)state;
     struct seen seen = {.failed = {0}};
     struct host_locale outer;
     fenv_t floating;
@@ -295,9 +291,8 @@ static void workers_compute_as_their_caller(void **state)
     assert_true(uselocale((locale_t)0) == LC_GLOBAL_LOCALE);
 }
 
-static void the_blas_keeps_the_number_of_threads_of_its_host(void **state)
+UNIT_TEST(the_blas_keeps_the_number_of_threads_of_its_host)
 {
-    (void)state;
     int began_with = blas_threads();
     if (!began_with)
         skip(); /* a BLAS without */
@@ -324,9 +319,8 @@ static void the_blas_keeps_the_number_of_threads_of_its_host(void **state)
     set_blas_threads(began_with);
 }
 
-static void an_error_of_the_system_has_a_text(void **state)
+UNIT_TEST(an_error_of_the_system_has_a_text)
 {
-    (void)state;
     char text[HOST_ERROR_TEXT];
     assert_string_equal(host_error_text(2, text), strerror(2));
     assert_true(host_error_text(123456, text)[0] != 0);
@@ -356,16 +350,4 @@ static int remove_directory(void **state)
     return system(command);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_host_with_traps_survives_the_first_layer),
-        cmocka_unit_test(a_host_with_traps_survives_a_fit),
-        cmocka_unit_test(a_host_with_a_decimal_comma_gets_the_same_numbers),
-        cmocka_unit_test(a_turkish_host_may_write_cards_in_small_letters),
-        cmocka_unit_test(workers_compute_as_their_caller),
-        cmocka_unit_test(the_blas_keeps_the_number_of_threads_of_its_host),
-        cmocka_unit_test(an_error_of_the_system_has_a_text),
-    };
-    return cmocka_run_group_tests_name("host", tests, open_directory, remove_directory);
-}
+TEST_GROUP(open_directory, remove_directory);

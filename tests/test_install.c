@@ -100,9 +100,8 @@ static const char *expected_files(void)
     return shell(&test_pool, "sort <<'END'\n%sEND", list);
 }
 
-static void every_file_is_where_it_belongs(void **state)
+POOL_TEST(every_file_is_where_it_belongs)
 {
-    (void)state;
     assert_string_equal(shell(&test_pool, "cd %s && find . ! -type d | sed 's|^./||' | sort", prefix), expected_files());
     assert_string_equal(shell(&test_pool, "cd %s/lib && readlink librotid.so %s", prefix, soname()),
                         text("%s\nlibrotid.so.%s\n", soname(), ROTID_VERSION));
@@ -121,9 +120,8 @@ static void every_file_is_where_it_belongs(void **state)
     assert_string_equal(pkg_config("--modversion"), ROTID_VERSION);
 }
 
-static void a_package_is_staged_and_taken_away_again(void **state)
+POOL_TEST(a_package_is_staged_and_taken_away_again)
 {
-    (void)state;
     char stage[] = "/tmp/test_install_XXXXXX";
     assert_non_null(mkdtemp(stage));
     const char *where = text("DESTDIR=%s PREFIX=/usr LIBDIR=/usr/lib/some-triplet DOCDIR=/opt/doc/rotid", stage);
@@ -160,9 +158,8 @@ static void a_package_is_staged_and_taken_away_again(void **state)
 }
 
 /* Nothing is installed by halves, and it is said what to do. */
-static void a_place_that_cannot_be_written_to_is_named(void **state)
+POOL_TEST(a_place_that_cannot_be_written_to_is_named)
 {
-    (void)state;
     char folder[] = "/tmp/test_install_XXXXXX";
     const char *output, *as_user = "";
     assert_non_null(mkdtemp(folder));
@@ -198,9 +195,8 @@ static void run_host(const char *compiler, const char *source, const char *link,
                         "ok " ROTID_VERSION "\n");
 }
 
-static void hosts_link_statically_beside_routines_of_the_same_name(void **state)
+POOL_TEST(hosts_link_statically_beside_routines_of_the_same_name)
 {
-    (void)state;
     run_host(CC, "namesakes.c", pkg_config("--variable=static_libs"), "static");
     assert_string_equal(shell(&test_pool, "objdump -p %s/static | grep librotid || true", prefix), "");
     /* where there is no shared library, by the usual option */
@@ -215,9 +211,8 @@ static void hosts_link_statically_beside_routines_of_the_same_name(void **state)
 }
 
 /* What it does not call is not in it. */
-static void a_host_of_the_minimiser_alone_stays_small(void **state)
+POOL_TEST(a_host_of_the_minimiser_alone_stays_small)
 {
-    (void)state;
     (void)shell(&test_pool, "cd %s && %s %s " SOURCES "/docs/examples/curve.c %s -lm -o curve", prefix, CC,
                 pkg_config("--cflags"), pkg_config("--variable=static_libs"));
     const char *names = shell(&test_pool, "nm %s/curve | awk '$3 ~ /^rotid_/ { print $3 }'", prefix);
@@ -228,9 +223,8 @@ static void a_host_of_the_minimiser_alone_stays_small(void **state)
     (void)shell(&test_pool, "rm %s/curve", prefix);
 }
 
-static void hosts_link_the_shared_library(void **state)
+POOL_TEST(hosts_link_the_shared_library)
 {
-    (void)state;
     const char *libs = pkg_config("--libs");
     assert_string_equal(libs, text("-L%s/lib -lrotid ", prefix));
     assert_string_equal(pkg_config("--cflags"),
@@ -241,9 +235,8 @@ static void hosts_link_the_shared_library(void **state)
     (void)shell(&test_pool, "rm %s/shared", prefix);
 }
 
-static void the_header_serves_c99_and_cpp(void **state)
+POOL_TEST(the_header_serves_c99_and_cpp)
 {
-    (void)state;
     static const char *const compilers[] = {"g++", "clang++", "clang++-14", NULL}, *const c[] = {"gcc", "clang", "clang-14",
                                                                                                  NULL};
     for (int i = 0; compilers[i]; i++)
@@ -267,16 +260,4 @@ static void the_header_serves_c99_and_cpp(void **state)
     (void)shell(&test_pool, "rm %s/host", prefix);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(every_file_is_where_it_belongs, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_package_is_staged_and_taken_away_again, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_place_that_cannot_be_written_to_is_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(hosts_link_statically_beside_routines_of_the_same_name, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_host_of_the_minimiser_alone_stays_small, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(hosts_link_the_shared_library, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_header_serves_c99_and_cpp, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, install, remove_all);
-}
+TEST_GROUP(install, remove_all);

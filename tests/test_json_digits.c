@@ -21,7 +21,7 @@ static void same_as_printf(double value)
     json_free(text);
 }
 
-static void test_digits(void **state)
+UNIT_TEST(test_digits)
 {
     static const double number[] = {
         0,           -0.0,     1,           -1,          0.1,         0.5,         9.99999999949, 9.9999999995,
@@ -29,7 +29,6 @@ static void test_digits(void **state)
         99999.99995, 1e-5,     1e-13,       1e-14,       1e29,        1e30,        5e-324,        1.7976931348623157e308,
         1.5,         1024.125, 1e22,        1e23,        123456,      -0.000123456};
     struct random_stream stream = {1};
-    (void)state;
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         same_as_printf(number[i]);
     for (int i = 0; i < 100000; i++)
@@ -43,20 +42,13 @@ static void test_digits(void **state)
     }
 }
 
-static void test_rows_and_gaps(void **state)
+UNIT_TEST(test_rows_and_gaps)
 {
     const double value[] = {1, NAN, 3.25, INFINITY};
     struct json_tree tree;
-    (void)state;
     json_open(&tree);
     json_digit_rows(&tree, tree.root, "a", 2, 2, value);
     char *text = json_close_line(&tree);
     assert_string_equal(text, "{\"a\":[[1,3.25],[null,null]]}\n");
     json_free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_digits), cmocka_unit_test(test_rows_and_gaps)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void has(const cJSON *object, size_t count, const struct number *number)
 #define HAS(object, ...)                                                                                                         \
     has((object), sizeof((struct number[]){__VA_ARGS__}) / sizeof(struct number), (struct number[]){__VA_ARGS__})
 
-static void groups_have_the_sections_and_materials_of_their_cards(void **state)
+UNIT_TEST(groups_have_the_sections_and_materials_of_their_cards)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, FULL);
     cJSON *json = json_deck_check(&deck);
@@ -78,9 +77,8 @@ static void groups_have_the_sections_and_materials_of_their_cards(void **state)
 }
 
 /* Layers stand behind the groups of the axis, with the sections of their host. */
-static void layers_are_groups_with_rings_and_sheets(void **state)
+UNIT_TEST(layers_are_groups_with_rings_and_sheets)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, STEEL "*MATERIAL, NAME=sheets\n*ELASTIC, TYPE=LAMINATED\n1.5e10, 0.7e10, 2.1e11, 0.28, 0.97\n"
                                 "*DENSITY\n7650\n*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.1, 0, 4\n"
@@ -101,9 +99,8 @@ static void layers_are_groups_with_rings_and_sheets(void **state)
     json_deck_close(&deck);
 }
 
-static void what_is_attached_stands_where_the_deck_has_it(void **state)
+UNIT_TEST(what_is_attached_stands_where_the_deck_has_it)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, FULL);
     cJSON *json = json_deck_check(&deck);
@@ -134,9 +131,8 @@ static void what_is_attached_stands_where_the_deck_has_it(void **state)
 }
 
 /* (44) with the mass and the centre that the same result states */
-static void a_sling_appears_as_its_two_springs(void **state)
+UNIT_TEST(a_sling_appears_as_its_two_springs)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, FULL);
     cJSON *json = json_deck_check(&deck);
@@ -152,9 +148,8 @@ static void a_sling_appears_as_its_two_springs(void **state)
     json_deck_close(&deck);
 }
 
-static void causes_of_the_model_name_their_targets(void **state)
+UNIT_TEST(causes_of_the_model_name_their_targets)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, FULL "*CAUSE, NAME=guess, TYPE=density, GROUP=core, SUSPECT\n"); /* no part of the model */
     cJSON *json = json_deck_check(&deck);
@@ -179,9 +174,8 @@ static void causes_of_the_model_name_their_targets(void **state)
     json_deck_close(&deck);
 }
 
-static void the_nodes_are_those_of_the_mesh(void **state)
+UNIT_TEST(the_nodes_are_those_of_the_mesh)
 {
-    (void)state;
     static const double wanted[] = {0, 0.05, 0.1, 0.15, 0.3, 0.5, 0.6, 0.75, 1, 1.25, 1.3, 1.4}; /* ends and what is attached */
     double z[64], reach = 0.01 * 0.4 / 5;                                                        /* of the longest element */
     struct json_deck deck;
@@ -208,9 +202,8 @@ static void the_nodes_are_those_of_the_mesh(void **state)
           "*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.05, 0, 6\n"
 
 /* E of the isotropic core moves, and its G with it; the other groups of the same material keep theirs. */
-static void an_identified_model_has_the_identified_values(void **state)
+UNIT_TEST(an_identified_model_has_the_identified_values)
 {
-    (void)state;
     struct json_deck deck;
     json_deck_open(&deck, SHAFT MODES "*SPRING, NAME=mount\nstart, 1e4\n*IDENTIFY\ncore.E, 1e9, 1e12, 1.7e11\n"
                                       "mount.k, 1e3, 1e6, 2e4\n");
@@ -229,9 +222,8 @@ static void an_identified_model_has_the_identified_values(void **state)
     json_deck_close(&deck);
 }
 
-static void references_of_the_heading_come_along(void **state)
+UNIT_TEST(references_of_the_heading_come_along)
 {
-    (void)state;
     struct json_deck deck;
     double value[3];
     json_deck_open(&deck, "*HEADING\na rotor\npaper error_percent = 1.5, -2, 3e-4\n" SHAFT);
@@ -243,19 +235,4 @@ static void references_of_the_heading_come_along(void **state)
     assert_int_equal(cJSON_GetArraySize(get(json, "references")), 1);
     cJSON_Delete(json);
     json_deck_close(&deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groups_have_the_sections_and_materials_of_their_cards),
-        cmocka_unit_test(layers_are_groups_with_rings_and_sheets),
-        cmocka_unit_test(what_is_attached_stands_where_the_deck_has_it),
-        cmocka_unit_test(a_sling_appears_as_its_two_springs),
-        cmocka_unit_test(causes_of_the_model_name_their_targets),
-        cmocka_unit_test(the_nodes_are_those_of_the_mesh),
-        cmocka_unit_test(an_identified_model_has_the_identified_values),
-        cmocka_unit_test(references_of_the_heading_come_along),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

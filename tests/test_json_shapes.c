@@ -109,9 +109,8 @@ static void judge_shape(const cJSON *json, int k, int with_std)
     assert_true(mac > 0.9 && mac < 0.99999);
 }
 
-static void shapes_have_one_scale_and_give_the_printed_mac(void **state)
+UNIT_TEST(shapes_have_one_scale_and_give_the_printed_mac)
 {
-    (void)state;
     for (int with = 0; with < 2; with++) {
         struct json_deck deck;
         json_deck_open(&deck, noisy_deck(with ? NOISE : "", with));
@@ -133,9 +132,8 @@ static void shapes_have_one_scale_and_give_the_printed_mac(void **state)
     }
 }
 
-static void matrices_hold_the_printed_values_where_mode_meets_partner(void **state)
+UNIT_TEST(matrices_hold_the_printed_values_where_mode_meets_partner)
 {
-    (void)state;
     struct json_deck deck;
     double row[8];
     json_deck_open(&deck, noisy_deck(NOISE, 0));
@@ -164,9 +162,8 @@ static void matrices_hold_the_printed_values_where_mode_meets_partner(void **sta
 }
 
 /* The numbers of a measured mode and of its partner stand apart: here the deck numbers modes 1 and 2 the wrong way round. */
-static void rows_carry_the_numbers_of_the_deck(void **state)
+UNIT_TEST(rows_carry_the_numbers_of_the_deck)
 {
-    (void)state;
     char *text = noisy_deck(NOISE, 0), *first = strstr(text, "MODE=1"), *second = strstr(text, "MODE=2");
     struct json_deck deck;
     double row[6];
@@ -198,9 +195,8 @@ static double largest_of(int count, const double *x)
     return largest;
 }
 
-static void without_measured_shapes_the_axis_has_its_largest_deflection_at_one(void **state)
+UNIT_TEST(without_measured_shapes_the_axis_has_its_largest_deflection_at_one)
 {
-    (void)state;
     static const char *const sensors[] = {"", "*SENSORS\n1, 0.02\n2, 0.5\n"};
     for (int with = 0; with < 2; with++) {
         char text[1024];
@@ -233,9 +229,8 @@ static void without_measured_shapes_the_axis_has_its_largest_deflection_at_one(v
           "*TIEROD, NAME=tube, MATERIAL=steel, FROM=0.1, TO=0.8, MODEL=TUBE\n6, 0.008, 0.035, 1e3\n"                             \
           "*BARS, NAME=cage, MATERIAL=steel, CENTER=0.5, LENGTH=0.3\n12, 0.006, 0.045, 4\n"
 
-static void members_of_a_result_meet_the_axis_where_they_are_fixed(void **state)
+UNIT_TEST(members_of_a_result_meet_the_axis_where_they_are_fixed)
 {
-    (void)state;
     struct json_deck deck;
     double axis_z[128], axis[128], z[32], shape[32];
     json_deck_open(&deck, MEMBERS "*MODES\n1, 350\n2, 640\n" IDENTIFY);
@@ -270,9 +265,8 @@ static void members_of_a_result_meet_the_axis_where_they_are_fixed(void **state)
 /* ---- the rest of an identification */
 
 /* NLopt ends where Levenberg-Marquardt does, so it predicts the same; the history ends at the result. */
-static void the_baseline_says_what_it_predicts(void **state)
+UNIT_TEST(the_baseline_says_what_it_predicts)
 {
-    (void)state;
     struct json_deck deck;
     double hz[3];
     json_deck_open(&deck, noisy_deck(NOISE "*FIT, REDUCTION=IRS, FUNCTIONAL=HYBRID\n", 0));
@@ -298,9 +292,8 @@ static void *scarce(size_t bytes)
     return until_failure > 0 && --until_failure == 0 ? NULL : malloc(bytes);
 }
 
-static void a_result_is_whole_or_not_there(void **state)
+UNIT_TEST(a_result_is_whole_or_not_there)
 {
-    (void)state;
     struct json_deck deck;
     char *text = NULL;
     json_deck_open(
@@ -322,9 +315,8 @@ static void a_result_is_whole_or_not_there(void **state)
 /* ---- size */
 
 /* 2,000 elements, 500 sensors, ten modes with shapes. */
-static void a_large_result_stays_small(void **state)
+UNIT_TEST(a_large_result_stays_small)
 {
-    (void)state;
     static char text[TEXT];
     struct json_deck deck;
     struct spectrum s;
@@ -361,19 +353,4 @@ static void a_large_result_stays_small(void **state)
     cJSON_free(printed);
     cJSON_Delete(json);
     json_deck_close(&deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_have_one_scale_and_give_the_printed_mac),
-        cmocka_unit_test(matrices_hold_the_printed_values_where_mode_meets_partner),
-        cmocka_unit_test(rows_carry_the_numbers_of_the_deck),
-        cmocka_unit_test(without_measured_shapes_the_axis_has_its_largest_deflection_at_one),
-        cmocka_unit_test(members_of_a_result_meet_the_axis_where_they_are_fixed),
-        cmocka_unit_test(the_baseline_says_what_it_predicts),
-        cmocka_unit_test(a_result_is_whole_or_not_there),
-        cmocka_unit_test(a_large_result_stays_small),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,9 +10,8 @@
 #include "result/result.h"
 #include "support.h"
 
-static void errors_of_fitted_modes_and_of_those_held_out_stand_apart(void **state)
+UNIT_TEST(errors_of_fitted_modes_and_of_those_held_out_stand_apart)
 {
-    (void)state;
     rotid_compared_mode modes[] = {
         {.error_percent = NAN}, {.error_percent = 3}, {.error_percent = -4}, {.error_percent = 12, .holdout = 1}};
     const rotid_identification fit = {.nmodes = 4, .modes = modes}, fitted = {.nmodes = 3, .modes = modes},
@@ -26,9 +25,8 @@ static void errors_of_fitted_modes_and_of_those_held_out_stand_apart(void **stat
 }
 
 /* Of two degrees of freedom the tail is exp(-chi2/2). */
-static void noise_explains_a_misfit_or_the_model_is_not_adequate(void **state)
+UNIT_TEST(noise_explains_a_misfit_or_the_model_is_not_adequate)
 {
-    (void)state;
     static const struct {
         double p;
         const char *says, *silent;
@@ -67,9 +65,8 @@ static void noise_explains_a_misfit_or_the_model_is_not_adequate(void **state)
 }
 
 /* The fit as the deck states it is shown where it says something else by another choice. */
-static void the_fit_of_today_is_shown_where_it_differs(void **state)
+UNIT_TEST(the_fit_of_today_is_shown_where_it_differs)
 {
-    (void)state;
     rotid_fitted_parameter now[] = {{.name = "core.E", .value = 1.01e11}}, near[] = {{.name = "core.E", .value = 1.0005e11}},
                            then[] = {{.name = "core.E", .value = 1e11}};
     rotid_identification today = {.functional = "HYBRID", .reduction = "GUYAN", .nparameters = 1, .parameters = now},
@@ -84,9 +81,8 @@ static void the_fit_of_today_is_shown_where_it_differs(void **state)
 }
 
 /* One rule for a wide interval, in identify as in a diagnosis. */
-static void an_interval_is_wide_from_15_per_cent_on(void **state)
+UNIT_TEST(an_interval_is_wide_from_15_per_cent_on)
 {
-    (void)state;
     char text[32];
     assert_false(interval_is_wide(-2, -2.29, -1.71));
     assert_true(interval_is_wide(-2, -2.31, -1.69));
@@ -129,13 +125,4 @@ static void an_interval_is_wide_from_15_per_cent_on(void **state)
     free(screen);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_interval_is_wide_from_15_per_cent_on),
-        cmocka_unit_test(errors_of_fitted_modes_and_of_those_held_out_stand_apart),
-        cmocka_unit_test(noise_explains_a_misfit_or_the_model_is_not_adequate),
-        cmocka_unit_test(the_fit_of_today_is_shown_where_it_differs),
-    };
-    return cmocka_run_group_tests_name("judgement", tests, open_test_pool, close_test_pool);
-}
+TEST_GROUP(open_test_pool, close_test_pool);

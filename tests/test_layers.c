@@ -10,6 +10,7 @@
 #include "folder.h"
 #include "model/model.h"
 #include "solid/solid.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -57,9 +58,8 @@ static double inverse_of(const struct section *section, const struct material *m
     return material->g * section->stiff_area / shear_stiffness_plain(section, material);
 }
 
-static void shear_of_a_stack_is_that_of_the_flexure_function(void **state)
+POOL_TEST(shear_of_a_stack_is_that_of_the_flexure_function)
 {
-    (void)state;
     const double ratio[] = {0.1, 0.45, 0.9}, e[] = {1.2e10, 2.1e11}, g[] = {0.3e10, 0.8e11};
     for (int i = 0; i < 12; i++) {
         struct section section;
@@ -72,9 +72,8 @@ static void shear_of_a_stack_is_that_of_the_flexure_function(void **state)
     }
 }
 
-static void shear_of_a_stack_has_its_limits(void **state)
+POOL_TEST(shear_of_a_stack_has_its_limits)
 {
-    (void)state;
     struct section disc, ring, plate;
     struct material material = stack(1.5e10, 0.7e10, 0.3);
     double x = 0.3 * 0.7e10 / 2.1e11;
@@ -120,9 +119,8 @@ static double contraction_of(int count, const struct section *section, const str
     return sum;
 }
 
-static void derivatives_of_the_shear_of_any_materials_are_right(void **state)
+POOL_TEST(derivatives_of_the_shear_of_any_materials_are_right)
 {
-    (void)state;
     const struct material materials[4] = {stack(1.5e10, 6e10, 0.3),
                                           {.e = 2e11, .nu = 0.28, .isotropic = 1},
                                           {.e = 1e11, .g = 3e10, .nu = 0.25},
@@ -200,9 +198,8 @@ static double by_elements(double a, double b, const double *e, const double *g, 
     return pi * j * j / mean;
 }
 
-static void shear_of_two_layers_is_that_of_the_flexure_function(void **state)
+POOL_TEST(shear_of_two_layers_is_that_of_the_flexure_function)
 {
-    (void)state;
     const struct material pairs[][2] = {{{.e = 2.1e11, .nu = 0.3, .isotropic = 1}, stack(1.2e10, 0.4e10, 0.29)},
                                         {stack(1e11, 0.5e11, 0.3), {.e = 7e10, .nu = 0.34, .isotropic = 1}},
                                         {{.e = 1e11, .g = 2e10, .nu = 0.25}, {.e = 2e11, .nu = 0.28, .isotropic = 1}}};
@@ -268,9 +265,8 @@ static double bending_by_elements(int count, const double *radius, const struct 
     return pi * energy;
 }
 
-static void bending_of_layers_is_that_of_their_plane_strains(void **state)
+POOL_TEST(bending_of_layers_is_that_of_their_plane_strains)
 {
-    (void)state;
     const struct material material[3] = {
         {.e = 2.1e11, .nu = 0.3, .isotropic = 1}, stack(2e10, 0.5e10, 0.29), {.e = 1.2e11, .g = 3e10, .nu = 0.36}};
     const double radius[] = {0.1, 0.4, 0.7, 0.8};
@@ -290,9 +286,8 @@ static void bending_of_layers_is_that_of_their_plane_strains(void **state)
 }
 
 /* Whatever its moduli: G of 1e-3 of E and a wall of 1e-4 of the diameter too. */
-static void a_cut_in_one_material_changes_nothing(void **state)
+POOL_TEST(a_cut_in_one_material_changes_nothing)
 {
-    (void)state;
     const struct material materials[] = {
         {.e = 2e11, .nu = 0.28, .isotropic = 1}, {.e = 1e11, .g = 1e8, .nu = 0.25}, stack(9e10, 4e10, 0.2)};
     const double diameter[] = {0, 0.1, 0.5, 0.5001, 1};
@@ -334,9 +329,8 @@ static void add_layer(struct rotor *rotor, const char *name, int segment, double
     rotor->ring[rotor->nring++] = (struct ring){rotor->ngroup++, segment, outer, inner};
 }
 
-static void two_layers_by_hand(void **state)
+POOL_TEST(two_layers_by_hand)
 {
-    (void)state;
     struct rotor rotor = shaft(0.1);
     struct beam beam;
     struct element bare, element;
@@ -372,9 +366,8 @@ static void two_layers_by_hand(void **state)
 }
 
 /* EI, kGS and mass of a shaft do not know a cut along it, nor whether its own material lies within or outside. */
-static void a_shaft_cut_into_core_and_rings_bends_alike(void **state)
+POOL_TEST(a_shaft_cut_into_core_and_rings_bends_alike)
 {
-    (void)state;
     struct rotor rotor = shaft(0.3);
     struct beam whole, cut;
     struct element a, b;
@@ -404,9 +397,8 @@ static void a_shaft_cut_into_core_and_rings_bends_alike(void **state)
     assert_close(of_cut.inertia, of_whole.inertia, 1e-13, 0);
 }
 
-static void holes_are_those_of_their_layer(void **state)
+POOL_TEST(holes_are_those_of_their_layer)
 {
-    (void)state;
     struct rotor rotor = shaft(0.1);
     struct section section;
     struct beam beam;
@@ -478,9 +470,8 @@ static const struct subject {
 };
 
 /* The mean over an element of 1 - cosh(x/t)/cosh(a/t), by many points; nothing at neutral, all of it lost towards the ends. */
-static void a_layer_that_slips_carries_by_shear_lag(void **state)
+POOL_TEST(a_layer_that_slips_carries_by_shear_lag)
 {
-    (void)state;
     struct rotor *rotor = layered();
     double begin, end;
     rotor_group_span(rotor, 3, &begin, &end);
@@ -509,9 +500,8 @@ static void a_layer_that_slips_carries_by_shear_lag(void **state)
     assert_int_equal(cause_stiffness.applies(rotor, 3, (const int[]){0, 1, 0, 0, 0}), 1);
 }
 
-static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **state)
+POOL_TEST(derivatives_by_what_is_of_a_layer_agree_with_differences)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++) {
         const struct subject *s = &subjects[i];
         struct rotor *rotor = layered();
@@ -537,9 +527,8 @@ static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **stat
 }
 
 /* What a factor on a layer does is what another modulus of that layer does, and to that layer alone. */
-static void a_cause_on_a_layer_leaves_the_other_parts_alone(void **state)
+POOL_TEST(a_cause_on_a_layer_leaves_the_other_parts_alone)
 {
-    (void)state;
     struct element scaled, stiffer;
     struct beam beam;
     struct rotor *rotor = layered();
@@ -560,9 +549,8 @@ static void a_cause_on_a_layer_leaves_the_other_parts_alone(void **state)
 
 /* A stack that is longer than its shaft is thick: at its ends the cone from the shaft leaves a share of the stack, none of the
  * shaft. */
-static void cones_cut_off_the_layer_and_not_what_lies_within(void **state)
+POOL_TEST(cones_cut_off_the_layer_and_not_what_lies_within)
 {
-    (void)state;
     struct rotor rotor = shaft(0.1);
     struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {45}};
     struct effect_span span = {3, 1, 0.5, 0.55};
@@ -579,9 +567,8 @@ static void cones_cut_off_the_layer_and_not_what_lies_within(void **state)
     assert_int_equal(effect.kind->section(&effect, &rotor, &span, -1, &factor), 0);
 }
 
-static void rotors_that_differ_in_a_ring_have_another_shape(void **state)
+POOL_TEST(rotors_that_differ_in_a_ring_have_another_shape)
 {
-    (void)state;
     struct rotor rotor = shaft(0.1), copy;
     add_layer(&rotor, "stack", 1, 0.3, 0.1, stack(1.4e10, 0.7e10, 0.3));
     assert_status(rotor_copy(&test_pool, &rotor, &copy), ROTID_OK);
@@ -620,9 +607,8 @@ static void read_deck(const char *text, struct job *job)
     assert_status(status, ROTID_OK);
 }
 
-static void a_deck_lays_rings_in_order(void **state)
+POOL_TEST(a_deck_lays_rings_in_order)
 {
-    (void)state;
     struct job job;
     const struct rotor *rotor = &job.rotor;
     /* the layers first, and the cards of the rotor behind them: the order of kinds of cards does not matter */
@@ -661,9 +647,8 @@ static void a_deck_lays_rings_in_order(void **state)
 }
 
 /* The deck that ships: its stack is a parameter that moves its frequencies. */
-static void the_shipped_motor_is_a_model(void **state)
+POOL_TEST(the_shipped_motor_is_a_model)
 {
-    (void)state;
     struct job job;
     struct message_list messages;
     struct rotor_model model;
@@ -680,27 +665,4 @@ static void the_shipped_motor_is_a_model(void **state)
     assert_close(own.mass, 6059.1, 1e-5, 0); /* as its heading says */
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(shear_of_a_stack_is_that_of_the_flexure_function),
-        TEST(shear_of_a_stack_has_its_limits),
-        TEST(derivatives_of_the_shear_of_any_materials_are_right),
-        TEST(shear_of_two_layers_is_that_of_the_flexure_function),
-        TEST(bending_of_layers_is_that_of_their_plane_strains),
-        TEST(a_cut_in_one_material_changes_nothing),
-        TEST(two_layers_by_hand),
-        TEST(a_shaft_cut_into_core_and_rings_bends_alike),
-        TEST(holes_are_those_of_their_layer),
-        TEST(a_layer_that_slips_carries_by_shear_lag),
-        TEST(derivatives_by_what_is_of_a_layer_agree_with_differences),
-        TEST(a_cause_on_a_layer_leaves_the_other_parts_alone),
-        TEST(cones_cut_off_the_layer_and_not_what_lies_within),
-        TEST(rotors_that_differ_in_a_ring_have_another_shape),
-        TEST(a_deck_lays_rings_in_order),
-        TEST(the_shipped_motor_is_a_model),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

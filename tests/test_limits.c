@@ -49,9 +49,8 @@ static int without_limits(void)
     return strstr(ROTID_FLAGS, "-fsanitize") || !strstr(shell(&test_pool, ROTID_PROGRAM " --version"), "OpenBLAS");
 }
 
-static void little_address_space_is_said(void **state)
+POOL_TEST(little_address_space_is_said)
 {
-    (void)state;
     const char *output;
     if (without_limits())
         return;
@@ -74,9 +73,8 @@ static void little_address_space_is_said(void **state)
 }
 
 /* As many threads as there is room for, with the numbers of any other run. */
-static void what_fits_is_computed(void **state)
+POOL_TEST(what_fits_is_computed)
 {
-    (void)state;
     const char *output;
     if (without_limits() || sysconf(_SC_NPROCESSORS_ONLN) > 64)
         return;
@@ -97,9 +95,8 @@ static void what_fits_is_computed(void **state)
 
 /* ---- pipes */
 
-static void a_pipe_without_another_end_is_refused(void **state)
+POOL_TEST(a_pipe_without_another_end_is_refused)
 {
-    (void)state;
     const char *said = shell(&test_pool,
                              "cd %s && mkfifo pipe out && for c in 'check pipe' 'uff pipe' 'ema pipe' 'report pipe -o page' "
                              "'study pipe -o x.jsonl' 'study --summary pipe' 'study --merge pipe pipe -o x.jsonl' "
@@ -125,9 +122,8 @@ static void a_pipe_without_another_end_is_refused(void **state)
     (void)shell(&test_pool, "cd %s && rm -r *", folder);
 }
 
-static void a_pipe_with_another_end_is_one_file_more(void **state)
+POOL_TEST(a_pipe_with_another_end_is_one_file_more)
 {
-    (void)state;
     const char *json = shell(&test_pool, LIMITED "identify " DECK " --no-baseline --json - | grep -v seconds");
     /* that begins at once, later, and after the wait for one, of which it tells at once by having it open */
     (void)shell(&test_pool, "cat " DECK " | " LIMITED "check /dev/stdin --quiet");
@@ -153,9 +149,8 @@ static void a_pipe_with_another_end_is_one_file_more(void **state)
 }
 
 /* Functions are read a second time, with room for as many values as they announce. */
-static void what_is_read_twice_is_no_pipe(void **state)
+POOL_TEST(what_is_read_twice_is_no_pipe)
 {
-    (void)state;
     const char *output;
     assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "ema /dev/stdin 2>&1"), 2);
     assert_non_null(strstr(output, "/dev/stdin:1:1: this is no regular file, expected one"));
@@ -196,9 +191,8 @@ static void rest(void)
     (void)nanosleep(&time, NULL);
 }
 
-static void a_second_signal_ends_the_program(void **state)
+UNIT_TEST(a_second_signal_ends_the_program)
 {
-    (void)state;
     static const int signals[4][2] = {{SIGINT, SIGINT}, {SIGINT, SIGTERM}, {SIGTERM, SIGINT}, {SIGTERM, SIGTERM}};
     pid_t child[4];
     int status;
@@ -217,9 +211,8 @@ static void a_second_signal_ends_the_program(void **state)
 }
 
 /* As timeout(1) sends its signal twice, and a terminal one beside that of a script. */
-static void two_signals_at_once_are_one(void **state)
+UNIT_TEST(two_signals_at_once_are_one)
 {
-    (void)state;
     int status;
     pid_t child = start(0);
     assert_int_equal(kill(child, SIGSTOP), 0);
@@ -247,17 +240,15 @@ static double seconds_to_end(pid_t child, int expected)
 }
 
 /* One signal is enough, for a library that does not ask and for results that do not come together. */
-static void who_does_not_end_is_ended(void **state)
+UNIT_TEST(who_does_not_end_is_ended)
 {
-    (void)state;
     assert_in_range((int)(1000 * seconds_to_end(start(0), SIGTERM)), 850, 1800);
     assert_in_range((int)(1000 * seconds_to_end(start(1), SIGINT)), 850, 1800);
 }
 
 /* Nothing is written while a deck is read: the first signal ends that. A file that may not grow is no signal at all. */
-static void reading_ends_and_limits_of_files_are_errors(void **state)
+POOL_TEST(reading_ends_and_limits_of_files_are_errors)
 {
-    (void)state;
     const char *output;
     assert_int_equal(
         shell_code(&test_pool, &output, "cd %s && (sleep 5 | timeout -s TERM 0.5 " ROTID_PROGRAM " check /dev/stdin)", folder),
@@ -270,9 +261,8 @@ static void reading_ends_and_limits_of_files_are_errors(void **state)
 }
 
 /* 101 sets 55 of modes at three nodes */
-static void more_modes_of_a_file_than_a_deck_takes_are_refused(void **state)
+POOL_TEST(more_modes_of_a_file_than_a_deck_takes_are_refused)
 {
-    (void)state;
     const char *output;
     (void)shell(
         &test_pool,
@@ -290,9 +280,8 @@ static void more_modes_of_a_file_than_a_deck_takes_are_refused(void **state)
 }
 
 /* A pipe into which nobody writes, and one in which nothing more comes: reading ends by the signal and not by an error. */
-static void a_signal_is_no_error_of_what_is_read(void **state)
+POOL_TEST(a_signal_is_no_error_of_what_is_read)
 {
-    (void)state;
     static const char *const writer[] = {":", "exec 3<> slow; printf '    -1\\n    55\\n' >&3"};
     for (int w = 0; w < 2; w++) {
         const char *output;
@@ -309,9 +298,8 @@ static void a_signal_is_no_error_of_what_is_read(void **state)
 
 /* Every command on an input that keeps it busy for seconds, or on a program or a pipe that does: ended by the signal of
  * timeout(1), code 124, and not by the SIGKILL that follows, 137, within a second and what the machine is late. */
-static void every_command_obeys_within_a_second(void **state)
+POOL_TEST(every_command_obeys_within_a_second)
 {
-    (void)state;
     static const char *const command[] = {
         "check solid",
         "modes solid",
@@ -354,9 +342,8 @@ static void every_command_obeys_within_a_second(void **state)
 
 /* ---- decks that are small and ask for much */
 
-static void decks_that_ask_for_much_are_refused_soon(void **state)
+POOL_TEST(decks_that_ask_for_much_are_refused_soon)
 {
-    (void)state;
     const char *output;
     (void)shell(&test_pool,
                 "cd %s && for i in $(seq 0 14); do for j in 1 2 3 4; do echo \"*INCLUDE, FILE=f$((i + 1))\"; done > f$i; "
@@ -395,22 +382,4 @@ static void decks_that_ask_for_much_are_refused_soon(void **state)
     (void)shell(&test_pool, "cd %s && rm -r *", folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(little_address_space_is_said, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_fits_is_computed, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_pipe_without_another_end_is_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_pipe_with_another_end_is_one_file_more, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_read_twice_is_no_pipe, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(decks_that_ask_for_much_are_refused_soon, open_test_pool, close_test_pool),
-        cmocka_unit_test(a_second_signal_ends_the_program),
-        cmocka_unit_test(who_does_not_end_is_ended),
-        cmocka_unit_test_setup_teardown(reading_ends_and_limits_of_files_are_errors, open_test_pool, close_test_pool),
-        cmocka_unit_test(two_signals_at_once_are_one),
-        cmocka_unit_test_setup_teardown(more_modes_of_a_file_than_a_deck_takes_are_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_signal_is_no_error_of_what_is_read, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_command_obeys_within_a_second, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("limits", tests, setup, teardown);
-}
+TEST_GROUP(setup, teardown);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "linalg/linalg.h"
+#include "support.h"
 
 static const struct structure {
     int n, kd, nfar, far[6];
@@ -30,7 +31,7 @@ enum { nstructure = sizeof structures / sizeof *structures };
 
 /* ---- matrices */
 
-static void multiply_combine_and_product_match_dense(void **state)
+POOL_TEST(multiply_combine_and_product_match_dense)
 {
     struct random_stream stream = {1};
     for (int s = 0; s < nstructure; s++) {
@@ -65,7 +66,7 @@ static void multiply_combine_and_product_match_dense(void **state)
 }
 
 /* The element is stiff between degrees of freedom that are neighbours, far apart, and in falling order. */
-static void added_elements_stand_at_their_place_and_its_mirror(void **state)
+POOL_TEST(added_elements_stand_at_their_place_and_its_mirror)
 {
     enum { n = 20 };
     const int far[4] = {2, 3, 16, 17}, dof[3][4] = {{4, 5, 6, 7}, {2, 3, 16, 17}, {17, 16, 3, 2}};
@@ -95,7 +96,7 @@ static void added_elements_stand_at_their_place_and_its_mirror(void **state)
     assert_close(relative_difference(n * n, dense_of(*state, &a), expected), 0, 0, 1e-15);
 }
 
-static void one_value_that_is_not_finite_is_seen(void **state)
+POOL_TEST(one_value_that_is_not_finite_is_seen)
 {
     struct random_stream stream = {3};
     const struct structure *of = &structures[6];
@@ -168,7 +169,7 @@ static int choose_rows(struct random_stream *stream, const struct structure *of,
     return count;
 }
 
-static void factors_solve_as_dense_ones_on_any_rows(void **state)
+POOL_TEST(factors_solve_as_dense_ones_on_any_rows)
 {
     struct random_stream stream = {4};
     int kept[100], cases = 0;
@@ -190,7 +191,7 @@ static void factors_solve_as_dense_ones_on_any_rows(void **state)
     assert_true(cases > 50);
 }
 
-static void a_factor_can_keep_other_rows_afterwards(void **state)
+POOL_TEST(a_factor_can_keep_other_rows_afterwards)
 {
     struct random_stream stream = {5};
     const struct structure *of = &structures[7];
@@ -216,7 +217,7 @@ static void a_factor_can_keep_other_rows_afterwards(void **state)
     }
 }
 
-static void a_matrix_that_is_not_positive_definite_is_refused(void **state)
+POOL_TEST(a_matrix_that_is_not_positive_definite_is_refused)
 {
     struct random_stream stream = {6};
     const struct structure *of = &structures[6];
@@ -240,7 +241,7 @@ static void a_matrix_that_is_not_positive_definite_is_refused(void **state)
     }
 }
 
-static void a_singular_matrix_is_refused_by_lu(void **state)
+POOL_TEST(a_singular_matrix_is_refused_by_lu)
 {
     const int far[2] = {1, 5}, all[6] = {0, 1, 2, 3, 4, 5};
     rotid_matrix a;
@@ -257,7 +258,7 @@ static void a_singular_matrix_is_refused_by_lu(void **state)
 }
 
 /* Sylvester: as many negative eigenvalues of K - s M as eigenvalues of the pencil below s, for s in every gap. */
-static void negative_eigenvalues_are_counted_in_every_gap(void **state)
+POOL_TEST(negative_eigenvalues_are_counted_in_every_gap)
 {
     struct random_stream stream = {8};
     for (int s = 2; s < nstructure; s++) {
@@ -290,7 +291,7 @@ static void negative_eigenvalues_are_counted_in_every_gap(void **state)
 
 /* ---- dense kernels */
 
-static void symmetric_systems_are_solved_at_any_leading_size(void **state)
+POOL_TEST(symmetric_systems_are_solved_at_any_leading_size)
 {
     enum { most = 40 };
     struct random_stream stream = {9};
@@ -326,7 +327,7 @@ static double scaled_length(int n, const double *scale, const double *h)
 }
 
 /* With all the room it wants, and then with less: mu has grown, and the length is what was allowed. */
-static void the_damped_step_solves_the_normal_equations(void **state)
+POOL_TEST(the_damped_step_solves_the_normal_equations)
 {
     const int sizes[][2] = {{1, 1}, {6, 2}, {400, 8}, {3, 7}, {20, 20}};
     const double dampings[] = {1e-6, 1e-2, 1, 1e4}, parts[] = {2, 0.9, 0.1, 1e-6};
@@ -366,7 +367,7 @@ static void the_damped_step_solves_the_normal_equations(void **state)
 }
 
 /* Two equal columns: without damping the step is as long as rounding makes it. */
-static void a_step_without_bound_is_shortened_to_the_radius(void **state)
+POOL_TEST(a_step_without_bound_is_shortened_to_the_radius)
 {
     const double jacobian[6] = {1, 2, 3, 1, 2, 3}, r[3] = {1, -2, 0.5}, scale[2] = {1, 1}, floor[2] = {1e-14, 3e-14};
     double *work = numbers(*state, (ptrdiff_t)least_squares_workspace(3, 2)), h[2], length;
@@ -377,7 +378,7 @@ static void a_step_without_bound_is_shortened_to_the_radius(void **state)
     }
 }
 
-static void a_step_that_is_not_finite_is_refused(void **state)
+POOL_TEST(a_step_that_is_not_finite_is_refused)
 {
     double jacobian[6] = {1, 2, 3, 4, 5, 7}, r[3] = {1, 1, 1}, scale[2] = {1, 1}, h[2], length, mu = 1;
     const double zero[6] = {0};
@@ -393,7 +394,7 @@ static void a_step_that_is_not_finite_is_refused(void **state)
     assert_int_equal(least_squares_damped_step(3, 2, zero, r, scale, zero, 1, &mu, h, &length, work), 1);
 }
 
-static void singular_values_are_roots_of_the_normal_matrix(void **state)
+POOL_TEST(singular_values_are_roots_of_the_normal_matrix)
 {
     const int sizes[][2] = {{1, 1}, {6, 2}, {300, 7}, {2, 5}, {1, 4}, {9, 9}, {4, 1}};
     struct random_stream stream = {11};
@@ -419,24 +420,4 @@ static void singular_values_are_roots_of_the_normal_matrix(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(multiply_combine_and_product_match_dense),
-        WITH_POOL(added_elements_stand_at_their_place_and_its_mirror),
-        WITH_POOL(one_value_that_is_not_finite_is_seen),
-        WITH_POOL(factors_solve_as_dense_ones_on_any_rows),
-        WITH_POOL(a_factor_can_keep_other_rows_afterwards),
-        WITH_POOL(a_matrix_that_is_not_positive_definite_is_refused),
-        WITH_POOL(a_singular_matrix_is_refused_by_lu),
-        WITH_POOL(negative_eigenvalues_are_counted_in_every_gap),
-        WITH_POOL(symmetric_systems_are_solved_at_any_leading_size),
-        WITH_POOL(the_damped_step_solves_the_normal_equations),
-        WITH_POOL(a_step_without_bound_is_shortened_to_the_radius),
-        WITH_POOL(a_step_that_is_not_finite_is_refused),
-        WITH_POOL(singular_values_are_roots_of_the_normal_matrix),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

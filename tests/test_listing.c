@@ -23,9 +23,8 @@ static struct values values_of(int count, const double *real, const double *imag
     return values;
 }
 
-static void statistics_follow_their_definitions(void **state)
+UNIT_TEST(statistics_follow_their_definitions)
 {
-    (void)state;
     const double real[] = {3, -3, 0, 6}, imag[] = {4, 4, -1, 8};
     struct values values = values_of(4, real, imag);
     assert_int_equal(values.count, 4);
@@ -47,9 +46,8 @@ static void statistics_follow_their_definitions(void **state)
     assert_close(values_of(0, NULL, NULL).rms, 0, 0, 0);
 }
 
-static void a_clipped_record_is_told_from_a_crest(void **state)
+UNIT_TEST(a_clipped_record_is_told_from_a_crest)
 {
-    (void)state;
     static double wave[400], clipped[400], coarse[400], window[400];
     for (int i = 0; i < 400; i++) {
         wave[i] = sin(0.1 * i);
@@ -125,9 +123,8 @@ static int list(struct pool *pool, const struct listing_options *options, struct
     return status ? status : listing_summarise(pool, listing, count, what);
 }
 
-static void a_listing_counts_what_is_there(void **state)
+POOL_TEST(a_listing_counts_what_is_there)
 {
-    (void)state;
     const struct listing_options options = {.keep_shapes = 1};
     struct listing listing;
     const char **what;
@@ -147,9 +144,8 @@ static void a_listing_counts_what_is_there(void **state)
     assert_string_equal(what[2], "20 nodes, x 0.1 to 2, y 0 to 0, z 0 to 0 m");
 }
 
-static void every_failing_allocation_is_told(void **state)
+UNIT_TEST(every_failing_allocation_is_told)
 {
-    (void)state;
     const struct listing_options options = {.keep_shapes = 1};
     for (long n = 1;; n++) {
         struct failing_allocator failing;
@@ -176,9 +172,8 @@ static int cancel_later(void *context)
     return --*left < 0;
 }
 
-static void a_listing_can_be_cancelled(void **state)
+POOL_TEST(a_listing_can_be_cancelled)
 {
-    (void)state;
     for (int after = 0; after < 5; after++) {
         int left = after, count;
         const struct listing_options options = {.cancelled = cancel_later, .context = &left};
@@ -188,14 +183,4 @@ static void a_listing_can_be_cancelled(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(statistics_follow_their_definitions),
-        cmocka_unit_test(a_clipped_record_is_told_from_a_crest),
-        cmocka_unit_test_setup_teardown(a_listing_counts_what_is_there, open_test_pool, close_test_pool),
-        cmocka_unit_test(every_failing_allocation_is_told),
-        cmocka_unit_test_setup_teardown(a_listing_can_be_cancelled, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
-}
+TEST_GROUP(make_file, remove_file);

@@ -78,9 +78,8 @@ static int row(void *user, int m, int n, const double *x, double *r, double *j)
     return 0;
 }
 
-static void test_linear_problem_satisfies_the_normal_equations(void **state)
+UNIT_TEST(test_linear_problem_satisfies_the_normal_equations)
 {
-    (void)state;
     double a[15 + 5] = {1, 2, 0, 1, -1, 3, 0, 1, 1, 2, -1, 1, 4, 0, 1, 2, -3, 1, 5, 0.5}, x[3] = {10, -20, 30}, r[5];
     rotid_lm_result result;
     assert_true(rotid_lm(5, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
@@ -95,9 +94,8 @@ static void test_linear_problem_satisfies_the_normal_equations(void **state)
 
 /* Two equations, three unknowns, from zero: of all solutions the one of least |D x|, D the norms of the columns,
  * x = D^-2 A' (A D^-2 A')^-1 b. */
-static void test_fewer_residuals_than_parameters_give_the_step_of_least_norm(void **state)
+UNIT_TEST(test_fewer_residuals_than_parameters_give_the_step_of_least_norm)
 {
-    (void)state;
     double a[8] = {1, 0, 2, 1, -1, 4, 3, 5}, x[3] = {0}, r[2], w[3], g[4] = {0};
     rotid_lm_result result;
     assert_true(rotid_lm(2, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
@@ -112,9 +110,8 @@ static void test_fewer_residuals_than_parameters_give_the_step_of_least_norm(voi
     assert_close(result.objective, 0, 0, 1e-18);
 }
 
-static void test_parameter_without_influence_stays_where_it_is(void **state)
+UNIT_TEST(test_parameter_without_influence_stays_where_it_is)
 {
-    (void)state;
     double a[12] = {1, 2, 3, 0, 0, 0, 1, -1, 1, 3, 1, 4}, x[3] = {1, 0.125, 1}, r[3];
     rotid_lm_result result;
     assert_true(rotid_lm(3, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
@@ -123,9 +120,8 @@ static void test_parameter_without_influence_stays_where_it_is(void **state)
 }
 
 /* x1 and x2 enter as their sum: from equal starts they stay equal, without a drift along what is not determined. */
-static void test_equal_columns_share_the_step(void **state)
+UNIT_TEST(test_equal_columns_share_the_step)
 {
-    (void)state;
     double a[12] = {1, 2, 3, 1, 2, 3, 1, -1, 1, 3, 1, 4}, x[3] = {5, 5, 5}, r[3];
     rotid_lm_result result;
     assert_true(rotid_lm(3, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
@@ -135,9 +131,8 @@ static void test_equal_columns_share_the_step(void **state)
     assert_close(x[2], 50.0 / 38, 1e-9, 0);
 }
 
-static void test_refused_points_are_stepped_back_from(void **state)
+UNIT_TEST(test_refused_points_are_stepped_back_from)
 {
-    (void)state;
     struct watch watch = {.residual = logarithm};
     double x = 10, r;
     rotid_lm_result result;
@@ -158,10 +153,9 @@ static int given(void *user, int m, int n, const double *x, double *r, double *j
     return 0;
 }
 
-static void test_start_without_a_finite_residual_is_an_error(void **state)
+UNIT_TEST(test_start_without_a_finite_residual_is_an_error)
 {
     static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}};
-    (void)state;
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         double value[2] = {values[k][0], values[k][1]}, x = 1, r;
         rotid_lm_result result;
@@ -170,9 +164,8 @@ static void test_start_without_a_finite_residual_is_an_error(void **state)
     }
 }
 
-static void test_callback_that_fails_at_the_start_ends_the_call(void **state)
+UNIT_TEST(test_callback_that_fails_at_the_start_ends_the_call)
 {
-    (void)state;
     for (int which = 0; which < 2; which++) {
         struct watch watch = {.residual = decay, .fail_residual = !which, .fail_jacobian = which};
         double x[2] = {1, 0.3}, r[M];
@@ -191,9 +184,8 @@ static int ramp(void *user, int m, int n, const double *x, double *r, double *j)
     return 0;
 }
 
-static void test_jacobian_without_a_column_is_an_error_at_the_start_and_a_minimum_later(void **state)
+UNIT_TEST(test_jacobian_without_a_column_is_an_error_at_the_start_and_a_minimum_later)
 {
-    (void)state;
     double x = 0, r;
     rotid_lm_result result;
     assert_status(rotid_lm(1, 1, ramp, NULL, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_ERROR_RANK);
@@ -202,9 +194,8 @@ static void test_jacobian_without_a_column_is_an_error_at_the_start_and_a_minimu
     assert_true(x <= 1 && result.objective == 0.5 && result.iterations == 1);
 }
 
-static void test_arguments_out_of_range_are_refused_before_anything_is_called(void **state)
+UNIT_TEST(test_arguments_out_of_range_are_refused_before_anything_is_called)
 {
-    (void)state;
     struct watch watch = {.residual = decay};
     double x[2] = {1, 0.3}, bad[2] = {1, NAN}, far[2] = {INFINITY, 1}, r[M];
     rotid_lm_result result;
@@ -241,9 +232,8 @@ static int write_down(void *user, const rotid_lm_iteration *now)
     return ++diary->calls == diary->stop_at;
 }
 
-static void test_cancelling_leaves_the_last_accepted_point(void **state)
+UNIT_TEST(test_cancelling_leaves_the_last_accepted_point)
 {
-    (void)state;
     for (int k = 1; k <= 5; k++) {
         struct diary diary = {.stop_at = k};
         rotid_lm_options options = {.size = sizeof options, .trace = write_down, .trace_user = &diary};
@@ -261,9 +251,8 @@ static void test_cancelling_leaves_the_last_accepted_point(void **state)
     }
 }
 
-static void test_trace_sees_every_accepted_point_and_the_last_one_is_the_result(void **state)
+UNIT_TEST(test_trace_sees_every_accepted_point_and_the_last_one_is_the_result)
 {
-    (void)state;
     struct diary diary = {0};
     rotid_lm_options options = {.size = sizeof options, .trace = write_down, .trace_user = &diary};
     double x[2] = {1, 0.3}, r[M];
@@ -274,9 +263,8 @@ static void test_trace_sees_every_accepted_point_and_the_last_one_is_the_result(
     assert_true(diary.objective == result.objective && diary.cosine == result.cosine);
 }
 
-static void test_iteration_limit_is_kept(void **state)
+UNIT_TEST(test_iteration_limit_is_kept)
 {
-    (void)state;
     rotid_lm_options options = {.size = sizeof options, .max_iterations = 3};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
@@ -298,9 +286,8 @@ static int falls_for_ever(void *user, int m, int n, const double *x, double *r, 
     return 0;
 }
 
-static void test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for(void **state)
+UNIT_TEST(test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for)
 {
-    (void)state;
     static const double tolerance[] = {0, 1e-2, 1e-4, 1e-6};
     int iterations[4];
     for (int i = 0; i < 4; i++) {
@@ -316,9 +303,8 @@ static void test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for(void 
     assert_true(iterations[1] < iterations[2] && iterations[2] < iterations[3] && iterations[3] < iterations[0]);
 }
 
-static void test_evaluations_are_counted_as_they_are_made(void **state)
+UNIT_TEST(test_evaluations_are_counted_as_they_are_made)
 {
-    (void)state;
     struct {
         rotid_residual residual;
         int m, n;
@@ -343,9 +329,8 @@ static int uphill(void *user, int m, int n, const double *x, double *r, double *
     return 0;
 }
 
-static void test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing(void **state)
+UNIT_TEST(test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing)
 {
-    (void)state;
     struct watch watch = {.residual = uphill};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
@@ -364,9 +349,8 @@ static int weighed(void *user, int m, int n, const double *x, double *r, double 
 }
 
 /* glibc counts a freed small block as in use while it is cached, so that even what is given back at once shows. */
-static void test_iteration_allocates_nothing(void **state)
+UNIT_TEST(test_iteration_allocates_nothing)
 {
-    (void)state;
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
     int status =
@@ -388,28 +372,3 @@ static void test_iteration_allocates_nothing(void **state)
 }
 
 #endif
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-        cmocka_unit_test(test_iteration_allocates_nothing),
-#endif
-        cmocka_unit_test(test_linear_problem_satisfies_the_normal_equations),
-        cmocka_unit_test(test_fewer_residuals_than_parameters_give_the_step_of_least_norm),
-        cmocka_unit_test(test_parameter_without_influence_stays_where_it_is),
-        cmocka_unit_test(test_equal_columns_share_the_step),
-        cmocka_unit_test(test_refused_points_are_stepped_back_from),
-        cmocka_unit_test(test_start_without_a_finite_residual_is_an_error),
-        cmocka_unit_test(test_callback_that_fails_at_the_start_ends_the_call),
-        cmocka_unit_test(test_jacobian_without_a_column_is_an_error_at_the_start_and_a_minimum_later),
-        cmocka_unit_test(test_arguments_out_of_range_are_refused_before_anything_is_called),
-        cmocka_unit_test(test_cancelling_leaves_the_last_accepted_point),
-        cmocka_unit_test(test_trace_sees_every_accepted_point_and_the_last_one_is_the_result),
-        cmocka_unit_test(test_iteration_limit_is_kept),
-        cmocka_unit_test(test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for),
-        cmocka_unit_test(test_evaluations_are_counted_as_they_are_made),
-        cmocka_unit_test(test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing),
-    };
-    return cmocka_run_group_tests_name("lm", tests, NULL, NULL);
-}

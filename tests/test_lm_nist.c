@@ -9,9 +9,8 @@
 
 static double r[NIST_MOST_OBSERVATIONS], jacobian[NIST_MOST_OBSERVATIONS * MGH_MOST_PARAMETERS], work[100000];
 
-static void test_problems_have_the_jacobians_and_the_minima_that_are_certified(void **state)
+UNIT_TEST(test_problems_have_the_jacobians_and_the_minima_that_are_certified)
 {
-    (void)state;
     for (int k = 0; k < nist_count; k++) {
         const struct nist_problem *p = &nist_problems[k];
         double scale[NIST_MOST_PARAMETERS], error[NIST_MOST_PARAMETERS], doubt[NIST_MOST_PARAMETERS], sum = 0;
@@ -38,9 +37,8 @@ static int solve(const struct nist_problem *p, int start, const rotid_lm_options
 
 /* BoxBOD from its first start: the fifth step makes exp(-b2 t) vanish beside 1 at every t, and no b2 near there changes a digit
  * of r. That is no minimum, and has to be said. */
-static void test_every_start_is_solved_or_said_to_be_stalled(void **state)
+UNIT_TEST(test_every_start_is_solved_or_said_to_be_stalled)
 {
-    (void)state;
     int solved = 0, evaluations = 0;
     for (int k = 0; k < nist_count; k++)
         for (int start = 0; start < 2; start++) {
@@ -116,9 +114,8 @@ static void compare_paths(struct in_unit *in, int m, int n, const double *start)
     }
 }
 
-static void test_path_does_not_depend_on_the_unit_of_the_residual(void **state)
+UNIT_TEST(test_path_does_not_depend_on_the_unit_of_the_residual)
 {
-    (void)state;
     for (int k = 0; k < nist_count; k++)
         for (int start = 0; start < 2; start++) {
             struct in_unit in = {nist_residual, (void *)&nist_problems[k], 1};
@@ -133,10 +130,9 @@ static void test_path_does_not_depend_on_the_unit_of_the_residual(void **state)
 }
 
 /* The columns of J as well: in the largest and smallest units of r and x at once nothing overflows that has a double. */
-static void test_start_may_be_of_any_size(void **state)
+UNIT_TEST(test_start_may_be_of_any_size)
 {
     static const double sizes[] = {1e-290, 1e-200, 1, 1e200, 1e290};
-    (void)state;
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         struct in_unit in = {nist_residual, (void *)&nist_problems[0], sizes[k]};
         const struct nist_problem *p = &nist_problems[0];
@@ -148,15 +144,4 @@ static void test_start_may_be_of_any_size(void **state)
         for (int j = 0; j < p->n; j++)
             assert_close(b[j], p->certified[j], 1e-6, 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_problems_have_the_jacobians_and_the_minima_that_are_certified),
-        cmocka_unit_test(test_every_start_is_solved_or_said_to_be_stalled),
-        cmocka_unit_test(test_path_does_not_depend_on_the_unit_of_the_residual),
-        cmocka_unit_test(test_start_may_be_of_any_size),
-    };
-    return cmocka_run_group_tests_name("lm_nist", tests, NULL, NULL);
 }

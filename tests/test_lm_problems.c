@@ -46,9 +46,8 @@ static int solve(const struct mgh_problem *problem, double factor, struct outcom
     return status;
 }
 
-static void test_problems_have_the_jacobians_of_their_residuals(void **state)
+UNIT_TEST(test_problems_have_the_jacobians_of_their_residuals)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         const struct mgh_problem *problem = &mgh_problems[k];
         double x[MGH_MOST_PARAMETERS], above[MGH_MOST_RESIDUALS], below[MGH_MOST_RESIDUALS];
@@ -74,9 +73,8 @@ static void test_problems_have_the_jacobians_of_their_residuals(void **state)
 
 /* Every start from which MINPACK's lmder reaches a minimum, in not many more evaluations; elsewhere no worse an end than its. One
  * line a run, so that a change of the evaluations is seen. */
-static void test_minima_are_reached_from_near_and_far(void **state)
+UNIT_TEST(test_minima_are_reached_from_near_and_far)
 {
-    (void)state;
     int failures = 0;
     for (int k = 0; k < mgh_count; k++)
         for (int f = 0; f < 3; f++) {
@@ -94,9 +92,8 @@ static void test_minima_are_reached_from_near_and_far(void **state)
     assert_int_equal(failures, 0);
 }
 
-static void test_what_comes_back_belongs_to_the_point_that_comes_back(void **state)
+UNIT_TEST(test_what_comes_back_belongs_to_the_point_that_comes_back)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         const struct mgh_problem *problem = &mgh_problems[k];
         struct outcome out;
@@ -112,9 +109,8 @@ static void test_what_comes_back_belongs_to_the_point_that_comes_back(void **sta
 
 /* Gauss-Newton steps of a large residual overshoot, and the objective is flat to rounding where x is still off by 1e-4: a stop
  * there is a stop too early. Zero residuals have no cosine worth the name. */
-static void test_gradient_vanishes_at_the_minimum_of_a_large_residual(void **state)
+UNIT_TEST(test_gradient_vanishes_at_the_minimum_of_a_large_residual)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++)
         for (int f = 0; f < 3; f++) {
             struct outcome out;
@@ -129,7 +125,7 @@ static void test_gradient_vanishes_at_the_minimum_of_a_large_residual(void **sta
 }
 
 /* Rosenbrock (1, 1), helical valley (1, 0, 0), Powell (0, 0, 0, 0); Box also vanishes at (10, 1, -1) and where x1 = x2, x3 = 0 */
-static void test_zero_residuals_are_found_where_they_are(void **state)
+UNIT_TEST(test_zero_residuals_are_found_where_they_are)
 {
     static const struct {
         const char *name;
@@ -138,7 +134,6 @@ static void test_zero_residuals_are_found_where_they_are(void **state)
                  {"helical valley", {1, 0, 0}, 1e-10},
                  {"Box 3D", {1, 10, 1}, 1e-10},
                  {"Powell singular", {0}, 1e-5}};
-    (void)state;
     for (int k = 0; k < mgh_count; k++)
         for (size_t z = 0; z < sizeof known / sizeof *known; z++) {
             struct outcome out;
@@ -152,9 +147,8 @@ static void test_zero_residuals_are_found_where_they_are(void **state)
 }
 
 /* A run that only its iteration limit ends tells the user nothing. Powell's columns shrink with x and so must the damping. */
-static void test_every_run_ends_by_itself(void **state)
+UNIT_TEST(test_every_run_ends_by_itself)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++)
         for (int f = 0; f < 3; f++) {
             struct outcome out;
@@ -186,9 +180,8 @@ static int rescaled(void *user, int m, int n, const double *x, double *r, double
     return status;
 }
 
-static void test_path_does_not_depend_on_the_units_of_x(void **state)
+UNIT_TEST(test_path_does_not_depend_on_the_units_of_x)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         struct mgh_problem problem = mgh_problems[k];
         struct outcome plain, other;
@@ -218,9 +211,8 @@ static int growth(void *user, int m, int n, const double *x, double *r, double *
     return 0;
 }
 
-static void test_gradient_is_judged_by_the_jacobian_where_x_stands(void **state)
+UNIT_TEST(test_gradient_is_judged_by_the_jacobian_where_x_stands)
 {
-    (void)state;
     double low = 0.5, high = 2, r[10], j[10];
     while (high - low > 1e-15) {
         double middle = (low + high) / 2, slope = 0;
@@ -261,9 +253,8 @@ static int keep_gain(void *user, const rotid_lm_iteration *now)
 }
 
 /* f then is 5e7 and known to 1e-8, more than Bard's steps gain after the first ones: its difference would not tell them. */
-static void test_gain_ratio_keeps_its_digits_beside_a_large_constant_residual(void **state)
+UNIT_TEST(test_gain_ratio_keeps_its_digits_beside_a_large_constant_residual)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         struct mgh_problem problem = mgh_problems[k];
         struct outcome out;
@@ -312,9 +303,8 @@ static int noisy_residual(void *user, int m, int n, const double *x, double *r, 
 /* Noise of 1e-10 of the residual, as a rotor has with eigenvalues good to 1e-11: f tells x to 1e-5, the gradient to 1e-9. Where
  * Gauss-Newton steps overshoot, as in the first two, rounding decides which of the last steps count. One draw of the noise costs
  * Chebyquad 10 from 4 evaluations fewer to 18 more, by the kernels of the BLAS: the mean of DRAWS is judged. */
-static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_evaluations(void **state)
+UNIT_TEST(test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_evaluations)
 {
-    (void)state;
     for (int k = 0; k < mgh_count; k++) {
         const struct mgh_problem *problem = &mgh_problems[k];
         struct noisy noisy = {problem, 1e-10 * sqrt(problem->minimum[0] / problem->m), 0};
@@ -336,21 +326,4 @@ static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_eva
                       (double)evaluations / DRAWS, clean.result.evaluations);
         assert_true(evaluations <= DRAWS * ((overshoots ? 4 : 1) * clean.result.evaluations + 15));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_problems_have_the_jacobians_of_their_residuals),
-        cmocka_unit_test(test_minima_are_reached_from_near_and_far),
-        cmocka_unit_test(test_what_comes_back_belongs_to_the_point_that_comes_back),
-        cmocka_unit_test(test_gradient_vanishes_at_the_minimum_of_a_large_residual),
-        cmocka_unit_test(test_zero_residuals_are_found_where_they_are),
-        cmocka_unit_test(test_every_run_ends_by_itself),
-        cmocka_unit_test(test_path_does_not_depend_on_the_units_of_x),
-        cmocka_unit_test(test_gradient_is_judged_by_the_jacobian_where_x_stands),
-        cmocka_unit_test(test_gain_ratio_keeps_its_digits_beside_a_large_constant_residual),
-        cmocka_unit_test(test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_evaluations),
-    };
-    return cmocka_run_group_tests_name("lm_problems", tests, NULL, NULL);
 }

@@ -113,9 +113,8 @@ static struct words offered(const char *words)
     return found;
 }
 
-static void the_manual_names_the_commands_and_no_other_option(void **state)
+POOL_TEST(the_manual_names_the_commands_and_no_other_option)
 {
-    (void)state;
     struct words commands = commands_of_the_program(), options = options_of_the_program(), named = {0}, listed = {0};
     char *text = pool_copy_text(&test_pool, shell_file(&test_pool, MANUAL)), *end = text;
     assert_non_null(text);
@@ -130,9 +129,8 @@ static void the_manual_names_the_commands_and_no_other_option(void **state)
     assert_same_words(&options, "rotid --help", &named, "docs/rotid.1");
 }
 
-static void bash_offers_every_command_and_option(void **state)
+POOL_TEST(bash_offers_every_command_and_option)
 {
-    (void)state;
     struct words commands = commands_of_the_program(), options = options_of_the_program(), listed = offered("rotid \"\""),
                  all = {0};
     assert_same_words(&commands, "rotid --help", &listed, "rotid.bash");
@@ -209,9 +207,8 @@ static const char *needs_of(const char *command, const char *option)
     return strcmp(command, "study") == 0 && strcmp(option, "--summary") != 0 ? "-o /x/y" : "";
 }
 
-static void bash_offers_what_a_command_takes(void **state)
+POOL_TEST(bash_offers_what_a_command_takes)
 {
-    (void)state;
     struct words commands = commands_of_the_program();
     for (int i = 0; i < commands.count; i++) {
         struct words options = offered(pool_format(&test_pool, "rotid %s -", commands.word[i]));
@@ -239,9 +236,8 @@ static void assert_offered(const char *words, const char *expected)
     assert_same_words(&wanted, "what is expected", &found, words);
 }
 
-static void bash_completes_values_and_files(void **state)
+POOL_TEST(bash_completes_values_and_files)
 {
-    (void)state;
     char folder[] = "/tmp/test_manual_XXXXXX";
     assert_non_null(mkdtemp(folder));
     (void)shell(&test_pool,
@@ -273,9 +269,8 @@ static const char *path_of(const struct generated *part)
     return pool_format(&test_pool, ROTID_SOURCE_DIR "/%s", part->path);
 }
 
-static void generated_parts_are_those_of_the_tables(void **state)
+POOL_TEST(generated_parts_are_those_of_the_tables)
 {
-    (void)state;
     for (const struct generated *part = generated_parts; part->path; part++) {
         const char *text = shell_file(&test_pool, path_of(part));
         char *wanted = generated_text(part, text);
@@ -287,9 +282,8 @@ static void generated_parts_are_those_of_the_tables(void **state)
 }
 
 /* One page: no command, card or cause is missing, and what is there stands in one screen of a wide window each. */
-static void the_reference_card_has_every_command_card_and_cause(void **state)
+POOL_TEST(the_reference_card_has_every_command_card_and_cause)
 {
-    (void)state;
     const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/reference.md");
     struct words commands = commands_of_the_program();
     int cards = 0, lines = 0;
@@ -316,9 +310,8 @@ static void the_reference_card_has_every_command_card_and_cause(void **state)
 }
 
 /* Words for people, names for getopt: what the compiler does not see in a row. */
-static void rows_are_sound(void **state)
+POOL_TEST(rows_are_sound)
 {
-    (void)state;
     struct words commands = commands_of_the_program();
     for (const struct option_row *row = option_table; row->name; row++) {
         struct words of = {0};
@@ -342,9 +335,8 @@ static void rows_are_sound(void **state)
     }
 }
 
-static void an_option_of_another_command_is_refused(void **state)
+POOL_TEST(an_option_of_another_command_is_refused)
 {
-    (void)state;
     struct words commands = commands_of_the_program();
     for (const struct option_row *row = option_table; row->name; row++)
         for (int i = 0; i < commands.count; i++) {
@@ -358,10 +350,9 @@ static void an_option_of_another_command_is_refused(void **state)
         }
 }
 
-static void an_old_name_is_taken(void **state)
+POOL_TEST(an_old_name_is_taken)
 {
     const char *output;
-    (void)state;
     for (const struct option_row *row = option_table; row->name; row++)
         if (row->alias) {
             (void)shell_code(&test_pool, &output, "%s %.*s --%s x /nowhere/file", ROTID_PROGRAM, span(row->commands),
@@ -392,16 +383,5 @@ int main(int argc, char **argv)
         int code = open_test_pool(&state) || write_files();
         return close_test_pool(&state) || code;
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_manual_names_the_commands_and_no_other_option, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bash_offers_every_command_and_option, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bash_offers_what_a_command_takes, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bash_completes_values_and_files, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(generated_parts_are_those_of_the_tables, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_reference_card_has_every_command_card_and_cause, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(rows_are_sound, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(an_option_of_another_command_is_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(an_old_name_is_taken, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_main(argc, argv);
 }

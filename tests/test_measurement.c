@@ -89,9 +89,8 @@ static int warnings(const struct message_list *list, const char *part)
 
 /* ------------------------------------------------------------------------------------------------ transfer functions */
 
-static void millimetres_and_g_become_si(void **state)
+POOL_TEST(millimetres_and_g_become_si)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     const struct measurement_options options = {0};
@@ -123,9 +122,8 @@ static void millimetres_and_g_become_si(void **state)
     }
 }
 
-static void what_cannot_stand_beside_the_others_is_left_out(void **state)
+POOL_TEST(what_cannot_stand_beside_the_others_is_left_out)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     const struct measurement_options options = {0};
@@ -160,9 +158,8 @@ static void what_cannot_stand_beside_the_others_is_left_out(void **state)
     assert_close(cabs(m.set.frf[1].h[10]), cabs(oscillator(2, 5)), 1e-10, 0); /* the first of two */
 }
 
-static void band_reference_and_coherence_are_heeded(void **state)
+POOL_TEST(band_reference_and_coherence_are_heeded)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     const struct measurement_options options = {.low_hz = 20, .high_hz = 60.2, .reference = 1, .averages = 3};
@@ -192,9 +189,8 @@ static void band_reference_and_coherence_are_heeded(void **state)
     }
 }
 
-static void files_without_anything_usable_are_refused(void **state)
+POOL_TEST(files_without_anything_usable_are_refused)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     struct measurement_options options = {0};
@@ -270,9 +266,8 @@ static void check_records(const struct measurement *m)
     }
 }
 
-static void responses_find_their_force(void **state)
+POOL_TEST(responses_find_their_force)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     const struct measurement_options options = {0};
@@ -327,16 +322,14 @@ static int warnings_of_a_decay(double decay)
     return found;
 }
 
-static void blocks_that_end_before_the_decay_are_warned_of(void **state)
+POOL_TEST(blocks_that_end_before_the_decay_are_warned_of)
 {
-    (void)state;
     assert_int_equal(warnings_of_a_decay(3), 1);
     assert_int_equal(warnings_of_a_decay(6), 0);
 }
 
-static void records_that_do_not_fit_are_named(void **state)
+POOL_TEST(records_that_do_not_fit_are_named)
 {
-    (void)state;
     struct measurement m;
     struct message_list messages;
     const struct measurement_options options = {0};
@@ -375,9 +368,8 @@ static void records_that_do_not_fit_are_named(void **state)
 }
 
 /* Every allocation in turn: a status, no crash, nothing left behind. */
-static void memory_may_run_out_anywhere(void **state)
+POOL_TEST(memory_may_run_out_anywhere)
 {
-    (void)state;
     const struct measurement_options options = {.averages = 3};
     double coherence[LINES];
     long n = 0;
@@ -424,20 +416,4 @@ static void memory_may_run_out_anywhere(void **state)
     }
     (void)unlink(path);
     print_message("%ld allocations\n", n - 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(millimetres_and_g_become_si),
-        TEST(what_cannot_stand_beside_the_others_is_left_out),
-        TEST(band_reference_and_coherence_are_heeded),
-        TEST(files_without_anything_usable_are_refused),
-        TEST(responses_find_their_force),
-        TEST(blocks_that_end_before_the_decay_are_warned_of),
-        TEST(records_that_do_not_fit_are_named),
-        TEST(memory_may_run_out_anywhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,9 +59,8 @@ static struct mesh build(const struct rotor *rotor, int refine)
     return mesh;
 }
 
-static void bare_rotor_keeps_the_nodes_of_its_segments(void **state)
+POOL_TEST(bare_rotor_keeps_the_nodes_of_its_segments)
 {
-    (void)state;
     struct rotor rotor = bare();
     struct mesh mesh = build(&rotor, 1);
     assert_int_equal(mesh.naxis, 15);
@@ -77,9 +76,8 @@ static void bare_rotor_keeps_the_nodes_of_its_segments(void **state)
         assert_int_equal(mesh.segment[e], e >= 10);
 }
 
-static void position_inside_an_element_gets_a_node(void **state)
+POOL_TEST(position_inside_an_element_gets_a_node)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_sensors(&rotor, 2, (double[]){0.37, 1.0625});
     struct mesh mesh = build(&rotor, 1);
@@ -92,9 +90,8 @@ static void position_inside_an_element_gets_a_node(void **state)
     }
 }
 
-static void every_kind_of_attachment_gets_its_node(void **state)
+POOL_TEST(every_kind_of_attachment_gets_its_node)
 {
-    (void)state;
     struct rotor rotor = bare();
     springs[0] = (struct spring){"a", 0.05, 1, 0, 0, 0};
     disks[0] = (struct disk){"b", 0.15, 1, 0, 0, 0, 0};
@@ -113,9 +110,8 @@ static void every_kind_of_attachment_gets_its_node(void **state)
     assert_int_equal(mesh.bars[1].first_end, mesh.bars[0].first_end);
 }
 
-static void position_within_one_percent_of_an_element_takes_the_node_there(void **state)
+POOL_TEST(position_within_one_percent_of_an_element_takes_the_node_there)
 {
-    (void)state;
     const double offset[] = {-0.99e-3, 0.99e-3, -1.01e-3, 1.01e-3}; /* the element is 0.1 m long */
     for (int i = 0; i < 4; i++) {
         struct rotor rotor = bare();
@@ -128,9 +124,8 @@ static void position_within_one_percent_of_an_element_takes_the_node_there(void 
 }
 
 /* At 1 m an element of 0.1 m meets one of 0.125 m: 1 % is of the element that holds the position. */
-static void one_percent_is_of_the_element_that_holds_the_position(void **state)
+POOL_TEST(one_percent_is_of_the_element_that_holds_the_position)
 {
-    (void)state;
     const double position[] = {1 - 0.0011, 1 + 0.0011};
     for (int i = 0; i < 2; i++) {
         struct rotor rotor = bare();
@@ -139,9 +134,8 @@ static void one_percent_is_of_the_element_that_holds_the_position(void **state)
     }
 }
 
-static void two_positions_at_the_same_place_share_a_node(void **state)
+POOL_TEST(two_positions_at_the_same_place_share_a_node)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_sensors(&rotor, 1, (double[]){0.33});
     springs[0] = (struct spring){"a", 0.33, 1, 0, 0, 0};
@@ -157,9 +151,8 @@ static void two_positions_at_the_same_place_share_a_node(void **state)
     assert_int_equal(mesh.disk_node[1], 4);
 }
 
-static void ends_of_the_rotor_are_nodes_already(void **state)
+POOL_TEST(ends_of_the_rotor_are_nodes_already)
 {
-    (void)state;
     struct rotor rotor = bare();
     springs[0] = (struct spring){"start", 0, 1, 0, 0, 0};
     springs[1] = (struct spring){"end", rotor_length(&rotor), 1, 0, 0, 0};
@@ -175,9 +168,8 @@ static void ends_of_the_rotor_are_nodes_already(void **state)
     assert_int_equal(mesh.end_node, mesh.naxis - 1);
 }
 
-static void refinement_keeps_every_node_and_divides_evenly(void **state)
+POOL_TEST(refinement_keeps_every_node_and_divides_evenly)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_sensors(&rotor, 3, (double[]){0.0123, 0.37, 1.31});
     add_rod(&rotor, 0.111, 0.9, 3);
@@ -199,9 +191,8 @@ static void refinement_keeps_every_node_and_divides_evenly(void **state)
     }
 }
 
-static void sensor_nodes_increase_with_the_position(void **state)
+POOL_TEST(sensor_nodes_increase_with_the_position)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_sensors(&rotor, 8, (double[]){0, 0.0021, 0.05, 0.101, 0.5, 0.502, 1.2, 1.5});
     struct mesh mesh = build(&rotor, 1);
@@ -218,9 +209,8 @@ static void assert_far(const struct mesh *mesh, int count, const int *node)
         assert_int_equal(mesh->far[i], 2 * node[i / 2] + i % 2);
 }
 
-static void rod_of_one_element_has_no_inner_node_at_any_refinement(void **state)
+POOL_TEST(rod_of_one_element_has_no_inner_node_at_any_refinement)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_rod(&rotor, 0.2, 0.8, 1);
     for (int refine = 1; refine <= 3; refine++) {
@@ -231,9 +221,8 @@ static void rod_of_one_element_has_no_inner_node_at_any_refinement(void **state)
     }
 }
 
-static void rod_of_three_elements_is_numbered_after_the_axis(void **state)
+POOL_TEST(rod_of_three_elements_is_numbered_after_the_axis)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_rod(&rotor, 0.2, 0.8, 3);
     struct mesh mesh = build(&rotor, 1);
@@ -247,9 +236,8 @@ static void rod_of_three_elements_is_numbered_after_the_axis(void **state)
     assert_far(&mesh, 4, (int[]){4, 16, 29, 33}); /* the first and the last inner node; those between stay in the band */
 }
 
-static void shared_ends_appear_once_among_the_far_ones(void **state)
+POOL_TEST(shared_ends_appear_once_among_the_far_ones)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_rod(&rotor, 0.2, 0.8, 1);
     add_rod(&rotor, 0.8, 1, 2);
@@ -260,9 +248,8 @@ static void shared_ends_appear_once_among_the_far_ones(void **state)
         assert_true(mesh.far[i] > mesh.far[i - 1]);
 }
 
-static void bars_have_two_halves_with_free_ends(void **state)
+POOL_TEST(bars_have_two_halves_with_free_ends)
 {
-    (void)state;
     struct rotor rotor = bare();
     bars[0] = (struct bars){"bars", groups[0].material, 0.6, 0.5, BUNDLE_RODS, 6, 6, 0.01, 0.04};
     rotor.nbars = 1;
@@ -278,9 +265,8 @@ static void bars_have_two_halves_with_free_ends(void **state)
     assert_int_equal(build(&rotor, 3).nnode, 14 * 3 + 1 + 18);
 }
 
-static void node_at_is_the_nearest_one(void **state)
+POOL_TEST(node_at_is_the_nearest_one)
 {
-    (void)state;
     struct rotor rotor = bare();
     struct mesh mesh = build(&rotor, 2);
     for (double z = -0.1; z < 1.6; z += 0.0071) {
@@ -290,9 +276,8 @@ static void node_at_is_the_nearest_one(void **state)
     }
 }
 
-static void no_memory_is_reported_at_every_allocation(void **state)
+POOL_TEST(no_memory_is_reported_at_every_allocation)
 {
-    (void)state;
     struct rotor rotor = bare();
     add_rod(&rotor, 0.2, 0.8, 3);
     struct mesh mesh;
@@ -310,28 +295,4 @@ static void no_memory_is_reported_at_every_allocation(void **state)
         assert_true(n < 100);
     }
     assert_true(n > 5);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(bare_rotor_keeps_the_nodes_of_its_segments),
-        TEST(position_inside_an_element_gets_a_node),
-        TEST(every_kind_of_attachment_gets_its_node),
-        TEST(position_within_one_percent_of_an_element_takes_the_node_there),
-        TEST(one_percent_is_of_the_element_that_holds_the_position),
-        TEST(two_positions_at_the_same_place_share_a_node),
-        TEST(ends_of_the_rotor_are_nodes_already),
-        TEST(refinement_keeps_every_node_and_divides_evenly),
-        TEST(sensor_nodes_increase_with_the_position),
-        TEST(rod_of_one_element_has_no_inner_node_at_any_refinement),
-        TEST(rod_of_three_elements_is_numbered_after_the_axis),
-        TEST(shared_ends_appear_once_among_the_far_ones),
-        TEST(bars_have_two_halves_with_free_ends),
-        TEST(node_at_is_the_nearest_one),
-        TEST(no_memory_is_reported_at_every_allocation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

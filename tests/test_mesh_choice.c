@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "reading.h"
 #include "run/run.h"
+#include "support.h"
 
 #define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 
@@ -35,10 +36,9 @@ static int elements_of(const struct rotor *rotor)
     "\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.06, 0" R "\n"
 #define MODES "*MODES\n1, 390\n2, 690\n4, 2470\n"
 
-static void the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that(void **state)
+UNIT_TEST(the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that)
 {
     static const double noise[] = {3e-3, 1e-3, 1e-4};
-    (void)state;
     for (size_t i = 0; i < sizeof noise / sizeof *noise; i++) {
         char text[1024];
         struct reading r;
@@ -51,10 +51,9 @@ static void the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that(v
     }
 }
 
-static void the_highest_mode_and_the_smallest_noise_count(void **state)
+UNIT_TEST(the_highest_mode_and_the_smallest_noise_count)
 {
     struct reading low, high, fine;
-    (void)state;
     read_text(&low, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n", NULL);
     read_text(&high, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 4.9\n", NULL);
     read_text(&fine, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 0.49\n", NULL);
@@ -66,10 +65,9 @@ static void the_highest_mode_and_the_smallest_noise_count(void **state)
     pool_close(&fine.pool);
 }
 
-static void without_noise_the_error_is_a_hundredth_of_a_percent(void **state)
+UNIT_TEST(without_noise_the_error_is_a_hundredth_of_a_percent)
 {
     struct reading r;
-    (void)state;
     read_text(&r, MATERIAL SHAFTS("", "", ""), NULL);
     assert_true(error_of(&r.job.rotor, MESH_CHOICE_MODES) <= MESH_CHOICE_ERROR);
     int told = 0;
@@ -80,10 +78,9 @@ static void without_noise_the_error_is_a_hundredth_of_a_percent(void **state)
     pool_close(&r.pool);
 }
 
-static void sections_that_state_elements_keep_them(void **state)
+UNIT_TEST(sections_that_state_elements_keep_them)
 {
     struct reading r;
-    (void)state;
     read_text(&r, MATERIAL SHAFTS(", 7", "", ", 300, 0.055") MODES "*NOISE, FREQUENCY=0.01\n", NULL);
     assert_int_equal(r.job.rotor.segment[0].elements, 7);
     assert_true(r.job.rotor.segment[1].elements > 1);
@@ -96,10 +93,9 @@ static void sections_that_state_elements_keep_them(void **state)
 }
 
 /* Noise that no mesh reaches ends at the most elements, and is told. */
-static void there_is_an_end(void **state)
+UNIT_TEST(there_is_an_end)
 {
     struct reading r;
-    (void)state;
     read_text(&r, MATERIAL SHAFTS("", "", "") MODES "*NOISE, FREQUENCY=1e-9\n", NULL);
     assert_in_range(elements_of(&r.job.rotor), MESH_CHOICE_LARGEST, MESH_CHOICE_LARGEST + 3);
     assert_non_null(strstr(r.messages.item[0].text, "more elements would have to be stated"));
@@ -107,11 +103,10 @@ static void there_is_an_end(void **state)
 }
 
 /* The deck that is written states them, so it gives the same model whatever its noise becomes. */
-static void the_deck_that_is_written_states_the_elements(void **state)
+UNIT_TEST(the_deck_that_is_written_states_the_elements)
 {
     struct reading r, again;
     char *text;
-    (void)state;
     read_text(&r, MATERIAL SHAFTS("", "", "") MODES, NULL);
     struct state only, other;
     const struct states given = states_of(&r.job, &only), meant = states_of(&r.job, &other);
@@ -129,13 +124,4 @@ static void the_deck_that_is_written_states_the_elements(void **state)
     pool_close(&r.pool);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that),
-                                       cmocka_unit_test(the_highest_mode_and_the_smallest_noise_count),
-                                       cmocka_unit_test(without_noise_the_error_is_a_hundredth_of_a_percent),
-                                       cmocka_unit_test(sections_that_state_elements_keep_them),
-                                       cmocka_unit_test(there_is_an_end),
-                                       cmocka_unit_test(the_deck_that_is_written_states_the_elements)};
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -160,9 +160,8 @@ static double signal(const struct modal_fit *one)
 }
 
 /* Sums and products round alike: an information that both lose, as that of a guard far from the lines, is no mark of either. */
-static void sums_of_fractions_are_the_products_of_the_columns(void **state)
+UNIT_TEST(sums_of_fractions_are_the_products_of_the_columns)
 {
-    (void)state;
     struct random_stream random = {.state = 5};
     int told = 0, pairs = 0;
     for (int k = 0; k < CASES; k++) {
@@ -200,9 +199,8 @@ static void sums_of_fractions_are_the_products_of_the_columns(void **state)
 }
 
 /* An undamped pole has no partial fractions of finite sums: the products of the columns serve. */
-static void a_pole_on_the_axis_is_left_to_the_products(void **state)
+UNIT_TEST(a_pole_on_the_axis_is_left_to_the_products)
 {
-    (void)state;
     struct random_stream random = {.state = 6};
     struct case_of_poles drawn;
     struct ema_band band;
@@ -216,9 +214,8 @@ static void a_pole_on_the_axis_is_left_to_the_products(void **state)
 
 /* A guard far below the lines whose own information is lost in rounding: the modes have the standard deviations that they have
  * where it is held. */
-static void a_guard_whose_information_is_lost_leaves_the_modes_theirs(void **state)
+UNIT_TEST(a_guard_whose_information_is_lost_leaves_the_modes_theirs)
 {
-    (void)state;
     double std[2][6];
     for (int held = 0; held < 2; held++) {
         struct random_stream random = {.state = 8};
@@ -243,9 +240,8 @@ static void a_guard_whose_information_is_lost_leaves_the_modes_theirs(void **sta
 }
 
 /* d chi2/d pole = -2 score and its second derivative 2 schur where the residual is noise alone, by central differences. */
-static void the_score_is_the_slope_of_chi2(void **state)
+UNIT_TEST(the_score_is_the_slope_of_chi2)
 {
-    (void)state;
     struct random_stream random = {.state = 7};
     for (int k = 0; k < 20; k++) {
         struct case_of_poles drawn;
@@ -276,13 +272,4 @@ static void the_score_is_the_slope_of_chi2(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_fractions_are_the_products_of_the_columns),
-        cmocka_unit_test(a_pole_on_the_axis_is_left_to_the_products),
-        cmocka_unit_test(a_guard_whose_information_is_lost_leaves_the_modes_theirs),
-        cmocka_unit_test(the_score_is_the_slope_of_chi2),
-    };
-    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
-}
+TEST_GROUP(open_test_pool, close_test_pool);

@@ -5,6 +5,7 @@
 #include "linalg/linalg.h"
 #include "model/model.h"
 #include "paper_rotor.h"
+#include "support.h"
 
 static const struct parameter density = {PARAMETER_RHO, 0, 0, 0, NULL};
 
@@ -34,12 +35,11 @@ static void assert_same_model(const struct rotor_model *a, const struct rotor_mo
     assert_true(bench_largest(&k[0], &k[1]) == 0 && bench_largest(&m[0], &m[1]) == 0);
 }
 
-static void a_rotor_with_other_values_shares_the_mesh_and_nothing_else(void **state)
+POOL_TEST(a_rotor_with_other_values_shares_the_mesh_and_nothing_else)
 {
     struct models *models = models_for_run(&test_pool, NULL);
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
     struct rotor_model first, second, again, alone;
-    (void)state;
     assert_non_null(models);
     rotor->sling = 0.5; /* springs that follow the mass */
     rotor->nspring = 0;
@@ -102,10 +102,9 @@ static void change(struct rotor *rotor, int what)
     }
 }
 
-static void a_rotor_of_another_shape_is_built_anew(void **state)
+POOL_TEST(a_rotor_of_another_shape_is_built_anew)
 {
     const double zone[] = {0.3, 0.7, 0.05, 0};
-    (void)state;
     for (int what = 0; what < 12; what++) {
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
         struct rotor_model first, second, alone;
@@ -123,25 +122,23 @@ static void a_rotor_of_another_shape_is_built_anew(void **state)
     }
 }
 
-static void a_finer_mesh_is_another_model(void **state)
+POOL_TEST(a_finer_mesh_is_another_model)
 {
     struct models *models = models_for_run(&test_pool, NULL);
     struct rotor_model coarse, fine;
-    (void)state;
     assert_status(open_in(models, paper_rotor(BUNDLE_RODS, 1), 1, &coarse), ROTID_OK);
     assert_status(open_in(models, paper_rotor(BUNDLE_RODS, 1), 2, &fine), ROTID_OK);
     assert_int_equal(fine.naxis, 2 * coarse.naxis - 1);
     models_end_run(&test_pool, models, NULL);
 }
 
-static void a_run_goes_on_with_what_the_deck_has_built(void **state)
+POOL_TEST(a_run_goes_on_with_what_the_deck_has_built)
 {
     struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
     struct models *deck, *run;
     struct model_size size;
     struct rotor_model one, two;
     int failed;
-    (void)state;
     assert_status(models_begin(&test_pool, AS_BEAM, rotor, &deck, &size, &failed), ROTID_OK);
     run = models_for_run(&test_pool, deck);
     assert_ptr_not_equal(run, deck); /* that of a deck takes up no others: several runs may share it */
@@ -157,10 +154,9 @@ static void a_run_goes_on_with_what_the_deck_has_built(void **state)
     assert_ptr_not_equal(one.discrete.beam.mesh.z, two.discrete.beam.mesh.z);
 }
 
-static void every_failing_allocation_is_survived(void **state)
+POOL_TEST(every_failing_allocation_is_survived)
 {
     int status = ROTID_ERROR_MEMORY, n = 0, failed;
-    (void)state;
     while (status == ROTID_ERROR_MEMORY) {
         struct failing_allocator failing;
         struct pool pool;
@@ -179,17 +175,4 @@ static void every_failing_allocation_is_survived(void **state)
     }
     assert_status(status, ROTID_OK);
     assert_true(n > 50);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_rotor_with_other_values_shares_the_mesh_and_nothing_else, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(a_rotor_of_another_shape_is_built_anew, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_finer_mesh_is_another_model, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_run_goes_on_with_what_the_deck_has_built, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_failing_allocation_is_survived, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("models", tests, NULL, NULL);
 }

@@ -32,10 +32,9 @@ static struct identification fitted(const struct job *job)
 }
 
 /* Springs of 3e6 N/m at 0.1 and 0.9 m: the first two are the rotor on its bearings, and tell their stiffness. */
-static void modes_of_bearings_are_counted_where_they_were_measured(void **state)
+UNIT_TEST(modes_of_bearings_are_counted_where_they_were_measured)
 {
     struct message_list messages;
-    (void)state;
     struct job job = job_of(BAR ON("3e6") "*MODES\n" AS_SEEN FIND, &messages);
     assert_true(job.rotor.count_all);
     assert_non_null(find_message(&messages, "modes are counted from the lowest vibration on the supports (COUNT=ALL)"));
@@ -45,10 +44,9 @@ static void modes_of_bearings_are_counted_where_they_were_measured(void **state)
     rotid_fit_free(found.fit);
 }
 
-static void what_the_deck_states_is_not_doubted(void **state)
+UNIT_TEST(what_the_deck_states_is_not_doubted)
 {
     struct message_list messages;
-    (void)state;
     struct job job = job_of(BAR ON("3e6") "*MODES, COUNT=ELASTIC\n" AS_SEEN, &messages);
     assert_false(job.rotor.count_all);
     assert_int_equal(job.measurement.numbering.nsupport, 2);
@@ -58,10 +56,9 @@ static void what_the_deck_states_is_not_doubted(void **state)
 }
 
 /* Modes above those of the supports, numbered as bending modes: as ever, without a word. */
-static void bending_modes_are_counted_as_such(void **state)
+UNIT_TEST(bending_modes_are_counted_as_such)
 {
     struct message_list messages;
-    (void)state;
     struct job job =
         job_of(BAR ON("3e6") "*MODES\n1, 256.07\n2, 624.60\n*FIT, HOLDOUT=2\n*IDENTIFY\nbar.E, 1e11, 4e11, 2e11\n", &messages);
     assert_false(job.rotor.count_all);
@@ -72,21 +69,19 @@ static void bending_modes_are_counted_as_such(void **state)
 }
 
 /* One frequency between two: both numberings are as far off, and the user is asked. */
-static void where_both_fit_the_user_is_asked(void **state)
+UNIT_TEST(where_both_fit_the_user_is_asked)
 {
     struct message_list messages;
-    (void)state;
     struct job job = job_of(BAR ON("3e6") "*MODES\n1, 150\n", &messages);
     assert_false(job.rotor.count_all);
     assert_non_null(find_message(&messages, "state COUNT=ELASTIC or ALL"));
 }
 
 /* A rigid mass on two springs has sqrt(2 k/m) as its first mode; one that is free has no frequency to count. */
-static void modes_at_rest_are_never_counted(void **state)
+UNIT_TEST(modes_at_rest_are_never_counted)
 {
     struct message_list messages;
     struct spectrum s;
-    (void)state;
     struct job job = job_of(BAR ON("1000") "*MODES, COUNT=ALL\n1, 1.8\n", &messages);
     assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &s), ROTID_OK);
     assert_int_equal(s.nrigid, 0);
@@ -102,9 +97,8 @@ static void modes_at_rest_are_never_counted(void **state)
 }
 
 /* A state on bearings and a free one, each with its own count. */
-static void states_count_for_themselves(void **state)
+UNIT_TEST(states_count_for_themselves)
 {
-    (void)state;
     struct states s =
         read_states(BAR "*STATE, NAME=free\n*MODES\n1, 228.7\n2, 622.9\n*STATE, NAME=seated\n" ON("3e6") "*MODES\n" AS_SEEN);
     assert_false(s.state[0].job.rotor.count_all);
@@ -117,13 +111,12 @@ static void states_count_for_themselves(void **state)
 #define MISSED 5
 
 /* The frequencies of the model without its fifth are numbered from 1 on; in one deck, and in a state beside another one. */
-static void a_mode_that_was_missed_is_told(void **state)
+UNIT_TEST(a_mode_that_was_missed_is_told)
 {
     char text[2000], modes[400];
     struct message_list messages, notes;
     struct spectrum s;
     size_t used = 0;
-    (void)state;
     struct job job = job_of(DISKS "*MODES\n1, 190\n", &messages);
     assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 6, &s), ROTID_OK);
     for (int j = 1, k = 1; j <= 6; j++)
@@ -156,11 +149,10 @@ static void a_mode_that_was_missed_is_told(void **state)
 }
 
 /* Numbers that are right are not doubted, nor errors that no numbering mends. */
-static void right_numbers_are_not_doubted(void **state)
+UNIT_TEST(right_numbers_are_not_doubted)
 {
     struct message_list messages, notes;
     struct state one;
-    (void)state;
     struct job job =
         job_of(BAR "*MODES\n1, 228.7\n2, 640\n3, 1170\n4, 1943\n*NOISE, FREQUENCY=0.002\n*IDENTIFY\nbar.E, 1e11, 4e11, 1.8e11\n",
                &messages);
@@ -173,17 +165,4 @@ static void right_numbers_are_not_doubted(void **state)
     rotid_fit_free(found.fit);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modes_of_bearings_are_counted_where_they_were_measured),
-        cmocka_unit_test(what_the_deck_states_is_not_doubted),
-        cmocka_unit_test(bending_modes_are_counted_as_such),
-        cmocka_unit_test(where_both_fit_the_user_is_asked),
-        cmocka_unit_test(modes_at_rest_are_never_counted),
-        cmocka_unit_test(states_count_for_themselves),
-        cmocka_unit_test(a_mode_that_was_missed_is_told),
-        cmocka_unit_test(right_numbers_are_not_doubted),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

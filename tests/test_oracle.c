@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "../tools/oracle/oracle.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -49,14 +50,13 @@ static struct oracle_segment bar(double length, int slender)
 /* ---- The factorisation ---- */
 
 /* X D X' has the signs of D. Zeros on the diagonal of the product force blocks of size 2. */
-static void inertia_and_solution(void **state)
+UNIT_TEST(inertia_and_solution)
 {
     enum { n = 23 };
     double x[n * n], a[n * n], factors[n * n], b[n], solution[n], work[n], log_determinant;
     int pivot[n], negative;
     uint32_t seed = 12345;
 
-    (void)state;
     for (int wanted = 0; wanted <= n; wanted++) {
         for (int i = 0; i < n * n; i++) {
             seed = seed * 1664525u + 1013904223u;
@@ -92,11 +92,10 @@ static void inertia_and_solution(void **state)
 /* ---- Members ---- */
 
 /* Without axial force the element interpolates the exact static solution, so K = D(0) and M = -dD/dlambda(0). */
-static void element_is_the_static_limit(void **state)
+UNIT_TEST(element_is_the_static_limit)
 {
     double k[16], m[16], transfer[16], exact[16], above[16], below[16];
 
-    (void)state;
     for (int slender = 0; slender < 2; slender++) {
         struct oracle_segment s = bar(slender ? 1.0 : 0.13, slender);
         double h = 1e-3 * s.bending / (s.mass * pow(s.length, 4.0));
@@ -116,12 +115,11 @@ static void element_is_the_static_limit(void **state)
 }
 
 /* Eliminating Q2 and M2 from the mixed form gives the dynamic stiffness. */
-static void mixed_form(void **state)
+UNIT_TEST(mixed_form)
 {
     struct oracle_segment s = bar(0.3, 0);
     double transfer[16], exact[16], mixed[36];
 
-    (void)state;
     s.axial = -0.01 * s.shear;
     for (int variant = 0; variant < 3; variant++) {
         oracle_transfer(&s, s.length, (variant - 1) * 2e7, transfer);
@@ -140,12 +138,11 @@ static void mixed_form(void **state)
 
 /* The transfer matrix of two stretches is the product of theirs, down to slivers, under compression and at imaginary frequency.
  * */
-static void transfer_is_a_group(void **state)
+UNIT_TEST(transfer_is_a_group)
 {
     static const double share[3] = {0.5, 0.9, 1e-7};
     struct oracle_segment s = bar(0.4, 0);
 
-    (void)state;
     s.axial = -0.3 * s.shear;
     for (int i = 0; i < 6; i++) {
         double lambda = (i < 3 ? 1.0 : -1.0) * 4e8, whole[16], left[16], right[16];
@@ -165,7 +162,7 @@ static void transfer_is_a_group(void **state)
 
 /* ---- Uniform beams ---- */
 
-static void euler_bernoulli(void **state)
+UNIT_TEST(euler_bernoulli)
 {
     static const double free_free[5] = {4.730040744862704, 7.853204624095838, 10.995607838001671, 14.137165491257464,
                                         17.278759657399481};
@@ -177,7 +174,6 @@ static void euler_bernoulli(void **state)
     struct oracle_system system = {.segments = 1, .segment = &s};
     double unit, hz[7];
 
-    (void)state;
     for (int finite = 0; finite < 2; finite++) {
         if (finite) { /* the limit from the other side; its error is EI/(kGS L^2) and rhoI/(rhoS L^2), times (beta L)^2 */
             s.shear = 1e13 * s.bending;
@@ -214,7 +210,7 @@ static int ascending(const void *left, const void *right)
  * whose determinant is a lambda^2 - b lambda + c with a = rhoS rhoI, b = rhoS (EI k^2 + kGS) + rhoI (kGS + F) k^2 and
  * c = k^2 ((kGS + F) EI k^2 + F kGS). Both roots are natural frequencies (the second spectrum); n = 0 has v = 0 and lambda =
  * kGS/rhoI. */
-static void pinned_timoshenko(void **state)
+UNIT_TEST(pinned_timoshenko)
 {
     struct oracle_segment s = bar(0.25, 0);
     struct oracle_point held[2] = {{.z = 0.0, .spring = INFINITY}, {.z = 0.25, .spring = INFINITY}};
@@ -223,7 +219,6 @@ static void pinned_timoshenko(void **state)
     const double axial[4] = {0.0, 0.3 * s.shear, -0.5 * buckling, -0.99 * buckling};
     double expected[2 * 40 + 1], hz[30], v[9], theta[9], z[9];
 
-    (void)state;
     for (int i = 0; i < 9; i++)
         z[i] = s.length * i / 8.0;
     for (int variant = 0; variant < 4; variant++) {
@@ -258,7 +253,7 @@ static void pinned_timoshenko(void **state)
 
 /* ---- Rigid bodies, points, hinges ---- */
 
-static void rigid_bodies(void **state)
+UNIT_TEST(rigid_bodies)
 {
     struct oracle_segment s = bar(2.0, 0);
     struct oracle_point pin = {.z = 0.7, .spring = INFINITY}, hinge = {.z = 0.7, .flexibility = INFINITY};
@@ -266,7 +261,6 @@ static void rigid_bodies(void **state)
     double hz[4], z[4] = {0.0, 0.5, 1.0, 2.0}, v[4];
     int count;
 
-    (void)state;
     assert_int_equal(oracle_count(&system, 1.0, &count), ORACLE_OK);
     assert_int_equal(count, 2);
     frequencies(&system, 1, 4, hz);
@@ -298,12 +292,11 @@ static double two_by_two(double k11, double k12, double k22, double m1, double m
 
 /* Cantilever whose own mass is negligible: a tip mass and inertia on the static stiffness, the inverse of the flexibility
  * [L^3/3EI + L/kGS, -L^2/2EI; -L^2/2EI, L/EI]; a hinge at a adds f (L - a)^2, -f (L - a) and f to it. */
-static void tip_mass(void **state)
+UNIT_TEST(tip_mass)
 {
     struct oracle_segment s = bar(0.5, 0);
     double hz[2];
 
-    (void)state;
     s.mass *= 1e-13;
     s.inertia *= 1e-13;
     for (int hinged = 0; hinged < 2; hinged++) {
@@ -322,7 +315,7 @@ static void tip_mass(void **state)
 }
 
 /* With 1e10 times the stiffness of the springs, the beam is a rigid body of mass m and inertia m L^2/12 + rhoI L. */
-static void rigid_beam_on_springs(void **state)
+UNIT_TEST(rigid_beam_on_springs)
 {
     struct oracle_segment s = bar(2.0, 0);
     struct oracle_point springs[3] = {
@@ -330,7 +323,6 @@ static void rigid_beam_on_springs(void **state)
     struct oracle_system system = {.segments = 1, .segment = &s, .points = 3, .point = springs};
     double l = s.length, mass = s.mass * l, inertia = mass * l * l / 12.0 + s.inertia * l, hz[3];
 
-    (void)state;
     s.bending *= 1e7;
     s.shear *= 1e7;
     frequencies(&system, 1, 3, hz);
@@ -341,7 +333,7 @@ static void rigid_beam_on_springs(void **state)
     assert_true(hz[2] > 1e4);
 }
 
-static void hinge_limits(void **state)
+UNIT_TEST(hinge_limits)
 {
     struct oracle_segment s[2] = {bar(0.8, 0), bar(1.2, 0)};
     struct oracle_point hinge = {.z = 0.8, .flexibility = 0.0};
@@ -349,7 +341,6 @@ static void hinge_limits(void **state)
     double solid[8], hz[8], pinned[8];
     double z[2] = {0.8, 0.8 + 1e-6}, v[2], theta[2];
 
-    (void)state;
     s[1].bending *= 0.4;
     frequencies(&system, 1, 8, solid);
     system.points = 1;
@@ -401,7 +392,7 @@ static void hinge_limits(void **state)
 }
 
 /* A clamp in the middle leaves two equal cantilevers: every frequency is double. */
-static void double_frequencies(void **state)
+UNIT_TEST(double_frequencies)
 {
     struct oracle_segment s = bar(2.0, 0), half = bar(1.0, 0);
     struct oracle_point middle = {.z = 1.0, .spring = INFINITY, .rotational_spring = INFINITY};
@@ -410,7 +401,6 @@ static void double_frequencies(void **state)
     struct oracle_system cantilever = {.segments = 1, .segment = &half, .points = 1, .point = &root};
     double hz[8], expected[4], z[3] = {0.0, 1.0, 2.0}, v[3];
 
-    (void)state;
     frequencies(&system, 1, 8, hz);
     frequencies(&cantilever, 1, 4, expected);
     for (int i = 0; i < 8; i++)
@@ -463,14 +453,13 @@ static void make_rotor(struct rotor *rotor)
 }
 
 /* Cutting the segments anywhere, slivers included, changes nothing. */
-static void subdivision(void **state)
+UNIT_TEST(subdivision)
 {
     struct rotor rotor;
     struct oracle_segment pieces[400];
     double whole[MODES], cut[MODES];
     uint32_t seed = 7;
 
-    (void)state;
     make_rotor(&rotor);
     frequencies(&rotor.system, 1, MODES, whole);
     for (int variant = 0; variant < 3; variant++) {
@@ -498,13 +487,12 @@ static void subdivision(void **state)
 }
 
 /* Seen from the other end, theta changes its sign and the sides of a hinge change places. */
-static void mirror(void **state)
+UNIT_TEST(mirror)
 {
     static const int swapped[4] = {2, 3, 0, 1};
     struct rotor rotor, image;
     double hz[MODES], mirrored[MODES], z[40], back[40], v[40], w[40];
 
-    (void)state;
     make_rotor(&rotor);
     image = rotor;
     for (int i = 0; i < 5; i++)
@@ -548,7 +536,7 @@ static void mirror(void **state)
 
 /* A fine mesh of finite elements is a Ritz approximation, so its frequencies lie above the exact ones, mode by mode, and near
  * them. The elements are those of oracle_beam_element; the hinge is one more degree of freedom. */
-static void finite_elements_bound_from_above(void **state)
+UNIT_TEST(finite_elements_bound_from_above)
 {
     enum { per_segment = 24, nodes = 5 * per_segment + 5, dofs = 2 * nodes + 1 };
     static double stiffness[dofs * dofs], mass[dofs * dofs], shifted[dofs * dofs];
@@ -557,7 +545,6 @@ static void finite_elements_bound_from_above(void **state)
     struct oracle_segment element[nodes];
     int elements = 0, pivot[dofs], hinge_node = -1;
 
-    (void)state;
     make_rotor(&rotor);
     z[0] = 0.0;
     for (int i = 0; i < 5; i++) { /* equal elements, cut further at the points and at the ends of the second parallel member */
@@ -648,7 +635,7 @@ static void finite_elements_bound_from_above(void **state)
 
 /* Shapes are orthogonal in mass, and the Rayleigh quotient of a shape, with derivatives taken from the shape itself, is its
  * omega^2. 20 Gauss points in each stretch integrate and interpolate the analytic shapes to rounding. */
-static void orthogonality_and_energy(void **state)
+UNIT_TEST(orthogonality_and_energy)
 {
     enum { q = 20, stretches = 10, total = q * stretches, ends = 12 };
     static const double bound[stretches + 1] = {0.0, 0.1234, 0.25, 0.4, 0.55, 0.9, 1.25, 1.45, 1.51, 1.7, 1.91};
@@ -656,7 +643,6 @@ static void orthogonality_and_energy(void **state)
     double x[q], weight[q], derivative[q][q], z[total + ends], hz[MODES];
     static double v[MODES][total + ends], theta[MODES][total + ends], slope[MODES][total], curvature[MODES][total];
 
-    (void)state;
     make_rotor(&rotor);
     for (int i = 0; i < q; i++) { /* zeros of the Legendre polynomial by Newton */
         double p = 0.0, dp = 1.0;
@@ -773,14 +759,13 @@ static double form(const double matrix[16], const double left[4], const double r
 
 /* Rigid motions store no elastic energy, F L theta^2 of geometric energy, and have the mass and inertia of the body. Pure
  * bending, theta = -z/R + const and v' = -theta, stores EI L/R^2. */
-static void tie_members(void **state)
+UNIT_TEST(tie_members)
 {
     struct oracle_tie tie = {12, 0.032, 0.13364, 0.924192, 2.1e11, 0.3, 7850.0, 150e3}, slack = tie, bad = tie;
     double area = 12.0 * pi / 4.0 * 0.032 * 0.032, l = tie.length, e = tie.pitch_radius, force = 12.0 * 150e3;
     double own = 12.0 * pi / 64.0 * pow(0.032, 4.0), mass = 7850.0 * area * l;
     double lift[4] = {1.0, 0.0, 1.0, 0.0}, turn[4] = {l / 2.0, 1.0, -l / 2.0, 1.0}, bend[4] = {0.0, -0.5 * l, 0.0, 0.5 * l};
 
-    (void)state;
     slack.tension = 0.0;
     for (int tube = 0; tube < 2; tube++) {
         double k[16], m[16], elastic[16], ignored[16];
@@ -818,7 +803,7 @@ static void tie_members(void **state)
 /* Pinned light beam with heavy inertias at its ends and a spring k between the two rotations: in the symmetric mode both
  * stiffnesses act on the relative rotation, omega^2 = 2 (EI/L + k)/Id; in the other k does nothing, omega^2 = 6 EI/((1 + phi)
  * L)/Id. */
-static void parallel_spring_between_rotations(void **state)
+UNIT_TEST(parallel_spring_between_rotations)
 {
     struct oracle_segment s = bar(0.9, 0);
     struct oracle_point points[2] = {{.z = 0.0, .spring = INFINITY, .inertia = 3.0},
@@ -827,7 +812,6 @@ static void parallel_spring_between_rotations(void **state)
     struct oracle_parallel between = {.z_a = 0.0, .z_b = 0.9, .stiffness = {[5] = k, [7] = -k, [13] = -k, [15] = k}};
     struct oracle_system system = {1, &s, 2, points, 1, &between};
 
-    (void)state;
     s.mass *= 1e-13;
     s.inertia *= 1e-13;
     frequencies(&system, 1, 2, hz);
@@ -837,7 +821,7 @@ static void parallel_spring_between_rotations(void **state)
 
 /* ---- Misuse ---- */
 
-static void bad_arguments(void **state)
+UNIT_TEST(bad_arguments)
 {
     struct oracle_segment s = bar(2.0, 0), wrong = s;
     struct oracle_point point = {.z = 2.5, .mass = 1.0};
@@ -845,7 +829,6 @@ static void bad_arguments(void **state)
     double hz[1], z[1] = {3.0}, v[1];
     int count;
 
-    (void)state;
     assert_int_equal(oracle_count(NULL, 1.0, &count), ORACLE_ERROR_ARGUMENT);
     assert_int_equal(oracle_count(&system, 0.0, &count), ORACLE_ERROR_ARGUMENT);
     assert_int_equal(oracle_count(&system, NAN, &count), ORACLE_ERROR_ARGUMENT);
@@ -868,30 +851,4 @@ static void bad_arguments(void **state)
     wrong = s;
     wrong.axial = -1.1 * s.shear;
     assert_int_equal(oracle_count(&system, 1.0, &count), ORACLE_ERROR_UNSTABLE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inertia_and_solution),
-        cmocka_unit_test(element_is_the_static_limit),
-        cmocka_unit_test(mixed_form),
-        cmocka_unit_test(transfer_is_a_group),
-        cmocka_unit_test(euler_bernoulli),
-        cmocka_unit_test(pinned_timoshenko),
-        cmocka_unit_test(rigid_bodies),
-        cmocka_unit_test(tip_mass),
-        cmocka_unit_test(rigid_beam_on_springs),
-        cmocka_unit_test(hinge_limits),
-        cmocka_unit_test(double_frequencies),
-        cmocka_unit_test(subdivision),
-        cmocka_unit_test(mirror),
-        cmocka_unit_test(finite_elements_bound_from_above),
-        cmocka_unit_test(orthogonality_and_energy),
-        cmocka_unit_test(tie_members),
-        cmocka_unit_test(parallel_spring_between_rotations),
-        cmocka_unit_test(bad_arguments),
-    };
-
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

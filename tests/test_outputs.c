@@ -49,9 +49,8 @@ static void refuses(const char *command)
     (void)shell(&test_pool, "cd %s && cmp part.inp kept.inp && cmp data/converged_steel.uff kept.uff", folder);
 }
 
-static void what_a_deck_names_is_not_written(void **state)
+POOL_TEST(what_a_deck_names_is_not_written)
 {
-    (void)state;
     refuses("check deck.inp --json part.inp");
     refuses("check deck.inp --json ./data/../data/converged_steel.uff");
     refuses("diagnose deck.inp --extended part.inp");
@@ -68,9 +67,8 @@ static void what_a_deck_names_is_not_written(void **state)
 }
 
 /* As /dev/stdout is one; not by that name, which root would lose where this fails. */
-static void a_link_to_a_descriptor_stays(void **state)
+POOL_TEST(a_link_to_a_descriptor_stays)
 {
-    (void)state;
     const char *output;
     (void)shell(&test_pool, "cd %s && ln -s /proc/self/fd/1 out && ln -s /proc/self/fd/5 five && ln -s /proc/self/fd/0 in",
                 folder);
@@ -91,9 +89,8 @@ static void a_link_to_a_descriptor_stays(void **state)
 }
 
 /* A file that is opened would have the number of the closed stream, and get what is said there. */
-static void closed_streams_are_no_files(void **state)
+POOL_TEST(closed_streams_are_no_files)
 {
-    (void)state;
     const char *output;
     (void)shell(&test_pool,
                 "cd %s && sed 's/=0.01//' " INPUT "/paper_study.plan | sed 's|^paper_rotor|" INPUT "/paper_rotor|' > many.plan",
@@ -110,9 +107,8 @@ static void closed_streams_are_no_files(void **state)
     (void)shell(&test_pool, "cd %s && cmp closed.json expected.json", folder);
 }
 
-static void options_follow_the_file_for_posix_as_well(void **state)
+POOL_TEST(options_follow_the_file_for_posix_as_well)
 {
-    (void)state;
     (void)shell(&test_pool,
                 "cd %s && POSIXLY_CORRECT=1 " ROTID_PROGRAM
                 " check deck.inp --quiet --json posix.json && cmp posix.json expected.json",
@@ -120,9 +116,8 @@ static void options_follow_the_file_for_posix_as_well(void **state)
 }
 
 /* Few masters have fewer modes than are listed. */
-static void exported_files_hold_numbers(void **state)
+POOL_TEST(exported_files_hold_numbers)
 {
-    (void)state;
     (void)shell(&test_pool,
                 ROTID "export " INPUT "/brake_reuss_beam.inp --format matrix-market -o few --quiet && ! grep -i nan few.*",
                 folder);
@@ -143,9 +138,8 @@ static void write_cards(const char *name, int cards, const char *head, int lines
     assert_int_equal(fclose(stream), 0);
 }
 
-static void more_than_a_rotor_has_is_refused(void **state)
+POOL_TEST(more_than_a_rotor_has_is_refused)
 {
-    (void)state;
     const char *output;
     write_cards("sensors.inp", 30, "*SENSORS\n** %d\n", 10000); /* each with each would take minutes */
     assert_int_equal(
@@ -158,15 +152,4 @@ static void more_than_a_rotor_has_is_refused(void **state)
         strstr(output, "bars.inp:26:1: shaft, rods and bars up to these have 10020 elements, expected at most 10000"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_a_deck_names_is_not_written, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_link_to_a_descriptor_stays, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(closed_streams_are_no_files, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(options_follow_the_file_for_posix_as_well, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(exported_files_hold_numbers, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(more_than_a_rotor_has_is_refused, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("outputs", tests, setup, teardown);
-}
+TEST_GROUP(setup, teardown);

@@ -46,9 +46,8 @@ static const char *shown(double value, int decimals)
 
 /* ------------------------------------------------------------------------------------------------ what stands on it */
 
-static void a_page_is_whole_and_says_what_the_result_holds(void **state)
+UNIT_TEST(a_page_is_whole_and_says_what_the_result_holds)
 {
-    (void)state;
     char text[128];
     make_result("identify", PAPER, "paper.json");
     assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("paper.json"), page_path("one")), 0);
@@ -112,9 +111,8 @@ static void compare(const cJSON *whole, const cJSON *kept, int is_drawn)
     }
 }
 
-static void the_data_of_a_page_are_the_result(void **state)
+UNIT_TEST(the_data_of_a_page_are_the_result)
 {
-    (void)state;
     static const char *const names[] = {"paper.json", "sensitivity.json", "frf.json", "modes.json", "check.json", "beam.json"};
     make_result("identify", PAPER, "paper.json");
     make_result("sensitivity", PAPER " --at core.E=8e10,core.G=3e10", "sensitivity.json");
@@ -144,9 +142,8 @@ static void the_data_of_a_page_are_the_result(void **state)
         page_says(html, "<section id=\"%s\">", ids[i]);
 }
 
-static void an_older_result_says_what_it_lacks(void **state)
+UNIT_TEST(an_older_result_says_what_it_lacks)
 {
-    (void)state;
     make_result("identify", SOLID, "solid.json");
     cJSON *json = page_json("solid.json");
     static const char *const newer[] = {"geometry",       "shapes", "nco_matrix", "mac_matrix",    "matrix_rows",
@@ -195,9 +192,8 @@ static const char *before_provenance(const char *html)
     return text;
 }
 
-static void folders_ids_and_builds_stand_in_the_last_section(void **state)
+UNIT_TEST(folders_ids_and_builds_stand_in_the_last_section)
 {
-    (void)state;
     assert_int_equal(page_run("mkdir -p '%s'", page_path("a b")), 0);
     page_write_file("a b/noisy.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
                                      "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.05, 0, 20\n*MODES\n1, 200\n2, 640\n3, 1300\n"
@@ -233,9 +229,8 @@ static void folders_ids_and_builds_stand_in_the_last_section(void **state)
     }
 }
 
-static void the_gravest_answer_comes_first(void **state)
+UNIT_TEST(the_gravest_answer_comes_first)
 {
-    (void)state;
     make_result("modes", PAPER, "modes.json");
     make_result("identify", PAPER, "paper.json");
     make_result("diagnose", BEAM " --replicates 200", "beam.json");
@@ -271,9 +266,8 @@ static double largest(const cJSON *curve, const char *re, const char *im)
     return most;
 }
 
-static void a_modal_analysis_has_a_page(void **state)
+UNIT_TEST(a_modal_analysis_has_a_page)
 {
-    (void)state;
     assert_int_equal(
         page_run("cd %s && %s/hammer beam -o rec.unv --deck b.inp --modes-file m.unv --noise 0.01 --fault loose:12=1500 "
                  "--fault dead:7 --floor 1e-5 --seed 3",
@@ -334,9 +328,8 @@ static void a_modal_analysis_has_a_page(void **state)
 
 /* ------------------------------------------------------------------------------------------------ whose files it writes */
 
-static void nothing_of_anybody_else_is_written_over(void **state)
+UNIT_TEST(nothing_of_anybody_else_is_written_over)
 {
-    (void)state;
     make_result("identify", PAPER, "paper.json");
     const char *to = "%s report %s -o %s";
     static const char mine[] = "<!DOCTYPE html><title>mine</title>";
@@ -371,9 +364,8 @@ static void nothing_of_anybody_else_is_written_over(void **state)
     }
 }
 
-static void what_cannot_be_written_is_said(void **state)
+UNIT_TEST(what_cannot_be_written_is_said)
 {
-    (void)state;
     make_result("identify", PAPER, "paper.json");
     static const char *const where[] = {"/nowhere/at/all", "/nowhere/at/all.html"};
     for (int i = 0; i < 2; i++) {
@@ -411,9 +403,8 @@ static void add_list(cJSON *object, const char *key, int count, double from, dou
 }
 
 /* The paper's result blown up: more nodes, more sensors, more shapes. */
-static void a_large_result_makes_a_page_of_less_than_two_megabytes(void **state)
+UNIT_TEST(a_large_result_makes_a_page_of_less_than_two_megabytes)
 {
-    (void)state;
     make_result("identify", SOLID, "solid.json");
     cJSON *json = page_json("solid.json"), *geometry = cJSON_GetObjectItem(json, "geometry"),
           *shapes = cJSON_GetObjectItem(json, "shapes");
@@ -453,18 +444,4 @@ static void a_large_result_makes_a_page_of_less_than_two_megabytes(void **state)
     assert_true(strlen(html) < 2000000);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_page_is_whole_and_says_what_the_result_holds),
-        cmocka_unit_test(the_data_of_a_page_are_the_result),
-        cmocka_unit_test(an_older_result_says_what_it_lacks),
-        cmocka_unit_test(folders_ids_and_builds_stand_in_the_last_section),
-        cmocka_unit_test(the_gravest_answer_comes_first),
-        cmocka_unit_test(a_modal_analysis_has_a_page),
-        cmocka_unit_test(nothing_of_anybody_else_is_written_over),
-        cmocka_unit_test(what_cannot_be_written_is_said),
-        cmocka_unit_test(a_large_result_makes_a_page_of_less_than_two_megabytes),
-    };
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

@@ -70,9 +70,8 @@ static void need_browser(void)
     skip();
 }
 
-static void every_figure_is_drawn_and_nothing_complains(void **state)
+FIXTURE_TEST(every_figure_is_drawn_and_nothing_complains, make_pages, NULL)
 {
-    (void)state;
     need_browser();
     for (int i = 0; i < KINDS; i++) {
         char page[64], figure[64];
@@ -99,9 +98,8 @@ static void every_figure_is_drawn_and_nothing_complains(void **state)
     }
 }
 
-static void every_button_works(void **state)
+UNIT_TEST(every_button_works)
 {
-    (void)state;
     need_browser();
     /* what is saved is kept in place of the download; what is chosen changes its drawing, a choice of one apart */
     static const char script[] =
@@ -131,9 +129,8 @@ static void every_button_works(void **state)
     }
 }
 
-static void nothing_is_wider_than_a_phone(void **state)
+UNIT_TEST(nothing_is_wider_than_a_phone)
 {
-    (void)state;
     need_browser();
     /* a frame of 390 px, since a window has a least width */
     static const char script[] =
@@ -151,9 +148,8 @@ static void nothing_is_wider_than_a_phone(void **state)
     }
 }
 
-static void a_print_has_its_tables_open(void **state)
+UNIT_TEST(a_print_has_its_tables_open)
 {
-    (void)state;
     need_browser();
     const char *title = browser_driven(
         "study.html", "1000,800",
@@ -171,9 +167,8 @@ static void a_print_has_its_tables_open(void **state)
 }
 
 /* As it is written: what a reader has where the script does not run. */
-static void without_the_script_the_page_reads(void **state)
+UNIT_TEST(without_the_script_the_page_reads)
 {
-    (void)state;
     need_browser();
     for (int i = 0; i < KINDS; i++) {
         char page[64];
@@ -187,14 +182,4 @@ static void without_the_script_the_page_reads(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(every_figure_is_drawn_and_nothing_complains, make_pages),
-        cmocka_unit_test(every_button_works),
-        cmocka_unit_test(nothing_is_wider_than_a_phone),
-        cmocka_unit_test(a_print_has_its_tables_open),
-        cmocka_unit_test(without_the_script_the_page_reads),
-    };
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

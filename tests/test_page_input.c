@@ -30,9 +30,8 @@ static void make_results(void)
         0);
 }
 
-static void files_that_are_no_result_are_refused_with_their_place(void **state)
+UNIT_TEST(files_that_are_no_result_are_refused_with_their_place)
 {
-    (void)state;
     static const struct {
         const char *text, *says;
     } wrong[] = {
@@ -90,9 +89,8 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
     assert_false(page_exists("page"));
 }
 
-static void all_files_are_judged_and_one_bad_one_is_enough(void **state)
+UNIT_TEST(all_files_are_judged_and_one_bad_one_is_enough)
 {
-    (void)state;
     make_results();
     page_write_file("wrong.json", "{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1, \"modes\": {\"a\": 1}}");
     assert_int_equal(page_run("%s report %s %s /nowhere/x.json -o %s", ROTID_PROGRAM, page_path("identify.json"),
@@ -190,9 +188,8 @@ static void shorten(cJSON *at)
     }
 }
 
-static void every_value_that_is_wrong_is_refused_or_does_no_harm(void **state)
+UNIT_TEST(every_value_that_is_wrong_is_refused_or_does_no_harm)
 {
-    (void)state;
     static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",    "modes.json",
                                         "diagnose.json", "study.json",       "states.json", "states_modes.json"};
     make_results();
@@ -221,9 +218,8 @@ static cJSON *item_at(cJSON *at, const char *path)
 }
 
 /* A number that is not known is NaN; nothing stands for a text or a flag that is not. */
-static void null_stands_for_numbers_alone(void **state)
+UNIT_TEST(null_stands_for_numbers_alone)
 {
-    (void)state;
     static const struct {
         const char *path, *says;
     } nulls[] = {{"/functional", "functional: is null, expected a value"},
@@ -242,9 +238,8 @@ static void null_stands_for_numbers_alone(void **state)
 }
 
 /* What no single value is wrong in. */
-static void a_result_that_contradicts_itself_is_refused(void **state)
+UNIT_TEST(a_result_that_contradicts_itself_is_refused)
 {
-    (void)state;
     static const struct {
         const char *file, *list; /* of which the last value is taken away, in the first element */
         const char *says;
@@ -275,9 +270,8 @@ static void a_result_that_contradicts_itself_is_refused(void **state)
     }
 }
 
-static void a_value_out_of_its_range_is_refused(void **state)
+UNIT_TEST(a_value_out_of_its_range_is_refused)
 {
-    (void)state;
     static const struct {
         const char *file, *path;
         double value;
@@ -307,9 +301,8 @@ static void a_value_out_of_its_range_is_refused(void **state)
     }
 }
 
-static void a_file_cut_off_anywhere_is_refused(void **state)
+UNIT_TEST(a_file_cut_off_anywhere_is_refused)
 {
-    (void)state;
     make_results();
     const char *whole = page_read("identify.json");
     size_t length = strlen(whole) - 1;
@@ -328,9 +321,8 @@ static void a_file_cut_off_anywhere_is_refused(void **state)
 }
 
 /* Memory of the pool that ends after n blocks: an error, or a page that lacks nothing but a text; never a crash, never a leak. */
-static void memory_that_runs_out_is_survived(void **state)
+UNIT_TEST(memory_that_runs_out_is_survived)
 {
-    (void)state;
     make_results();
     static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",    "modes.json",
                                         "diagnose.json", "study.json",       "states.json", "states_modes.json"};
@@ -338,17 +330,4 @@ static void memory_that_runs_out_is_survived(void **state)
         assert_true(page_composed_without_memory(names[i]) > 50);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_that_are_no_result_are_refused_with_their_place),
-        cmocka_unit_test(all_files_are_judged_and_one_bad_one_is_enough),
-        cmocka_unit_test(every_value_that_is_wrong_is_refused_or_does_no_harm),
-        cmocka_unit_test(null_stands_for_numbers_alone),
-        cmocka_unit_test(a_result_that_contradicts_itself_is_refused),
-        cmocka_unit_test(a_value_out_of_its_range_is_refused),
-        cmocka_unit_test(a_file_cut_off_anywhere_is_refused),
-        cmocka_unit_test(memory_that_runs_out_is_survived),
-    };
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

@@ -13,9 +13,8 @@
 #define SPACE "\xc2\xa0"
 #define DASH  "\xe2\x80\x93"
 
-static void numbers_are_written_for_people(void **state)
+POOL_TEST(numbers_are_written_for_people)
 {
-    (void)state;
     struct pool *pool = &test_pool;
     const double wide[2] = {55.1e9, 176.4e9}, narrow[2] = {209.978e9, 210.505e9}, none[2] = {NAN, NAN}, mass[2] = {-0.5, 2.5};
     assert_string_equal(human_interval(pool, 115.75e9, wide, "Pa"), "115.8" SPACE "GPa (95" SPACE "%: 55.1 to 176.4)");
@@ -54,9 +53,8 @@ static void numbers_are_written_for_people(void **state)
     assert_close(human_half_width_percent(-2, (double[]){-3, -1}), 50, 1e-15, 0);
 }
 
-static void texts_are_escaped(void **state)
+UNIT_TEST(texts_are_escaped)
 {
-    (void)state;
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
@@ -92,9 +90,8 @@ static void write_html(FILE *out, const struct table *table)
     table_write_html(out, table, 7);
 }
 
-static void a_table_is_shown_in_three_ways(void **state)
+POOL_TEST(a_table_is_shown_in_three_ways)
 {
-    (void)state;
     static const struct {
         const char *part;
         double error, chance, mass;
@@ -134,9 +131,8 @@ static void a_table_is_shown_in_three_ways(void **state)
 }
 
 /* People read it in its unit, with the digits of its interval; CSV has SI. */
-static void a_row_has_a_unit(void **state)
+POOL_TEST(a_row_has_a_unit)
 {
-    (void)state;
     struct table *table = table_open(&test_pool, "");
     table_row(table);
     unit_column(table, 115.75e9, (176.4e9 - 55.1e9) / 2, "Pa");
@@ -146,9 +142,8 @@ static void a_row_has_a_unit(void **state)
     assert_string_equal(written(table_write_csv, table), "unit,value,upper\nPa,115750000000,1.764e11\n");
 }
 
-static void ids_become_words_and_paths_names(void **state)
+POOL_TEST(ids_become_words_and_paths_names)
 {
-    (void)state;
     static const char *const text[][2] = {{"The model lacks added_mass; it explains", "The model lacks added mass; it explains"},
                                           {"stiffness_local of core, joint", "soft zone of core, joint"},
                                           {"my_added_mass added_mass2 added_mass.inp core.added_mass", NULL},
@@ -166,9 +161,8 @@ static void ids_become_words_and_paths_names(void **state)
 }
 
 /* Whoever adds a text to a page: outside of the section on provenance it is shown so. */
-static void every_text_of_a_page_is_shown_so(void **state)
+POOL_TEST(every_text_of_a_page_is_shown_so)
 {
-    (void)state;
     struct document document;
     struct message_list messages;
     const char *file;
@@ -215,15 +209,4 @@ static void every_text_of_a_page_is_shown_so(void **state)
             fail_msg("'%s' is not on the page:\n%s", shown[i], html);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(numbers_are_written_for_people, open_test_pool, close_test_pool),
-        cmocka_unit_test(texts_are_escaped),
-        cmocka_unit_test_setup_teardown(a_table_is_shown_in_three_ways, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_row_has_a_unit, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(ids_become_words_and_paths_names, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_text_of_a_page_is_shown_so, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

@@ -30,9 +30,8 @@ static const char *const truth_plan =
     "*STUDY, REPLICATES=40\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1.8e11, 2.2e11\n"
     "left.E, 2e11\n*NOISE\n0.001\n0.003\n";
 
-static void intervals_are_counted_against_the_truth(void **state)
+UNIT_TEST(intervals_are_counted_against_the_truth)
 {
-    (void)state;
     page_make_study("truth", truth_plan);
     cJSON *runs = page_runs("truth.jsonl"), *run;
     const char *html = page_made("truth.jsonl");
@@ -61,9 +60,8 @@ static void intervals_are_counted_against_the_truth(void **state)
     cJSON_Delete(runs);
 }
 
-static void a_summary_says_what_it_does_not_hold(void **state)
+UNIT_TEST(a_summary_says_what_it_does_not_hold)
 {
-    (void)state;
     page_make_study("truth", truth_plan);
     const char *html = page_made("truth.json");
     page_says(html, "truth.json is a summary.");
@@ -79,9 +77,8 @@ static void a_summary_says_what_it_does_not_hold(void **state)
 }
 
 /* Runs in the data of the page: all of few, evenly thinned of many; with what figures show and no more. */
-static void runs_are_in_the_data_of_the_page(void **state)
+POOL_TEST(runs_are_in_the_data_of_the_page)
 {
-    (void)state;
     page_make_study("truth", truth_plan);
     const char *html = page_made("truth.jsonl"), *data = strstr(html, "id=\"data\">") + strlen("id=\"data\">");
     cJSON *json = cJSON_Parse(pool_format(&test_pool, "%.*s", (int)(strstr(data, "</script>") - data), data)), *run,
@@ -102,9 +99,8 @@ static void runs_are_in_the_data_of_the_page(void **state)
     cJSON_Delete(lines);
 }
 
-static void verdicts_are_counted(void **state)
+UNIT_TEST(verdicts_are_counted)
 {
-    (void)state;
     static const char *const score[] = {"right", "quiet", "in_set", "silent", "wrong", "false_alarm"};
     page_make_study("hidden",
                     "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
@@ -126,9 +122,8 @@ static void verdicts_are_counted(void **state)
     cJSON_Delete(runs);
 }
 
-static void many_decks_stand_beside_each_other(void **state)
+UNIT_TEST(many_decks_stand_beside_each_other)
 {
-    (void)state;
     char list[256] = "";
     for (int i = 0; i < 5; i++) {
         char name[32], text[2048];
@@ -178,9 +173,8 @@ static void assert_refused(const char *text, const char *says)
 }
 
 /* What a study leaves that was stopped before its first run ended. */
-static void a_file_of_results_without_a_run_is_told_so(void **state)
+UNIT_TEST(a_file_of_results_without_a_run_is_told_so)
 {
-    (void)state;
     page_make_study("truth", truth_plan);
     const char *whole = page_read("truth.jsonl");
     char header[2048];
@@ -188,9 +182,8 @@ static void a_file_of_results_without_a_run_is_told_so(void **state)
     assert_refused(header, "broken.jsonl: is the file of results of a study and holds no run yet, expected the line of a run");
 }
 
-static void broken_lines_are_told_with_their_place(void **state)
+UNIT_TEST(broken_lines_are_told_with_their_place)
 {
-    (void)state;
     page_make_study("truth", truth_plan);
     static const struct {
         const char *from, *to, *says;
@@ -231,24 +224,10 @@ static void broken_lines_are_told_with_their_place(void **state)
 }
 
 /* Memory of the pool that ends after n blocks, while the lines are read and composed. */
-static void memory_that_runs_out_is_survived(void **state)
+UNIT_TEST(memory_that_runs_out_is_survived)
 {
-    (void)state;
     page_make_study("starts", starts_plan);
     assert_true(page_composed_without_memory("starts.jsonl") > 150);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_are_counted_against_the_truth),
-        cmocka_unit_test(a_summary_says_what_it_does_not_hold),
-        cmocka_unit_test_setup_teardown(runs_are_in_the_data_of_the_page, open_test_pool, close_test_pool),
-        cmocka_unit_test(verdicts_are_counted),
-        cmocka_unit_test(many_decks_stand_beside_each_other),
-        cmocka_unit_test(a_file_of_results_without_a_run_is_told_so),
-        cmocka_unit_test(broken_lines_are_told_with_their_place),
-        cmocka_unit_test(memory_that_runs_out_is_survived),
-    };
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

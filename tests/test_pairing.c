@@ -7,12 +7,12 @@
 
 #include "modal/modal.h"
 #include "model/model.h"
+#include "support.h"
 
 /* ---- correlation */
 
-static void mac_is_the_squared_cosine(void **state)
+POOL_TEST(mac_is_the_squared_cosine)
 {
-    (void)state;
     const double a[3] = {1, 2, -2}, b[3] = {3, 0, 4}, zero[3] = {0, 0, 0}, across[3] = {2, 0, 1};
     assert_close(rotid_mac(3, a, b), 25.0 / (9 * 25), 1e-15, 0);
     assert_close(rotid_mac(3, b, a), 25.0 / (9 * 25), 1e-15, 0);
@@ -24,7 +24,7 @@ static void mac_is_the_squared_cosine(void **state)
     assert_close(rotid_mac(0, a, b), 0, 0, 0);
 }
 
-static void mac_does_not_see_scale_sign_or_what_was_not_measured(void **state)
+POOL_TEST(mac_does_not_see_scale_sign_or_what_was_not_measured)
 {
     enum { n = 30 };
     struct random_stream stream = {71};
@@ -60,7 +60,7 @@ static void mac_does_not_see_scale_sign_or_what_was_not_measured(void **state)
     assert_close(rotid_mac(2, nothing, other), 0, 0, 0);
 }
 
-static void nco_is_the_squared_cosine_in_the_mass(void **state)
+POOL_TEST(nco_is_the_squared_cosine_in_the_mass)
 {
     enum { n = 25 };
     struct random_stream stream = {72};
@@ -96,7 +96,7 @@ static void nco_is_the_squared_cosine_in_the_mass(void **state)
 }
 
 /* Condensed vectors are orthogonal in the condensed mass, and only there: the MAC of two of them is not zero. */
-static void condensed_vectors_have_the_identity_for_nco(void **state)
+POOL_TEST(condensed_vectors_have_the_identity_for_nco)
 {
     struct rotor_model client;
     struct prediction p;
@@ -117,9 +117,8 @@ static void condensed_vectors_have_the_identity_for_nco(void **state)
 
 /* ---- pairing; correlation[mode + candidate * nmode], written below one candidate a line */
 
-static void clear_shapes_confirm_the_numbers(void **state)
+POOL_TEST(clear_shapes_confirm_the_numbers)
 {
-    (void)state;
     const double correlation[9] = {0.99, 0.02, 0.01, 0.03, 0.97, 0.04, 0.00, 0.05, 0.95};
     int number[3] = {1, 2, 3}, used[3];
     enum pairing_basis basis[3];
@@ -131,7 +130,7 @@ static void clear_shapes_confirm_the_numbers(void **state)
 }
 
 /* Every order of four modes among six candidates, from shapes of the paper's rotor with noise. */
-static void modes_listed_in_any_order_are_found_by_their_shapes(void **state)
+POOL_TEST(modes_listed_in_any_order_are_found_by_their_shapes)
 {
     enum { nmode = 4, ncandidate = 6 };
     struct random_stream stream = {73};
@@ -168,9 +167,8 @@ static void modes_listed_in_any_order_are_found_by_their_shapes(void **state)
     assert_int_equal(tried, 360);
 }
 
-static void without_shapes_the_numbers_stand(void **state)
+POOL_TEST(without_shapes_the_numbers_stand)
 {
-    (void)state;
     int number[3] = {4, 1, 2}, used[5];
     enum pairing_basis basis[3] = {PAIRED_BY_SHAPE, PAIRED_BY_SHAPE, PAIRED_BY_SHAPE};
     assert_int_equal(pair_modes(3, 5, NULL, number, basis, used), 0);
@@ -182,9 +180,8 @@ static void without_shapes_the_numbers_stand(void **state)
 }
 
 /* Two candidates nearly as good, none good enough, or no correlation at all: such shapes move nothing. */
-static void ambiguous_and_poor_shapes_leave_the_number(void **state)
+POOL_TEST(ambiguous_and_poor_shapes_leave_the_number)
 {
-    (void)state;
     const double rows[][3] = {{0.60, 0.35, 0.01}, {0.45, 0.01, 0.01}, {0.501, 0.499, 0}, {NAN, NAN, NAN}, {0, 0, 0}};
     for (int r = 0; r < 5; r++) {
         const double correlation[6] = {rows[r][0], 0.02, rows[r][1], 0.01, rows[r][2], 0.98};
@@ -199,9 +196,8 @@ static void ambiguous_and_poor_shapes_leave_the_number(void **state)
 }
 
 /* As soon as the best is PAIRING_LEAST and twice the next. */
-static void a_shape_decides_from_the_stated_threshold_on(void **state)
+POOL_TEST(a_shape_decides_from_the_stated_threshold_on)
 {
-    (void)state;
     const double rows[][2] = {{PAIRING_LEAST, PAIRING_LEAST / 2}, {0.8, 0.4}, {0.499, 0.1}, {0.8, 0.41}};
     for (int r = 0; r < 4; r++) {
         int number[1] = {2}, used[2];
@@ -212,9 +208,8 @@ static void a_shape_decides_from_the_stated_threshold_on(void **state)
     }
 }
 
-static void the_stronger_of_two_claims_wins(void **state)
+POOL_TEST(the_stronger_of_two_claims_wins)
 {
-    (void)state;
     for (int strong = 0; strong < 2; strong++) { /* both are most like candidate 1 */
         const double correlation[6] = {strong ? 0.70 : 0.95, strong ? 0.95 : 0.70, 0.10, 0.05, 0.02, 0.01};
         int number[2] = {2, 3}, used[3];
@@ -227,9 +222,8 @@ static void the_stronger_of_two_claims_wins(void **state)
     }
 }
 
-static void a_number_that_is_taken_is_reported(void **state)
+POOL_TEST(a_number_that_is_taken_is_reported)
 {
-    (void)state;
     const double correlation[9] = {0.1, 0.9, 0.1, 0.1, 0.0, 0.1, 0.1, 0.0, 0.1}; /* mode 2 of the data is candidate 1 */
     int number[3] = {1, 2, 3}, twice[3] = {3, 2, 3}, used[3];
     enum pairing_basis basis[3];
@@ -237,9 +231,8 @@ static void a_number_that_is_taken_is_reported(void **state)
     assert_int_equal(pair_modes(3, 3, NULL, twice, basis, used), 1 + 2);
 }
 
-static void a_number_beyond_the_candidates_disturbs_nothing(void **state)
+POOL_TEST(a_number_beyond_the_candidates_disturbs_nothing)
 {
-    (void)state;
     const double correlation[4] = {0.1, 0.9, 0.1, 0.0};
     int number[2] = {7, 2}, used[2];
     enum pairing_basis basis[2];
@@ -249,23 +242,4 @@ static void a_number_beyond_the_candidates_disturbs_nothing(void **state)
     number[0] = 0;
     assert_int_equal(pair_modes(2, 2, NULL, number, basis, used), 0);
     assert_int_equal(number[0], 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(mac_is_the_squared_cosine),
-        WITH_POOL(mac_does_not_see_scale_sign_or_what_was_not_measured),
-        WITH_POOL(nco_is_the_squared_cosine_in_the_mass),
-        WITH_POOL(condensed_vectors_have_the_identity_for_nco),
-        WITH_POOL(clear_shapes_confirm_the_numbers),
-        WITH_POOL(modes_listed_in_any_order_are_found_by_their_shapes),
-        WITH_POOL(without_shapes_the_numbers_stand),
-        WITH_POOL(ambiguous_and_poor_shapes_leave_the_number),
-        WITH_POOL(a_shape_decides_from_the_stated_threshold_on),
-        WITH_POOL(the_stronger_of_two_claims_wins),
-        WITH_POOL(a_number_that_is_taken_is_reported),
-        WITH_POOL(a_number_beyond_the_candidates_disturbs_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,12 +4,12 @@
 
 #include "fit/fit.h"
 #include "paper_fit.h"
+#include "support.h"
 
 /* From the 68-sensor surrogate of input/paper_rotor.inp; SciPy's optimum is the second opinion on it. */
-static void test_moduli_errors_and_objective_are_those_of_a_second_solver(void **state)
+UNIT_TEST(test_moduli_errors_and_objective_are_those_of_a_second_solver)
 {
     static const double percent[PAPER_MODES] = {-4.4, 8.2, 2.7, -1.0, -3.9, -0.7};
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     rotid_fit_result *result = paper_run(&fit);
@@ -34,9 +34,8 @@ static void test_moduli_errors_and_objective_are_those_of_a_second_solver(void *
     paper_fit_close(&fit);
 }
 
-static void test_objective_and_gradient_hold_when_recomputed(void **state)
+UNIT_TEST(test_objective_and_gradient_hold_when_recomputed)
 {
-    (void)state;
     for (int functional = ROTID_HYBRID; functional <= ROTID_HYBRID_F; functional++)
         for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
             struct paper_fit fit;
@@ -52,9 +51,8 @@ static void test_objective_and_gradient_hold_when_recomputed(void **state)
         }
 }
 
-static void test_history_leads_from_the_start_to_the_result(void **state)
+UNIT_TEST(test_history_leads_from_the_start_to_the_result)
 {
-    (void)state;
     struct paper_fit fit;
     double gradient[2];
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -79,9 +77,8 @@ static void test_history_leads_from_the_start_to_the_result(void **state)
 }
 
 /* The paper starts within +-70 % of what it finds. */
-static void test_every_start_within_seventy_percent_reaches_the_optimum(void **state)
+UNIT_TEST(test_every_start_within_seventy_percent_reaches_the_optimum)
 {
-    (void)state;
     struct paper_fit fit;
     int most = 0;
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -102,9 +99,8 @@ static void test_every_start_within_seventy_percent_reaches_the_optimum(void **s
 }
 
 /* F_k is E_k to first order and half its size, so that only the large residuals make a difference. */
-static void test_functional_f_finds_nearly_the_same(void **state)
+UNIT_TEST(test_functional_f_finds_nearly_the_same)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     fit.options.functional = ROTID_HYBRID_F;
@@ -118,9 +114,8 @@ static void test_functional_f_finds_nearly_the_same(void **state)
 }
 
 /* With frequencies alone LIKELIHOOD of one relative noise is F over that noise. */
-static void test_likelihood_of_frequencies_is_functional_f_over_the_noise(void **state)
+UNIT_TEST(test_likelihood_of_frequencies_is_functional_f_over_the_noise)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
     fit.options.functional = ROTID_HYBRID_F;
@@ -141,9 +136,8 @@ static void test_likelihood_of_frequencies_is_functional_f_over_the_noise(void *
 }
 
 /* Every solver is judged by our own objective and gradient at the point that it returned. */
-static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
+UNIT_TEST(test_nlopt_agrees_and_needs_more_evaluations)
 {
-    (void)state;
     if (!baseline_count(2))
         skip(); /* built without NLopt */
     for (int functional = ROTID_LIKELIHOOD; functional <= ROTID_HYBRID_F; functional++)
@@ -182,9 +176,8 @@ static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
 }
 
 /* Slender rods instead of a tube halve the misfit; SciPy's optimum for the rods, condensed to the same sensors. */
-static void test_rods_halve_the_objective_of_the_tube(void **state)
+UNIT_TEST(test_rods_halve_the_objective_of_the_tube)
 {
-    (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_RODS);
     rotid_fit_result *result = paper_run(&fit);
@@ -198,9 +191,8 @@ static void test_rods_halve_the_objective_of_the_tube(void **state)
 }
 
 /* Figs. 13 and 14: the moduli from the first m modes */
-static void test_two_to_six_modes_identify(void **state)
+UNIT_TEST(test_two_to_six_modes_identify)
 {
-    (void)state;
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_GUYAN; reduction++)
         for (int m = 2; m <= PAPER_MODES; m++) {
             struct paper_fit fit;
@@ -221,9 +213,8 @@ static void test_two_to_six_modes_identify(void **state)
 }
 
 /* An isotropic core: E alone, G = E/2(1 + nu) follows it. It cannot fit better than two free moduli. */
-static void test_isotropic_core_is_a_fit_of_one_parameter(void **state)
+UNIT_TEST(test_isotropic_core_is_a_fit_of_one_parameter)
 {
-    (void)state;
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_GUYAN; reduction++) {
         struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 0);
         struct paper_fit fit;
@@ -247,9 +238,8 @@ static void test_isotropic_core_is_a_fit_of_one_parameter(void **state)
 }
 
 /* Held-out modes are predicted and compared, and change nothing, whatever was measured of them. */
-static void test_held_out_modes_do_not_influence_the_moduli(void **state)
+UNIT_TEST(test_held_out_modes_do_not_influence_the_moduli)
 {
-    (void)state;
     struct paper_fit fit;
     rotid_fit_result *alone, *with, *other;
     paper_fit_open(&fit, BUNDLE_TUBE);
@@ -275,22 +265,4 @@ static void test_held_out_modes_do_not_influence_the_moduli(void **state)
     rotid_fit_free(with);
     rotid_fit_free(other);
     paper_fit_close(&fit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_moduli_errors_and_objective_are_those_of_a_second_solver),
-        cmocka_unit_test(test_objective_and_gradient_hold_when_recomputed),
-        cmocka_unit_test(test_history_leads_from_the_start_to_the_result),
-        cmocka_unit_test(test_every_start_within_seventy_percent_reaches_the_optimum),
-        cmocka_unit_test(test_functional_f_finds_nearly_the_same),
-        cmocka_unit_test(test_likelihood_of_frequencies_is_functional_f_over_the_noise),
-        cmocka_unit_test(test_nlopt_agrees_and_needs_more_evaluations),
-        cmocka_unit_test(test_rods_halve_the_objective_of_the_tube),
-        cmocka_unit_test(test_two_to_six_modes_identify),
-        cmocka_unit_test(test_isotropic_core_is_a_fit_of_one_parameter),
-        cmocka_unit_test(test_held_out_modes_do_not_influence_the_moduli),
-    };
-    return cmocka_run_group_tests_name("paper_fit", tests, NULL, NULL);
 }

@@ -44,11 +44,10 @@ static int task(void *context, int index, int worker)
     return record->fail[index];
 }
 
-static void every_index_runs_once_and_results_do_not_depend_on_the_threads(void **state)
+UNIT_TEST(every_index_runs_once_and_results_do_not_depend_on_the_threads)
 {
     static const int threads[] = {-3, 0, 1, 2, 3, 8, 40, 2000}, counts[] = {0, 1, 2, 3, 7, 100, MOST};
     static struct record serial, record;
-    (void)state;
     open_record(&serial, 0);
     assert_int_equal(parallel_for(1, MOST, task, &serial), 0);
     for (size_t t = 0; t < sizeof threads / sizeof *threads; t++)
@@ -65,10 +64,9 @@ static void every_index_runs_once_and_results_do_not_depend_on_the_threads(void 
     assert_int_equal(parallel_for(4, -1, task, &record), 0);
 }
 
-static void the_lowest_failure_is_returned_and_what_is_left_is_not_started(void **state)
+UNIT_TEST(the_lowest_failure_is_returned_and_what_is_left_is_not_started)
 {
     static struct record record;
-    (void)state;
     for (int repeat = 0; repeat < 20; repeat++)
         for (int threads = 1; threads <= 8; threads++) {
             open_record(&record, threads);
@@ -92,11 +90,10 @@ static void the_lowest_failure_is_returned_and_what_is_left_is_not_started(void 
 }
 
 /* Where no thread can be had, here because its stack would be larger than any memory, the caller does the work. */
-static void without_threads_the_caller_does_it_all(void **state)
+UNIT_TEST(without_threads_the_caller_does_it_all)
 {
     static struct record record;
     pthread_attr_t usual, huge;
-    (void)state;
     assert_int_equal(pthread_getattr_default_np(&usual), 0);
     assert_int_equal(pthread_attr_init(&huge), 0);
     assert_int_equal(pthread_attr_setstacksize(&huge, (size_t)1 << 60), 0);
@@ -112,14 +109,4 @@ static void without_threads_the_caller_does_it_all(void **state)
     }
     (void)pthread_attr_destroy(&usual);
     (void)pthread_attr_destroy(&huge);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_index_runs_once_and_results_do_not_depend_on_the_threads),
-        cmocka_unit_test(the_lowest_failure_is_returned_and_what_is_left_is_not_started),
-        cmocka_unit_test(without_threads_the_caller_does_it_all),
-    };
-    return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static double loaded(double hz, double b, double shape)
 
 /* ------------------------------------------------------------------------------------------------ numbers */
 
-static void the_mean_is_over_all_sensors_and_not_over_those_that_read(void **state)
+POOL_TEST(the_mean_is_over_all_sensors_and_not_over_those_that_read)
 {
-    (void)state;
     double shape[POINTS], hz[POINTS], std[POINTS], expected = 0;
     struct point_mean mean;
     shape_of_beam(shape);
@@ -62,9 +61,8 @@ static void the_mean_is_over_all_sensors_and_not_over_those_that_read(void **sta
     assert_true(isfinite(mean.hz) && mean.regressed);
 }
 
-static void two_columns_that_resemble_each_other_are_told_apart(void **state)
+POOL_TEST(two_columns_that_resemble_each_other_are_told_apart)
 {
-    (void)state;
     double y[2 * POINTS], std[2 * POINTS], a[2 * POINTS], b[2 * POINTS], mean[8];
     char use[2 * POINTS];
     for (int i = 0; i < 2 * POINTS; i++) {
@@ -85,9 +83,8 @@ static void two_columns_that_resemble_each_other_are_told_apart(void **state)
     assert_int_equal(fit.dof, 2 * POINTS - 4);
 }
 
-static void few_points_give_their_plain_mean(void **state)
+POOL_TEST(few_points_give_their_plain_mean)
 {
-    (void)state;
     double shape[POINTS], hz[POINTS], std[POINTS];
     struct point_mean mean;
     shape_of_beam(shape);
@@ -116,9 +113,8 @@ static void few_points_give_their_plain_mean(void **state)
 
 /* Deviations of the mean against what happens over many tests: with stated noise, with noise stated a third of what it is, and
  * with none stated. */
-static void the_deviation_of_the_mean_is_what_it_scatters_by(void **state)
+POOL_TEST(the_deviation_of_the_mean_is_what_it_scatters_by)
 {
-    (void)state;
     static const double stated[] = {0.01, 0.0033, NAN};
     struct random_stream stream = {17};
     double shape[POINTS], hz[POINTS], std[POINTS];
@@ -149,9 +145,8 @@ static void the_deviation_of_the_mean_is_what_it_scatters_by(void **state)
     }
 }
 
-static void one_wrong_reading_does_not_move_the_mean(void **state)
+POOL_TEST(one_wrong_reading_does_not_move_the_mean)
 {
-    (void)state;
     struct random_stream stream = {19};
     double shape[POINTS], hz[POINTS], std[POINTS], clean[POINTS];
     shape_of_beam(shape);
@@ -172,9 +167,8 @@ static void one_wrong_reading_does_not_move_the_mean(void **state)
 /* Readings a step above and below their mean by turns: the median of the sizes is a step, the noise that normal readings of this
  * median have is 1.4826 steps. Of 21 readings, one beyond 4.2 such noises is wrong: 8 steps are 3.7 of them and 10 are 4.4, by
  * the equations of drop_from_line with the mean of all. */
-static void a_median_of_sizes_stands_for_one_and_a_half_of_the_noise(void **state)
+POOL_TEST(a_median_of_sizes_stands_for_one_and_a_half_of_the_noise)
 {
-    (void)state;
     for (int steps = 8; steps <= 10; steps += 2) {
         double hz[POINTS], std[POINTS];
         struct point_mean mean;
@@ -203,18 +197,16 @@ static int has_note(const struct reading *r, const char *text)
     return 0;
 }
 
-static void a_deck_without_them_has_none(void **state)
+POOL_TEST(a_deck_without_them_has_none)
 {
-    (void)state;
     struct reading r;
     read_job(MODEL DATA END, &r.messages, &r.job);
     assert_true(!r.job.measurement.point_frequency_hz && !r.job.measurement.point_frequency_std &&
                 r.job.measurement.frequency_hz[0] == 450);
 }
 
-static void the_card_sets_the_frequency_of_its_mode(void **state)
+POOL_TEST(the_card_sets_the_frequency_of_its_mode)
 {
-    (void)state;
     struct reading r;
     struct point_mean mean;
     read_job(MODEL DATA POINTS_1 POINTS_2 "*NOISE, FREQUENCY=0.001\n" END, &r.messages, &r.job);
@@ -234,9 +226,8 @@ static void the_card_sets_the_frequency_of_its_mode(void **state)
     assert_close(r.job.measurement.frequency_std[1], 0.7 / 1230, 1e-14, 0);
 }
 
-static void floors_are_added_to_what_the_data_state_and_to_nothing_else(void **state)
+POOL_TEST(floors_are_added_to_what_the_data_state_and_to_nothing_else)
 {
-    (void)state;
     struct reading r;
     read_job(MODEL DATA "*NOISE, FREQUENCY=0.001, FLOOR_FREQUENCY=0.002, SHAPE=0.02, FLOOR_SHAPE=0.01\n" END, &r.messages,
              &r.job);
@@ -253,9 +244,8 @@ static void assert_same(ptrdiff_t count, const double *a, const double *b)
 
 /* Mean and deviations are settled once: the deck that is written gives the numbers back, whatever the noise came from, and with
  * faults of the data taken out behind it. */
-static void the_deck_comes_back(void **state)
+POOL_TEST(the_deck_comes_back)
 {
-    (void)state;
     static const char *const text[] = {
         MODEL DATA POINTS_1 POINTS_2 "*NOISE, FREQUENCY=0.001, FLOOR_FREQUENCY=0.0005, SHAPE=0.02\n" END,
         MODEL DATA "*FREQUENCIES, MODE=1\n1, 447\n2, 450\n3, 449\n4, 449.2\n5, 450.2\n6, 447.1\n" END,
@@ -279,9 +269,8 @@ static void the_deck_comes_back(void **state)
     }
 }
 
-static void frequencies_follow_their_sensor(void **state)
+POOL_TEST(frequencies_follow_their_sensor)
 {
-    (void)state;
     struct reading r;
     read_job(MODEL DATA POINTS_1 "*CAUSE, NAME=a, TYPE=sensor_position, SENSOR=2\nshift, 0.3\n"
                                  "*CAUSE, NAME=b, TYPE=sensor_swap, SENSOR=1,6\n" END,
@@ -332,9 +321,8 @@ static const char *read_one(struct reading *r, const char *first, const char *se
     return read_set(r, &set, 1);
 }
 
-static void sets_of_deviations_become_those_of_the_job(void **state)
+POOL_TEST(sets_of_deviations_become_those_of_the_job)
 {
-    (void)state;
     struct reading r;
     const double std[6] = {0.01, 0, 0.02, 0.03, 0.01, 0.01}, hz[6] = {1200, 0, 1228, 1230, 1229, 1201},
                  of[6] = {1, 0, 2, 3, 4, 5};
@@ -352,9 +340,8 @@ static void sets_of_deviations_become_those_of_the_job(void **state)
     assert_string_equal(read_one(&r, "SOMEBODY ELSE'S SET OF MODE 99", "", of), "");
 }
 
-static void malformed_sets_are_refused(void **state)
+POOL_TEST(malformed_sets_are_refused)
 {
-    (void)state;
     struct reading r;
     const double good[6] = {0.01, 0.01, 0.02, 0.03, 0.01, 0.01}, negative[6] = {0.01, -0.01, 0, 0, 0, 0},
                  far[6] = {450, 440, 480};
@@ -376,23 +363,4 @@ static void malformed_sets_are_refused(void **state)
     assert_non_null(strstr(read_set(&r, set, 1), "complex"));
 }
 
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-    const struct CMUnitTest tests[] = {
-        TEST(the_mean_is_over_all_sensors_and_not_over_those_that_read),
-        TEST(two_columns_that_resemble_each_other_are_told_apart),
-        TEST(few_points_give_their_plain_mean),
-        TEST(the_deviation_of_the_mean_is_what_it_scatters_by),
-        TEST(one_wrong_reading_does_not_move_the_mean),
-        TEST(a_median_of_sizes_stands_for_one_and_a_half_of_the_noise),
-        TEST(a_deck_without_them_has_none),
-        TEST(the_card_sets_the_frequency_of_its_mode),
-        TEST(floors_are_added_to_what_the_data_state_and_to_nothing_else),
-        TEST(the_deck_comes_back),
-        TEST(frequencies_follow_their_sensor),
-        TEST(sets_of_deviations_become_those_of_the_job),
-        TEST(malformed_sets_are_refused),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

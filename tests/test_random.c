@@ -5,9 +5,8 @@
 
 #include "base/base.h"
 
-static void the_stream_is_splitmix64(void **state)
+UNIT_TEST(the_stream_is_splitmix64)
 {
-    (void)state;
     /* first outputs of the authors' C code for the seed 1234567 */
     const uint64_t expected[] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
                                  16408922859458223821u};
@@ -16,9 +15,8 @@ static void the_stream_is_splitmix64(void **state)
         assert_close(random_uniform(&stream), ((double)(expected[i] >> 11) + 0.5) / 9007199254740992.0, 0, 0);
 }
 
-static void a_seed_repeats_and_another_does_not(void **state)
+UNIT_TEST(a_seed_repeats_and_another_does_not)
 {
-    (void)state;
     struct random_stream one = {42}, two = {42}, other = {43};
     int same = 0;
     for (int i = 0; i < 1000; i++) {
@@ -30,9 +28,8 @@ static void a_seed_repeats_and_another_does_not(void **state)
 }
 
 /* Moments within five standard deviations of their own; N = 4e6. */
-static void random_numbers_have_their_moments(void **state)
+UNIT_TEST(random_numbers_have_their_moments)
 {
-    (void)state;
     enum { count = 4000000 };
     struct random_stream stream = {7};
     double u1 = 0, u2 = 0, least = 1, most = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0, lag = 0, previous = 0;
@@ -63,14 +60,4 @@ static void random_numbers_have_their_moments(void **state)
     assert_close(m4 / count, 3, 0, 5 * sqrt(96.0 / count));
     assert_close(lag / count, 0, 0, 5 * sqrt(1.0 / count));
     assert_close((double)beyond / count, 0.0026997960632601890, 0, 5 * sqrt(0.0027 / count));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_stream_is_splitmix64),
-        cmocka_unit_test(a_seed_repeats_and_another_does_not),
-        cmocka_unit_test(random_numbers_have_their_moments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 
 #include "linalg/linalg.h"
 #include "model/model.h"
+#include "support.h"
 
 static const int kinds[2] = {ROTID_GUYAN, ROTID_IRS};
 
@@ -55,7 +56,7 @@ static void check_against_dense(struct pool *pool, const rotid_matrix *k, const 
     }
 }
 
-static void condensed_matrices_are_those_of_the_dense_formulas(void **state)
+POOL_TEST(condensed_matrices_are_those_of_the_dense_formulas)
 {
     struct random_stream stream = {41};
     const int far[6] = {0, 1, 11, 12, 24, 25}, all[30] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
@@ -73,7 +74,7 @@ static void condensed_matrices_are_those_of_the_dense_formulas(void **state)
         }
 }
 
-static void condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formulas(void **state)
+POOL_TEST(condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formulas)
 {
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
         struct reduced_rotor r;
@@ -84,7 +85,7 @@ static void condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formul
 }
 
 /* Loads on the masters alone deflect them as in the full model: K~^-1 is the part of K^-1 at the masters. */
-static void guyan_keeps_the_static_flexibility_of_the_masters(void **state)
+POOL_TEST(guyan_keeps_the_static_flexibility_of_the_masters)
 {
     enum { n = 40, nc = 6 };
     struct random_stream stream = {42};
@@ -127,7 +128,7 @@ static void bending_frequencies(struct pool *pool, const struct reduced_rotor *r
 }
 
 /* Per cent by which Guyan with 68 masters raises the frequencies; from SciPy, dense. IRS on the same masters is nearer. */
-static void condensation_errors_of_the_papers_rotor_are_those_of_scipy(void **state)
+POOL_TEST(condensation_errors_of_the_papers_rotor_are_those_of_scipy)
 {
     const double expected[PAPER_MODES] = {0.043357, 0.076664, 0.214545, 0.709566, 3.296078, 1.287215};
     const double x[2] = {1.157e11, 0.316e11};
@@ -188,7 +189,7 @@ static double largest(size_t count, const double *x)
 }
 
 /* dT, dK~ and dM~ column by column. */
-static void derivatives_match_central_differences(void **state)
+POOL_TEST(derivatives_match_central_differences)
 {
     for (int kind = 0; kind < 2; kind++) {
         struct reduced_rotor r;
@@ -232,7 +233,7 @@ static void derivatives_match_central_differences(void **state)
     }
 }
 
-static void expansion_and_projection_are_adjoint(void **state)
+POOL_TEST(expansion_and_projection_are_adjoint)
 {
     enum { n = 40 };
     struct random_stream stream = {43};
@@ -282,7 +283,7 @@ static void expansion_and_projection_are_adjoint(void **state)
 
 /* ---- refusals */
 
-static void slaves_that_nothing_holds_are_an_error(void **state)
+POOL_TEST(slaves_that_nothing_holds_are_an_error)
 {
     struct random_stream stream = {44};
     const int master[3] = {0, 8, 19};
@@ -304,7 +305,7 @@ static void slaves_that_nothing_holds_are_an_error(void **state)
 }
 
 /* A free beam with its only master at one end can still turn about it: singular up to rounding. */
-static void slaves_that_can_move_rigidly_are_an_error(void **state)
+POOL_TEST(slaves_that_can_move_rigidly_are_an_error)
 {
     for (int elements = 2; elements <= 200; elements *= 3) {
         int n = 2 * elements + 2, master[1] = {0};
@@ -325,7 +326,7 @@ static void slaves_that_can_move_rigidly_are_an_error(void **state)
     }
 }
 
-static void a_guyan_mass_that_is_not_positive_definite_stops_irs(void **state)
+POOL_TEST(a_guyan_mass_that_is_not_positive_definite_stops_irs)
 {
     struct random_stream stream = {45};
     const int master[3] = {0, 8, 19};
@@ -336,20 +337,4 @@ static void a_guyan_mass_that_is_not_positive_definite_stops_irs(void **state)
     m.band[4 * 8] = -1000;
     assert_status(reduction_new(*state, ROTID_IRS, &k, 3, master, &r), ROTID_OK);
     assert_status(reduction_compute(&r, &k, &m), ROTID_ERROR_MASS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(condensed_matrices_are_those_of_the_dense_formulas),
-        WITH_POOL(condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formulas),
-        WITH_POOL(guyan_keeps_the_static_flexibility_of_the_masters),
-        WITH_POOL(condensation_errors_of_the_papers_rotor_are_those_of_scipy),
-        WITH_POOL(derivatives_match_central_differences),
-        WITH_POOL(expansion_and_projection_are_adjoint),
-        WITH_POOL(slaves_that_nothing_holds_are_an_error),
-        WITH_POOL(slaves_that_can_move_rigidly_are_an_error),
-        WITH_POOL(a_guyan_mass_that_is_not_positive_definite_stops_irs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

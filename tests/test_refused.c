@@ -105,9 +105,8 @@ static int fit(const struct fit *f, const rotid_environment *environment)
 }
 
 /* Zeros, NULL and rotid_fit_defaults are one choice. */
-static void options_have_one_default(void **state)
+UNIT_TEST(options_have_one_default)
 {
-    (void)state;
     struct fit f;
     fit_open(&f);
     double chi2[3], x[3];
@@ -130,9 +129,8 @@ static void options_have_one_default(void **state)
 
 /* ---- which argument it is */
 
-static void a_fit_names_what_it_refuses(void **state)
+UNIT_TEST(a_fit_names_what_it_refuses)
 {
-    (void)state;
     struct fit f, good;
     static int backwards[] = {2, 0};
     fit_open(&good);
@@ -192,9 +190,8 @@ static void a_fit_names_what_it_refuses(void **state)
     assert_string_equal(failure, "measured->number[1] is 4, but behind 0 rigid ones the model has 3 modes");
 }
 
-static void a_fit_says_what_its_callbacks_did(void **state)
+UNIT_TEST(a_fit_says_what_its_callbacks_did)
 {
-    (void)state;
     struct fit f;
     fit_open(&f);
     f.chain.m_band[0] = -1;
@@ -215,9 +212,8 @@ static void a_fit_says_what_its_callbacks_did(void **state)
     assert_string_equal(failure, rotid_status_text(ROTID_ERROR_MASS));
 }
 
-static void building_blocks_name_what_they_refuse(void **state)
+UNIT_TEST(building_blocks_name_what_they_refuse)
 {
-    (void)state;
     struct chain c, other;
     int master[] = {0, 2}, dof[] = {0, 3}, none[] = {-1, 3};
     double kc[9], mc[9], t[9], lambda[3], phi[9], dlambda, full[9] = {0}, e[4] = {1, -1, -1, 1}, outer, inner;
@@ -273,9 +269,8 @@ static int none_returned(void *user, int m, int n, const double *x, double *r, d
     return (r == NULL) == *(int *)user ? 7 : residual(NULL, m, n, x, r, jacobian);
 }
 
-static void least_squares_name_what_they_refuse(void **state)
+UNIT_TEST(least_squares_name_what_they_refuse)
 {
-    (void)state;
     double x[1] = {NAN}, r[1], jacobian[1], error[1], doubt[1], scale[1] = {0}, work[100];
     rotid_lm_result result;
     rotid_lm_options options = {.max_iterations = 3};
@@ -304,9 +299,8 @@ static void least_squares_name_what_they_refuse(void **state)
 }
 
 /* A routine that fails without a word would be the exception that a host stumbles over. */
-static void every_routine_with_a_status_says_why(void **state)
+POOL_TEST(every_routine_with_a_status_says_why)
 {
-    (void)state;
     struct header header;
     int count = 0;
     assert_int_equal(header_read(&test_pool, ROTID_SOURCE_DIR "/include/rotid.h", &header), 0);
@@ -322,9 +316,8 @@ static void every_routine_with_a_status_says_why(void **state)
     assert_true(count >= 18);
 }
 
-static void a_long_reason_is_whole_characters(void **state)
+UNIT_TEST(a_long_reason_is_whole_characters)
 {
-    (void)state;
     char name[2000];
     for (int i = 0; i < 1999; i++)
         name[i] = "\xc3\xa4"[i % 2];
@@ -392,9 +385,8 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     return 17;
 }
 
-static void an_environment_that_is_none_is_refused_by_all(void **state)
+POOL_TEST(an_environment_that_is_none_is_refused_by_all)
 {
-    (void)state;
     int calls = 0, count = 0, takers = 0;
     rotid_allocator allocator = {.release = take_back, .context = &calls};
     rotid_environment environment = {.size = sizeof environment, .allocator = &allocator};
@@ -419,9 +411,8 @@ static void an_environment_that_is_none_is_refused_by_all(void **state)
 
 /* ---- symmetry */
 
-static void a_block_that_is_not_symmetric_is_refused(void **state)
+POOL_TEST(a_block_that_is_not_symmetric_is_refused)
 {
-    (void)state;
     static const char text[] = ": block (1, 0) is -1 and block (0, 1) is -0.999, expected a symmetric block (entries (2, 0) and "
                                "(0, 2) of the matrix)";
     struct chain c;
@@ -464,9 +455,8 @@ struct new
     double third;
 };
 
-static void a_struct_of_before_is_filled_up_with_zeros(void **state)
+UNIT_TEST(a_struct_of_before_is_filled_up_with_zeros)
 {
-    (void)state;
     const struct sized_struct structure = {"new", "it", sizeof(struct old), sizeof(struct new)};
     const struct old old = {sizeof old, 1, 2};
     struct new copy = {1, 1, 1, 1}, given = {sizeof given, 3, 4, 5.5};
@@ -481,9 +471,8 @@ static void a_struct_of_before_is_filled_up_with_zeros(void **state)
     assert_refused(sized_copy(&structure, &given, failure, &copy), "it->size is 15, expected sizeof(new), here 24");
 }
 
-static void what_a_newer_host_asks_for_is_refused_and_zeros_are_not(void **state)
+POOL_TEST(what_a_newer_host_asks_for_is_refused_and_zeros_are_not)
 {
-    (void)state;
     struct fit f;
     struct {
         rotid_fit_options options;
@@ -513,9 +502,8 @@ static void what_a_newer_host_asks_for_is_refused_and_zeros_are_not(void **state
     assert_refused(fit(&f, NULL), "measured->size is 1, expected sizeof(rotid_measured), here 64");
 }
 
-static void defaults_are_written_as_far_as_the_host_has_room(void **state)
+UNIT_TEST(defaults_are_written_as_far_as_the_host_has_room)
 {
-    (void)state;
     struct {
         rotid_fit_options options;
         char behind[16];
@@ -530,23 +518,4 @@ static void defaults_are_written_as_far_as_the_host_has_room(void **state)
     assert_close(host.options.bijection_chi, 0.05, 0, 0);
     for (size_t i = 0; i < sizeof host.behind; i++)
         assert_int_equal(host.behind[i], 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_have_one_default),
-        cmocka_unit_test(a_fit_names_what_it_refuses),
-        cmocka_unit_test(a_fit_says_what_its_callbacks_did),
-        cmocka_unit_test(building_blocks_name_what_they_refuse),
-        cmocka_unit_test(least_squares_name_what_they_refuse),
-        cmocka_unit_test_setup_teardown(every_routine_with_a_status_says_why, open_test_pool, close_test_pool),
-        cmocka_unit_test(a_long_reason_is_whole_characters),
-        cmocka_unit_test_setup_teardown(an_environment_that_is_none_is_refused_by_all, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_block_that_is_not_symmetric_is_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test(a_struct_of_before_is_filled_up_with_zeros),
-        cmocka_unit_test_setup_teardown(what_a_newer_host_asks_for_is_refused_and_zeros_are_not, open_test_pool, close_test_pool),
-        cmocka_unit_test(defaults_are_written_as_far_as_the_host_has_room),
-    };
-    return cmocka_run_group_tests_name("refused", tests, NULL, NULL);
 }

@@ -295,9 +295,8 @@ static int try_page(const struct kind *kind, double share)
     return refused ? 0 : texts;
 }
 
-static void hostile_texts_stay_texts(void **state)
+POOL_TEST(hostile_texts_stay_texts)
 {
-    (void)state;
     if (!browser_name()) {
         print_message("no Chromium: what a browser makes of hostile texts is left out\n");
         skip();
@@ -335,9 +334,4 @@ static void hostile_texts_stay_texts(void **state)
         cJSON_Delete(kinds[i].json);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(hostile_texts_stay_texts, open_test_pool, close_test_pool)};
-    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
-}
+TEST_GROUP(page_bench_open, page_bench_close);

@@ -10,11 +10,10 @@
 
 #define N 12
 
-static void roots_of_unity(void **state)
+UNIT_TEST(roots_of_unity)
 {
     double c[N] = {0}, work[N * N + 15 * N + N];
     double complex root[N];
-    (void)state;
     assert_true(polynomial_roots_workspace(N) <= sizeof work / sizeof *work);
     c[N - 1] = -1;
     assert_int_equal(polynomial_roots(N, c, root, work), 0);
@@ -31,10 +30,9 @@ static void roots_of_unity(void **state)
 }
 
 /* A_ij = min(i, j) + 1, whose leading blocks are of the same kind; A^-1 of a unit vector is tridiagonal. */
-static void one_factor_serves_all_sizes(void **state)
+UNIT_TEST(one_factor_serves_all_sizes)
 {
     double a[N * N], b[N];
-    (void)state;
     for (int j = 0; j < N; j++)
         for (int i = 0; i < N; i++)
             a[i + j * N] = (i < j ? i : j) + 1;
@@ -53,10 +51,9 @@ static void one_factor_serves_all_sizes(void **state)
     assert_int_equal(cholesky_factor(N, a), 1);
 }
 
-static void a_gram_matrix_is_the_product(void **state)
+UNIT_TEST(a_gram_matrix_is_the_product)
 {
     double a[6] = {1, 2, 3, 4, 5, 6}, gram[4], full[4];
-    (void)state;
     product_gram(2, 3, a, gram);
     product_transposed(2, 2, 3, a, a, full);
     for (int i = 0; i < 4; i++)
@@ -78,9 +75,8 @@ static void from_roots(int n, const double complex *root, double *c)
 
 /* The next order of a stabilisation table: most roots stay, each a little elsewhere, and a pair or two real ones come. The
  * eigenvalues of the companion matrix are the other way. */
-static void roots_of_the_next_order_are_those_of_the_companion_matrix(void **state)
+UNIT_TEST(roots_of_the_next_order_are_those_of_the_companion_matrix)
 {
-    (void)state;
     struct random_stream random = {.state = 3};
     int reached = 0;
     for (int k = 0; k < 200; k++) {
@@ -122,15 +118,4 @@ static void roots_of_the_next_order_are_those_of_the_companion_matrix(void **sta
     int done[4];
     double angle[4];
     assert_int_equal(next_roots(4, c, before, root, done, angle), 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roots_of_unity),
-        cmocka_unit_test(one_factor_serves_all_sizes),
-        cmocka_unit_test(a_gram_matrix_is_the_product),
-        cmocka_unit_test(roots_of_the_next_order_are_those_of_the_companion_matrix),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,9 +50,8 @@ static int says(const struct message_list *notes, const char *text)
     return 0;
 }
 
-static void identification_recovers_what_made_the_data(void **state)
+UNIT_TEST(identification_recovers_what_made_the_data)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct message_list notes;
@@ -76,9 +75,8 @@ static void identification_recovers_what_made_the_data(void **state)
     pool_close(&pool);
 }
 
-static void a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partners(void **state)
+UNIT_TEST(a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partners)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct message_list notes;
@@ -104,9 +102,8 @@ static void a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partner
     pool_close(&pool);
 }
 
-static void a_mode_that_is_no_mode_of_the_model_is_said(void **state)
+UNIT_TEST(a_mode_that_is_no_mode_of_the_model_is_said)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct message_list notes;
@@ -125,9 +122,8 @@ static void a_mode_that_is_no_mode_of_the_model_is_said(void **state)
     pool_close(&pool);
 }
 
-static void jobs_without_data_are_refused_and_without_parameters_compared(void **state)
+UNIT_TEST(jobs_without_data_are_refused_and_without_parameters_compared)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct message_list notes;
@@ -156,9 +152,8 @@ static int stop_at_once(void *unused)
     return 1;
 }
 
-static void a_cancelled_identification_keeps_the_best_point(void **state)
+UNIT_TEST(a_cancelled_identification_keeps_the_best_point)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct message_list notes;
@@ -175,9 +170,8 @@ static void a_cancelled_identification_keeps_the_best_point(void **state)
     pool_close(&pool);
 }
 
-static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivative(void **state)
+UNIT_TEST(sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivative)
 {
-    (void)state;
     struct pool pool;
     struct job job;
     struct sensitivity coarse, fine;
@@ -209,9 +203,8 @@ static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivativ
     pool_close(&pool);
 }
 
-static void no_allocation_that_fails_leaks_or_goes_unsaid(void **state)
+UNIT_TEST(no_allocation_that_fails_leaks_or_goes_unsaid)
 {
-    (void)state;
     struct pool outer;
     struct job job;
     pool_open(&outer, NULL);
@@ -238,18 +231,4 @@ static void no_allocation_that_fails_leaks_or_goes_unsaid(void **state)
     }
     assert_true(n > 100); /* the sweep went through the run, not around it */
     pool_close(&outer);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(identification_recovers_what_made_the_data),
-        cmocka_unit_test(a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partners),
-        cmocka_unit_test(a_mode_that_is_no_mode_of_the_model_is_said),
-        cmocka_unit_test(jobs_without_data_are_refused_and_without_parameters_compared),
-        cmocka_unit_test(a_cancelled_identification_keeps_the_best_point),
-        cmocka_unit_test(sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivative),
-        cmocka_unit_test(no_allocation_that_fails_leaks_or_goes_unsaid),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

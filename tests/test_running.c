@@ -20,9 +20,8 @@ static double natural(const struct running_case *c)
     return 2 * 3.14159265358979323846 * m->frequency_hz / sqrt(1 - m->damping_ratio * m->damping_ratio);
 }
 
-static void a_viscous_loss_drives_forward_whirl_from_w0_and_more(void **state)
+POOL_TEST(a_viscous_loss_drives_forward_whirl_from_w0_and_more)
 {
-    (void)state;
     struct running_case c;
     const double external = 100, loss = 2e-4;
     char *deck = pool_format(&test_pool, LIGHT "*BEARING\n0.5, 0, %g\n*LOSS, TYPE=VISCOUS\nshaft, %g\n", external, loss);
@@ -41,9 +40,8 @@ static void a_viscous_loss_drives_forward_whirl_from_w0_and_more(void **state)
     running_case_close(&c);
 }
 
-static void a_loss_factor_drives_it_from_w0_or_never(void **state)
+POOL_TEST(a_loss_factor_drives_it_from_w0_or_never)
 {
-    (void)state;
     struct running_case c;
     const double external = 100;
     for (int grows = 0; grows < 2; grows++) {
@@ -60,9 +58,8 @@ static void a_loss_factor_drives_it_from_w0_or_never(void **state)
     }
 }
 
-static void peak_and_critical_speed_of_a_damped_rotor_lie_apart(void **state)
+POOL_TEST(peak_and_critical_speed_of_a_damped_rotor_lie_apart)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(running_case_open(LIGHT "*BEARING\n0.5, 0, 100\n", 4000, 9, 0, &c), ROTID_OK);
     double w0 = natural(&c), zeta = 0.1;
@@ -94,9 +91,8 @@ static void peak_and_critical_speed_of_a_damped_rotor_lie_apart(void **state)
 }
 
 /* Two excitations per revolution meet a mode at half of its speed. */
-static void a_harmonic_is_critical_at_its_share_of_the_speed(void **state)
+POOL_TEST(a_harmonic_is_critical_at_its_share_of_the_speed)
 {
-    (void)state;
     struct running_case c;
     struct message_list notes;
     struct speeds_options options = {.to = 4000 * RPM, .count = 9, .harmonic = 1, .seed = 1, .threads = 1};
@@ -113,9 +109,8 @@ static void a_harmonic_is_critical_at_its_share_of_the_speed(void **state)
 }
 
 /* A rigid rotor on two like springs: bounce at 2 k/m, cones at Id w^2 -+ W Ip w - k L^2/2 = 0. */
-static void a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia(void **state)
+POOL_TEST(a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia)
 {
-    (void)state;
     struct running_case c;
     const double k = 1e6, mass = 50, diametral = 2, polar = 3, length = 1;
     assert_int_equal(
@@ -148,9 +143,8 @@ static void a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia(void **state)
     running_case_close(&c);
 }
 
-static void kxy_above_kyx_drives_forward_whirl(void **state)
+POOL_TEST(kxy_above_kyx_drives_forward_whirl)
 {
-    (void)state;
     struct running_case c;
     for (int sign = -1; sign <= 1; sign += 2) {
         char *deck = pool_format(&test_pool, LIGHT "*BEARING\n0.5, 0, %g, %g, 0, 0, 0, 0, 0\n", sign * 1e4, -sign * 1e4);
@@ -261,9 +255,8 @@ static void full_pairs(const struct running_case *c, double w, double complex *l
             lambda[(*count)++] = rate * (re[i] + I * im[i]) / beta[i];
 }
 
-static void all_pairs_are_those_of_the_full_model(void **state)
+POOL_TEST(all_pairs_are_those_of_the_full_model)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(running_case_open(general, 15000, 31, 0, &c), ROTID_OK);
     assert_true(c.speeds.basis_error < 1e-8);
@@ -288,9 +281,8 @@ static void all_pairs_are_those_of_the_full_model(void **state)
     running_case_close(&c);
 }
 
-static void bearing_loads_carry_the_weight(void **state)
+POOL_TEST(bearing_loads_carry_the_weight)
 {
-    (void)state;
     struct running_case c;
     double y = 0, moment = 0;
     assert_int_equal(
@@ -309,9 +301,8 @@ static void bearing_loads_carry_the_weight(void **state)
     running_case_close(&c);
 }
 
-static void a_pull_lowers_critical_speeds_as_its_stiffness_says(void **state)
+POOL_TEST(a_pull_lowers_critical_speeds_as_its_stiffness_says)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(running_case_open(LIGHT, 4000, 5, 0, &c), ROTID_OK);
     double w0 = c.speeds.critical_speeds[0].speed_rpm * RPM;
@@ -325,9 +316,8 @@ static void a_pull_lowers_critical_speeds_as_its_stiffness_says(void **state)
     running_case_close(&c);
 }
 
-static void undamped_isotropic_critical_speeds_are_those_of_the_map(void **state)
+POOL_TEST(undamped_isotropic_critical_speeds_are_those_of_the_map)
 {
-    (void)state;
     struct running_case c;
     int compared = 0;
     assert_int_equal(running_case_open(running_case_deck("B1_friswell_5_9_1", 2, ""), 12000, 13, 0, &c), ROTID_OK);
@@ -341,9 +331,8 @@ static void undamped_isotropic_critical_speeds_are_those_of_the_map(void **state
 }
 
 /* u'P u of a rigid turn is the polar inertia, whatever the mesh; of a translation nothing. */
-static void rigid_motions_have_the_polar_inertia(void **state)
+POOL_TEST(rigid_motions_have_the_polar_inertia)
 {
-    (void)state;
     struct running_case c;
     const double pi = 3.14159265358979323846;
     double expected = 0.18; /* the disk; then shaft, holes of the rods, rods */
@@ -377,9 +366,8 @@ static void rigid_motions_have_the_polar_inertia(void **state)
 
 /* Of a prototype by other elements: 1 m x 0.12 m of steel at 1000 rad/s, 526.66 and 539.51 of 533.05 Hz; as a Timoshenko beam
  * 526.34 and 539.16 of 532.72. The bearings are soft enough to leave the rotor free. */
-static void a_solid_has_the_gyroscopic_split_of_other_elements(void **state)
+POOL_TEST(a_solid_has_the_gyroscopic_split_of_other_elements)
 {
-    (void)state;
     static const double hz[2][3] = {{532.72, 526.34, 539.16}, {533.05, 526.66, 539.51}};
     for (int solid = 0; solid < 2; solid++) {
         struct running_case c;
@@ -397,23 +385,4 @@ static void a_solid_has_the_gyroscopic_split_of_other_elements(void **state)
         }
         running_case_close(&c);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_viscous_loss_drives_forward_whirl_from_w0_and_more, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_loss_factor_drives_it_from_w0_or_never, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(peak_and_critical_speed_of_a_damped_rotor_lie_apart, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_harmonic_is_critical_at_its_share_of_the_speed, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(kxy_above_kyx_drives_forward_whirl, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(all_pairs_are_those_of_the_full_model, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bearing_loads_carry_the_weight, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_pull_lowers_critical_speeds_as_its_stiffness_says, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(rigid_motions_have_the_polar_inertia, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_solid_has_the_gyroscopic_split_of_other_elements, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(undamped_isotropic_critical_speeds_are_those_of_the_map, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

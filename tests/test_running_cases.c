@@ -102,33 +102,29 @@ static int compare(const char *name, double to, int count, const char *skip, con
     return compared;
 }
 
-static void whirl_speeds_are_those_of_a_textbook(void **state)
+POOL_TEST(whirl_speeds_are_those_of_a_textbook)
 {
-    (void)state;
     assert_true(compare("B1_friswell_5_9_1", 4000, 5, "torsional", "") >= 22);
     assert_true(compare("B2_friswell_5_9_2", 12000, 4, "torsional", "") >= 22);
     assert_true(compare("B3_friswell_5_9_3", 4000, 5, "torsional", "") >= 18);
     assert_true(compare("B6_friswell_5_9_9_overhung", 16000, 5, "torsional", "") >= 18);
 }
 
-static void damping_and_cross_coupling_are_those_of_a_textbook(void **state)
+POOL_TEST(damping_and_cross_coupling_are_those_of_a_textbook)
 {
-    (void)state;
     assert_true(compare("B4_friswell_5_9_4", 4000, 5, "torsional", "") >= 18);
     assert_true(compare("B5_friswell_5_9_5", 4000, 5, "torsional", "") >= 30);
 }
 
-static void bearings_by_tables_over_speed(void **state)
+POOL_TEST(bearings_by_tables_over_speed)
 {
-    (void)state;
     assert_true(compare("B9_sdll129_speed_dependent", 84000, 7, "none", "") >= 7 + 7);
     assert_true(compare("B9_sdll129_speed_dependent", 69000, 13, "none", "") >= 7 + 7);
     assert_true(compare("B9_sdll129_speed_dependent", 80000, 5, "none", "") >= 7 + 7);
 }
 
-static void critical_speeds_of_many_sections(void **state)
+POOL_TEST(critical_speeds_of_many_sections)
 {
-    (void)state;
     assert_int_equal(compare("B11_nelson_mcvaugh", 100000, 41, "orthotropic", "critical"), 6);
     assert_int_equal(compare("B12_uniform_zorzi_nelson", 24000, 13, "none", ""), 18);
 }
@@ -145,9 +141,8 @@ static char *with(const char *deck, const char *old, const char *now)
 }
 
 /* The lines of the same rotor without shear, which a G of 1e4 times its own leaves 1e-4 of, on bearings that couple x and y. */
-static void critical_speeds_without_shear_and_on_coupled_bearings(void **state)
+POOL_TEST(critical_speeds_without_shear_and_on_coupled_bearings)
 {
-    (void)state;
     static const char *const lines[2] = {"_isotropic_rayleigh", "_orthotropic_rayleigh"};
     char *deck = with(running_case_deck("B11_nelson_mcvaugh", 1, ""), ", 79923076923.07692, ", ", 79923076923e4, ");
     for (int i = 0; i < 2; i++) {
@@ -172,9 +167,8 @@ static void critical_speeds_without_shear_and_on_coupled_bearings(void **state)
 }
 
 /* A simply supported shaft with all its elements: pins as stiff as makes no difference, 1e-4 is that of the stiffness. */
-static void gyroscopic_split_of_a_uniform_shaft(void **state)
+POOL_TEST(gyroscopic_split_of_a_uniform_shaft)
 {
-    (void)state;
     struct running_case c;
     char path[512];
     struct row row;
@@ -204,9 +198,8 @@ static void gyroscopic_split_of_a_uniform_shaft(void **state)
     running_case_close(&c);
 }
 
-static void unbalance_response_of_two_disks(void **state)
+POOL_TEST(unbalance_response_of_two_disks)
 {
-    (void)state;
     char *deck = running_case_deck("B1_friswell_5_9_1", 1,
                                    "*UNBALANCE\n0.5, 0.001\n*PROBE, NAME=left\n0.5\n*PROBE, NAME=right\n1.0\n"),
          *at;
@@ -237,16 +230,4 @@ static void unbalance_response_of_two_disks(void **state)
     running_case_close(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(whirl_speeds_are_those_of_a_textbook, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(damping_and_cross_coupling_are_those_of_a_textbook, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(bearings_by_tables_over_speed, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(critical_speeds_of_many_sections, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(critical_speeds_without_shear_and_on_coupled_bearings, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(gyroscopic_split_of_a_uniform_shaft, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(unbalance_response_of_two_disks, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

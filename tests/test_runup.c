@@ -113,9 +113,8 @@ static rotid_identification *identify(const char *text, int expected)
     return found;
 }
 
-static void the_critical_speeds_are_those_of_the_differential_equation(void **state)
+POOL_TEST(the_critical_speeds_are_those_of_the_differential_equation)
 {
-    (void)state;
     struct running_case c;
     char *deck = deck_of(2.4e8, "", "");
     assert_int_equal(running_case_open(deck, 30000, 9, 0, &c), ROTID_OK);
@@ -129,9 +128,8 @@ static void the_critical_speeds_are_those_of_the_differential_equation(void **st
     running_case_close(&c);
 }
 
-static void bearings_and_core_are_identified_together(void **state)
+POOL_TEST(bearings_and_core_are_identified_together)
 {
-    (void)state;
     char *text = deck_of(2e8, "", pool_format(&test_pool, "%s*IDENTIFY\na.k, 0.2, 5, 0.8\n", readings(10)));
     rotid_identification *found = identify(text, ROTID_OK);
     assert_int_equal(found->nparameters, 3);
@@ -154,9 +152,8 @@ static void bearings_and_core_are_identified_together(void **state)
 }
 
 /* The deviation of the bearing from the first reading alone: std_k = std_W/(dW/dk), by the differential equation. */
-static void a_reading_weighs_by_its_standard_deviation(void **state)
+POOL_TEST(a_reading_weighs_by_its_standard_deviation)
 {
-    (void)state;
     struct shaft side[2] = {truth, truth};
     for (int i = 0; i < 2; i++)
         side[i].stiffness[0] = side[i].stiffness[1] = truth.stiffness[0] * (i ? 1.01 : 0.99);
@@ -169,9 +166,8 @@ static void a_reading_weighs_by_its_standard_deviation(void **state)
     rotid_identification_free(found);
 }
 
-static void a_run_up_that_is_held_out_shows_a_wrong_bearing(void **state)
+POOL_TEST(a_run_up_that_is_held_out_shows_a_wrong_bearing)
 {
-    (void)state;
     for (int wrong = 0; wrong < 2; wrong++) {
         rotid_identification *found = identify(deck_of(wrong ? 1.6e8 : 2.4e8, ", HOLDOUT=RUNUP", readings(10)), ROTID_OK);
         assert_int_equal(found->nparameters, 2);
@@ -190,9 +186,8 @@ static void a_run_up_that_is_held_out_shows_a_wrong_bearing(void **state)
 }
 
 /* The unknowns of the machine stand behind those of all states, and the fit of all has their covariance. */
-static void states_share_the_machine(void **state)
+POOL_TEST(states_share_the_machine)
 {
-    (void)state;
     struct shaft free = truth;
     const rotid_speeds_options options = {.size = sizeof options, .draws = 30, .count = 9};
     rotid_speeds *speeds;
@@ -229,9 +224,8 @@ static void states_share_the_machine(void **state)
     rotid_identification_free(found);
 }
 
-static void a_number_that_the_model_does_not_have_is_refused(void **state)
+POOL_TEST(a_number_that_the_model_does_not_have_is_refused)
 {
-    (void)state;
     char failure[ROTID_FAILURE_LENGTH];
     rotid_deck *deck;
     rotid_identification *found;
@@ -244,9 +238,8 @@ static void a_number_that_the_model_does_not_have_is_refused(void **state)
 }
 
 /* dW/dp of a machine with everything, beside differences of residuals that are solved again. */
-static void derivatives_are_those_of_differences(void **state)
+POOL_TEST(derivatives_are_those_of_differences)
 {
-    (void)state;
     static const char text[] =
         "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.1e11, 3e10, "
         "0.28\n*DENSITY\n7600\n*SHAFT, NAME=left, MATERIAL=s\n0.3, 0.10, 0, 12\n0.2, 0.16, 0.02, 8\n*SHAFT, NAME=core, "
@@ -287,19 +280,4 @@ static void derivatives_are_those_of_differences(void **state)
     }
     runup_close(runup);
     rotid_deck_free(deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_critical_speeds_are_those_of_the_differential_equation, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(bearings_and_core_are_identified_together, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_reading_weighs_by_its_standard_deviation, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_run_up_that_is_held_out_shows_a_wrong_bearing, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(states_share_the_machine, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_number_that_the_model_does_not_have_is_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(derivatives_are_those_of_differences, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static double exact_inertia(int number, double d, double e, double start)
     return sum;
 }
 
-static void round_section_has_the_moments_of_a_ring(void **state)
+UNIT_TEST(round_section_has_the_moments_of_a_ring)
 {
-    (void)state;
     const double inner[] = {0, 0.02, 0.1, 0.19};
     for (int i = 0; i < 4; i++) {
         struct section s;
@@ -48,9 +47,8 @@ static void round_section_has_the_moments_of_a_ring(void **state)
     }
 }
 
-static void stiffness_diameter_moves_stiffness_and_leaves_mass(void **state)
+UNIT_TEST(stiffness_diameter_moves_stiffness_and_leaves_mass)
 {
-    (void)state;
     struct section plain, limited;
     section_round(0.3, 0.05, 0.3, &plain);
     section_round(0.3, 0.05, 0.22, &limited);
@@ -61,9 +59,8 @@ static void stiffness_diameter_moves_stiffness_and_leaves_mass(void **state)
     assert_close(limited.ratio, 0.05 / 0.22, 1e-15, 0); /* the shear coefficient belongs to what carries shear */
 }
 
-static void rectangle_bends_in_the_direction_of_its_height(void **state)
+UNIT_TEST(rectangle_bends_in_the_direction_of_its_height)
 {
-    (void)state;
     struct section s;
     section_rectangular(0.03, 0.05, &s);
     double sum = 0; /* strips, midpoint rule: exact to 1/(4 n^2) */
@@ -78,9 +75,8 @@ static void rectangle_bends_in_the_direction_of_its_height(void **state)
     assert_int_equal(s.rectangular, 1);
 }
 
-static void perforation_takes_the_exact_sum_over_holes_at_any_rotation(void **state)
+UNIT_TEST(perforation_takes_the_exact_sum_over_holes_at_any_rotation)
 {
-    (void)state;
     const double d = 0.024, e = 0.11, start[] = {0, 0.3, 1.1, 2.7};
     for (size_t n = 0; n < COUNTS; n++)
         for (int a = 0; a < 4; a++) {
@@ -99,9 +95,8 @@ static void perforation_takes_the_exact_sum_over_holes_at_any_rotation(void **st
     assert_true(exact_inertia(2, d, e, pi / 2) > 10 * exact_inertia(2, d, e, 0));
 }
 
-static void holes_outside_the_stiffness_diameter_cost_mass_only(void **state)
+UNIT_TEST(holes_outside_the_stiffness_diameter_cost_mass_only)
 {
-    (void)state;
     struct section s, whole;
     section_round(0.3, 0, 0.2, &whole);
     s = whole;
@@ -111,17 +106,15 @@ static void holes_outside_the_stiffness_diameter_cost_mass_only(void **state)
     assert_close(whole.mass_inertia - s.mass_inertia, exact_inertia(8, 0.02, 0.12, 0.2), 1e-12, 0);
 }
 
-static void holes_that_leave_nothing_are_an_error(void **state)
+UNIT_TEST(holes_that_leave_nothing_are_an_error)
 {
-    (void)state;
     struct section s;
     section_round(0.1, 0.08, 0.1, &s);
     assert_status(section_perforate(12, 0.04, 0.045, 0.1, &s), ROTID_ERROR_SECTION);
 }
 
-static void equivalent_cylinder_gives_an_annulus_back(void **state)
+UNIT_TEST(equivalent_cylinder_gives_an_annulus_back)
 {
-    (void)state;
     const double annulus[][2] = {{0.3, 0.2}, {0.3, 0.299}, {3e-3, 1e-3}, {40, 1}};
     for (int i = 0; i < 4; i++) {
         double ro = annulus[i][0] / 2, ri = annulus[i][1] / 2, outer, inner, area = ring_area(ro, ri),
@@ -140,9 +133,8 @@ static void equivalent_cylinder_gives_an_annulus_back(void **state)
     }
 }
 
-static void solid_disc_is_the_limit_of_the_equivalent_cylinder(void **state)
+UNIT_TEST(solid_disc_is_the_limit_of_the_equivalent_cylinder)
 {
-    (void)state;
     for (int i = 1; i <= 200; i++) { /* rounding must never make an error of a disc */
         double r = 0.0137 * i, outer, inner;
         assert_status(rotid_equivalent_cylinder(ring_area(r, 0), ring_inertia(r, 0), NULL, &outer, &inner), ROTID_OK);
@@ -151,9 +143,8 @@ static void solid_disc_is_the_limit_of_the_equivalent_cylinder(void **state)
     }
 }
 
-static void section_softer_than_a_disc_of_its_area_is_refused(void **state)
+UNIT_TEST(section_softer_than_a_disc_of_its_area_is_refused)
 {
-    (void)state;
     double outer, inner, area = ring_area(0.1, 0), inertia = ring_inertia(0.1, 0);
     struct section s;
     assert_status(rotid_equivalent_cylinder(area, inertia * (1 - 1e-9), NULL, &outer, &inner), ROTID_ERROR_SECTION);
@@ -166,9 +157,8 @@ static void section_softer_than_a_disc_of_its_area_is_refused(void **state)
     }
 }
 
-static void rods_have_the_exact_sum_at_any_rotation(void **state)
+UNIT_TEST(rods_have_the_exact_sum_at_any_rotation)
 {
-    (void)state;
     const double d = 0.032, e = 0.13364;
     for (size_t n = 0; n < COUNTS; n++)
         for (double start = 0; start < 3; start += 0.7) {
@@ -182,9 +172,8 @@ static void rods_have_the_exact_sum_at_any_rotation(void **state)
 
 /* The disc has the least second moment of all sections of an area: rods that touch but do not overlap always have their annulus.
  */
-static void rods_that_do_not_overlap_always_have_an_equivalent_cylinder(void **state)
+UNIT_TEST(rods_that_do_not_overlap_always_have_an_equivalent_cylinder)
 {
-    (void)state;
     for (int number = 3; number <= 60; number++) {
         double area, own, pitch, outer, inner, d = 0.02, touching = d / (2 * sin(pi / number));
         section_rods(number, d, touching, &area, &own, &pitch);
@@ -193,9 +182,8 @@ static void rods_that_do_not_overlap_always_have_an_equivalent_cylinder(void **s
     }
 }
 
-static void cowper_has_its_limits_of_solid_and_thin_walled_circle(void **state)
+UNIT_TEST(cowper_has_its_limits_of_solid_and_thin_walled_circle)
 {
-    (void)state;
     for (double nu = -0.9; nu <= 0.5; nu += 0.1) {
         double solid = 6 * (1 + nu) / (7 + 6 * nu), thin = 2 * (1 + nu) / (4 + 3 * nu), last = solid;
         assert_close(rotid_shear_coefficient_annulus(nu, 0), solid, 1e-14, 0);
@@ -217,9 +205,8 @@ static void cowper_has_its_limits_of_solid_and_thin_walled_circle(void **state)
 
 /* Without lateral contraction Cowper's mean deflection and the shear energy agree: 1/k = A/Q^2 times the integral of tau^2 over
  * the section, here with Saint-Venant's exact shear stresses in a bent round bar. */
-static void cowper_at_nu_zero_is_the_shear_energy_of_a_circle(void **state)
+UNIT_TEST(cowper_at_nu_zero_is_the_shear_energy_of_a_circle)
 {
-    (void)state;
     const int n = 400;
     double energy = 0; /* radius 1, Q = 1, nu = 0: tau_yz = (3 (1 - y^2) - x^2)/(8 I), tau_xz = -x y/(4 I), I = pi/4 */
     for (int i = 0; i < n; i++)
@@ -231,9 +218,8 @@ static void cowper_at_nu_zero_is_the_shear_energy_of_a_circle(void **state)
     assert_close(1 / (pi * energy), rotid_shear_coefficient_annulus(0, 0), 1e-5, 0);
 }
 
-static void shear_stiffness_chooses_by_shape(void **state)
+UNIT_TEST(shear_stiffness_chooses_by_shape)
 {
-    (void)state;
     struct section s[3];
     section_round(0.2, 0, 0.2, &s[0]);
     section_round(0.2, 0.13, 0.18, &s[1]);
@@ -245,25 +231,4 @@ static void shear_stiffness_chooses_by_shape(void **state)
             assert_close(shear_stiffness_plain(&s[i], &material), k * material_shear_modulus(&material) * s[i].stiff_area, 1e-15,
                          0);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_section_has_the_moments_of_a_ring),
-        cmocka_unit_test(stiffness_diameter_moves_stiffness_and_leaves_mass),
-        cmocka_unit_test(rectangle_bends_in_the_direction_of_its_height),
-        cmocka_unit_test(perforation_takes_the_exact_sum_over_holes_at_any_rotation),
-        cmocka_unit_test(holes_outside_the_stiffness_diameter_cost_mass_only),
-        cmocka_unit_test(holes_that_leave_nothing_are_an_error),
-        cmocka_unit_test(equivalent_cylinder_gives_an_annulus_back),
-        cmocka_unit_test(solid_disc_is_the_limit_of_the_equivalent_cylinder),
-        cmocka_unit_test(section_softer_than_a_disc_of_its_area_is_refused),
-        cmocka_unit_test(rods_have_the_exact_sum_at_any_rotation),
-        cmocka_unit_test(rods_that_do_not_overlap_always_have_an_equivalent_cylinder),
-        cmocka_unit_test(cowper_has_its_limits_of_solid_and_thin_walled_circle),
-        cmocka_unit_test(cowper_at_nu_zero_is_the_shear_energy_of_a_circle),
-        cmocka_unit_test(shear_stiffness_chooses_by_shape),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

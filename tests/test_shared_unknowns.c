@@ -44,9 +44,8 @@ static void assert_same_fit(const char *shared, const char *one, double toleranc
     pool_close(&b.pool);
 }
 
-static void two_groups_with_one_unknown_are_one_group(void **state)
+UNIT_TEST(two_groups_with_one_unknown_are_one_group)
 {
-    (void)state;
     assert_same_fit(MATERIAL APART MODES "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE,
                     MATERIAL TOGETHER MODES "*IDENTIFY\nleft.E, 1e10, 1e12, 1.9e11\n" CORE, 1e-8);
     assert_same_fit(MATERIAL APART MODES "*IDENTIFY\nright.rho = left.rho, 1e3, 1e5, 7e3\n" CORE,
@@ -55,9 +54,8 @@ static void two_groups_with_one_unknown_are_one_group(void **state)
                     MATERIAL TOGETHER MODES "*IDENTIFY\nleft.E, 1e10, 1e12, 1.9e11\n" CORE "*FIT, TIE=E:G\n", 1e-8);
 }
 
-static void a_solid_shares_unknowns_as_well(void **state)
+UNIT_TEST(a_solid_shares_unknowns_as_well)
 {
-    (void)state;
     assert_same_fit(MATERIAL APART MODES "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE "*FIT, MODEL=SOLID, MODES=1-3\n",
                     MATERIAL TOGETHER MODES "*IDENTIFY\nleft.E, 1e10, 1e12, 1.9e11\n" CORE "*FIT, MODEL=SOLID, MODES=1-3\n",
                     1e-7);
@@ -85,14 +83,13 @@ static void assert_derivatives(const char *fit)
     pool_close(&r.pool);
 }
 
-static void the_derivative_is_that_of_all_its_groups(void **state)
+UNIT_TEST(the_derivative_is_that_of_all_its_groups)
 {
-    (void)state;
     assert_derivatives("");
     assert_derivatives("*FIT, MODEL=SOLID\n");
 }
 
-static void what_cannot_be_shared_is_said(void **state)
+UNIT_TEST(what_cannot_be_shared_is_said)
 {
     static const char *const wrong[][2] = {
         {"left.E=right.G, 1e10, 1e12, 1.9e11\n", "right.G in left.E=right.G cannot be shared"},
@@ -102,7 +99,6 @@ static void what_cannot_be_shared_is_said(void **state)
         {"left.E=core.E, 1e10, 1e12, 1.9e11\n", "core.E is 8e+10 and left.E 2.1e+11 in the deck"},
         {"left.E=right.E, 1e10, 1e12, 1.9e11\nright.E, 1e10, 1e12, 1.9e11\n", "right.E is given twice"},
         {"right.E, 1e10, 1e12, 1.9e11\nleft.E=right.E, 1e10, 1e12, 1.9e11\n", "left.E=right.E is given twice"}};
-    (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[2048];
         struct reading r;
@@ -116,7 +112,7 @@ static void what_cannot_be_shared_is_said(void **state)
 }
 
 /* *SET in a state: of all that share the unknown, or an error. */
-static void a_state_sets_what_is_shared(void **state)
+UNIT_TEST(a_state_sets_what_is_shared)
 {
 #define STATES(SET)                                                                                                              \
     MATERIAL APART "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE "*STATE, NAME=known\n*SET\n" SET "\n" MODES            \
@@ -124,7 +120,6 @@ static void a_state_sets_what_is_shared(void **state)
     struct pool pool;
     struct message_list messages;
     struct states states;
-    (void)state;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
     const char *path = folder_write("deck.inp", STATES("left.E=right.E, 2e11"));
@@ -139,13 +134,12 @@ static void a_state_sets_what_is_shared(void **state)
     pool_close(&pool);
 }
 
-static void a_deck_with_shared_unknowns_is_written_and_read(void **state)
+UNIT_TEST(a_deck_with_shared_unknowns_is_written_and_read)
 {
     struct reading r, again;
     char *text;
     const double x[] = {1.7e11, 0.6e11};
     const struct deck_write_options at = {.x = x};
-    (void)state;
     read_text(&r, MATERIAL APART MODES "*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n" CORE, NULL);
     struct state only;
     const struct states states = states_of(&r.job, &only);
@@ -158,13 +152,4 @@ static void a_deck_with_shared_unknowns_is_written_and_read(void **state)
     pool_close(&r.pool);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(two_groups_with_one_unknown_are_one_group),
-                                       cmocka_unit_test(a_solid_shares_unknowns_as_well),
-                                       cmocka_unit_test(the_derivative_is_that_of_all_its_groups),
-                                       cmocka_unit_test(what_cannot_be_shared_is_said),
-                                       cmocka_unit_test(a_state_sets_what_is_shared),
-                                       cmocka_unit_test(a_deck_with_shared_unknowns_is_written_and_read)};
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -40,9 +40,8 @@ static void errors_of(const rotid_identification *found, int holdout, double *rm
     *rms = sqrt(sum / count);
 }
 
-static void four_lengths_tell_the_modulus_from_the_mass(void **state)
+POOL_TEST(four_lengths_tell_the_modulus_from_the_mass)
 {
-    (void)state;
     double rms, largest;
     rotid_identification *found = identify(STRIP, NULL);
     const rotid_fitted_parameter *e = &found->parameters[0], *mass = &found->parameters[1];
@@ -64,9 +63,8 @@ static void four_lengths_tell_the_modulus_from_the_mass(void **state)
     }
 }
 
-static void each_length_is_predicted_from_the_others(void **state)
+POOL_TEST(each_length_is_predicted_from_the_others)
 {
-    (void)state;
     static const char *const held[] = {"FIT.HOLDOUT=STATE:30 cm", "FIT.HOLDOUT=STATE:40 cm", "FIT.HOLDOUT=STATE:50 cm",
                                        "FIT.HOLDOUT=STATE:60 cm"};
     for (int s = 0; s < 4; s++) {
@@ -80,9 +78,8 @@ static void each_length_is_predicted_from_the_others(void **state)
 }
 
 /* What the source reports of the bare strip: at the modulus assumed there all frequencies are 4 to 11 % too high. */
-static void without_the_accelerometer_the_strip_is_too_high(void **state)
+POOL_TEST(without_the_accelerometer_the_strip_is_too_high)
 {
-    (void)state;
     char failure[ROTID_FAILURE_LENGTH];
     const double bare[] = {70e9, 1e-6}, loaded[] = {70e9, 0.005};
     rotid_deck *deck;
@@ -102,9 +99,8 @@ static void without_the_accelerometer_the_strip_is_too_high(void **state)
 
 /* The strip with E as the source has it and without the accelerometer, diagnosed over its four lengths: 5 g, whose place the
  * states would not agree on as a z, are among the causes that act in all of them, and nothing else is named. */
-static void the_accelerometer_of_the_strip_is_in_the_set(void **state)
+POOL_TEST(the_accelerometer_of_the_strip_is_in_the_set)
 {
-    (void)state;
     char *text = hidden_read(STRIP), failure[ROTID_FAILURE_LENGTH];
     char *disk = strstr(text, "*DISK"), *unknowns = strstr(text, "*IDENTIFY"), *measured = strstr(text, "*STATE");
     assert_true(disk && unknowns && measured && disk < unknowns && unknowns < measured);
@@ -133,9 +129,8 @@ static void the_accelerometer_of_the_strip_is_in_the_set(void **state)
     rotid_deck_free(deck);
 }
 
-static void a_place_of_the_roller_is_predicted_within_one_per_cent(void **state)
+POOL_TEST(a_place_of_the_roller_is_predicted_within_one_per_cent)
 {
-    (void)state;
     static const char *const held[] = {NULL,
                                        "FIT.HOLDOUT=STATE:home",
                                        "FIT.HOLDOUT=STATE:b",
@@ -157,16 +152,4 @@ static void a_place_of_the_roller_is_predicted_within_one_per_cent(void **state)
         }
         rotid_identification_free(found);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(four_lengths_tell_the_modulus_from_the_mass, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(each_length_is_predicted_from_the_others, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(without_the_accelerometer_the_strip_is_too_high, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_accelerometer_of_the_strip_is_in_the_set, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_place_of_the_roller_is_predicted_within_one_per_cent, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("shipped_states", tests, NULL, NULL);
 }

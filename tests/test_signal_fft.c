@@ -37,11 +37,10 @@ static double power(int n)
     return sum;
 }
 
-static void lines_are_those_of_the_definition(void **state)
+POOL_TEST(lines_are_those_of_the_definition)
 {
     static const int length[] = {2, 4, 6, 10, 14, 30, 62, 128, 750, 1000, 1024, 1934, 2250, 4096};
     double worst = 0, worst_rms = 0;
-    (void)state;
     for (size_t l = 0; l < sizeof length / sizeof *length; l++) {
         struct fft fft;
         int n = length[l];
@@ -62,10 +61,9 @@ static void lines_are_those_of_the_definition(void **state)
     assert_true(worst_rms < 2e-7);
 }
 
-static void energy_is_kept(void **state)
+POOL_TEST(energy_is_kept)
 {
     static const int length[] = {2, 48, 486, 5000};
-    (void)state;
     for (size_t l = 0; l < sizeof length / sizeof *length; l++) {
         struct fft fft;
         int n = length[l];
@@ -80,12 +78,11 @@ static void energy_is_kept(void **state)
 }
 
 /* A scale by a power of two changes no digit, wherever single precision would overflow or underflow. */
-static void units_do_not_matter(void **state)
+POOL_TEST(units_do_not_matter)
 {
     static const int exponent[] = {-1000, -160, -40, 0, 40, 160, 1000};
     static double complex first[51];
     struct fft fft;
-    (void)state;
     assert_status(fft_open(&test_pool, 100, &fft), ROTID_OK);
     for (size_t e = 0; e < sizeof exponent / sizeof *exponent; e++) {
         fill(100, 3);
@@ -116,10 +113,9 @@ static int is_smooth(int n)
     return n == 1;
 }
 
-static void length_is_the_largest_with_small_factors(void **state)
+UNIT_TEST(length_is_the_largest_with_small_factors)
 {
     int best = 0;
-    (void)state;
     for (int n = -2; n < 20000; n++) {
         if (is_smooth(n))
             best = n;
@@ -132,23 +128,10 @@ static void length_is_the_largest_with_small_factors(void **state)
     assert_int_equal(fft_length(-(1LL << 60)), 0);
 }
 
-static void impossible_lengths_are_refused(void **state)
+POOL_TEST(impossible_lengths_are_refused)
 {
     static const int length[] = {-2, 0, 1, 3, 999, FFT_LONGEST + 2};
     struct fft fft;
-    (void)state;
     for (size_t l = 0; l < sizeof length / sizeof *length; l++)
         assert_status(fft_open(&test_pool, length[l], &fft), ROTID_ERROR_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(lines_are_those_of_the_definition, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(energy_is_kept, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(units_do_not_matter, open_test_pool, close_test_pool),
-        cmocka_unit_test(length_is_the_largest_with_small_factors),
-        cmocka_unit_test_setup_teardown(impossible_lengths_are_refused, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("signal_fft", tests, NULL, NULL);
 }

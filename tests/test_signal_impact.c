@@ -38,10 +38,9 @@ static void assert_truth(const struct transfer *out, double tolerance)
     assert_true(worst < tolerance * largest);
 }
 
-static void an_impact_is_where_its_pulse_is(void **state)
+POOL_TEST(an_impact_is_where_its_pulse_is)
 {
     static const double start[] = {0.1}, peak[] = {250};
-    (void)state;
     for (int sign = -1; sign <= 1; sign += 2)
         for (int offset = -1; offset <= 1; offset++) {
             struct time_record record = hits(2, 1, start, peak);
@@ -63,14 +62,13 @@ static void an_impact_is_where_its_pulse_is(void **state)
 }
 
 /* Records of one impact each, and the same impacts in one record, in two, in three. */
-static void spreading_impacts_over_records_changes_nothing(void **state)
+POOL_TEST(spreading_impacts_over_records_changes_nothing)
 {
     enum { IMPACTS = 12, LENGTH = 12800 };
     static const double start[] = {0.1};
     struct transfer_options options = {.block = 0.8, .force_window = 0.02};
     struct time_record each[IMPACTS], joined = struck_record((long long)IMPACTS * LENGTH);
     uint64_t seed = 4;
-    (void)state;
     for (int k = 0; k < IMPACTS; k++) {
         each[k] = hits(1, 1, start, NULL);
         struck_noise(&seed, 0.5, LENGTH, struck_response(&each[k]));
@@ -101,10 +99,9 @@ static void spreading_impacts_over_records_changes_nothing(void **state)
 }
 
 /* The second impact bounces: left out, or kept and then nothing wrong either, since the response belongs to both pulses. */
-static void double_hits_are_told_from_the_next_impact(void **state)
+POOL_TEST(double_hits_are_told_from_the_next_impact)
 {
     static const double start[] = {0.1, 1.6, 1.65, 3.1}, peak[] = {100, 90, 40, 110};
-    (void)state;
     for (int keep = 0; keep < 2; keep++)
         for (int given = 0; given < 2; given++) {
             struct time_record record = hits(4.6, 4, start, peak);
@@ -121,10 +118,9 @@ static void double_hits_are_told_from_the_next_impact(void **state)
 }
 
 /* Behind an anti-alias filter the force swings on by 0.3 of the pulse, above the threshold, on both sides of its base line. */
-static void ringing_of_a_filter_is_no_double_hit(void **state)
+POOL_TEST(ringing_of_a_filter_is_no_double_hit)
 {
     static const double start[] = {0.1};
-    (void)state;
     for (int bounce = 0; bounce < 2; bounce++) {
         struct time_record record = hits(2, 1, start, NULL);
         double *force = struck_force(&record);
@@ -143,11 +139,10 @@ static void ringing_of_a_filter_is_no_double_hit(void **state)
 }
 
 /* Half a second is no bounce, however long the record goes on: there the first impact has too little room. */
-static void a_quick_second_impact_is_no_double_hit(void **state)
+POOL_TEST(a_quick_second_impact_is_no_double_hit)
 {
     static const double start[] = {0.1, 0.6};
     struct time_record record = hits(8, 2, start, NULL);
-    (void)state;
     struct transfer out = compute(1, &record, &(struct transfer_options){0});
     assert_int_equal(out.nimpact, 2);
     assert_true(!out.impact[0].is_double && out.impact[0].is_cut && !out.impact[0].used);
@@ -156,11 +151,10 @@ static void a_quick_second_impact_is_no_double_hit(void **state)
 }
 
 /* The last impact comes just before the record ends, one has no time before it: neither shortens the blocks. */
-static void impacts_without_room_are_left_out(void **state)
+POOL_TEST(impacts_without_room_are_left_out)
 {
     static const double start[] = {-0.002, 1.5, 3, 4.5, 5.9};
     struct time_record record = hits(6, 5, start, NULL);
-    (void)state;
     struct transfer out = compute(1, &record, &(struct transfer_options){0});
     assert_int_equal(out.nimpact, 5);
     for (int k = 0; k < 5; k++) {
@@ -172,11 +166,10 @@ static void impacts_without_room_are_left_out(void **state)
     assert_truth(&out, 1e-3);
 }
 
-static void all_records_share_the_shortest_block(void **state)
+POOL_TEST(all_records_share_the_shortest_block)
 {
     static const double start[] = {0.1};
     struct time_record record[] = {hits(3, 1, start, NULL), hits(1, 1, start, NULL), hits(2, 1, start, NULL)};
-    (void)state;
     for (int r = 0; r < 3; r++)
         record[r].response_node = r;
     struct transfer out = compute(3, record, &(struct transfer_options){.low_hz = 20, .high_hz = 400});
@@ -189,10 +182,9 @@ static void all_records_share_the_shortest_block(void **state)
         assert_memory_equal(out.set.frf[f].h, out.set.frf[0].h, (size_t)out.set.nline * sizeof(double complex));
 }
 
-static void overload_of_either_channel_is_found(void **state)
+POOL_TEST(overload_of_either_channel_is_found)
 {
     static const double start[] = {0.1, 1.6}, level[] = {0.5, 0.8, 0.95};
-    (void)state;
     for (int l = 0; l < 3; l++)
         for (int channel = 0; channel < 2; channel++) {
             struct time_record record = hits(3, 2, start, (const double[]){100, 40});
@@ -210,11 +202,10 @@ static void overload_of_either_channel_is_found(void **state)
 }
 
 /* A converter that resolves the swing in no more than 50 steps makes flat tops, which are no overload. */
-static void coarse_steps_are_no_overload(void **state)
+POOL_TEST(coarse_steps_are_no_overload)
 {
     static const double start[] = {0.1};
     static const int steps[] = {50, 300, 5000, 100000};
-    (void)state;
     for (int s = 0; s < 4; s++) {
         struct time_record record = hits(2, 1, start, NULL);
         for (int channel = 0; channel < 2; channel++) {
@@ -230,12 +221,11 @@ static void coarse_steps_are_no_overload(void **state)
 }
 
 /* Noise before, during and after the pulse, of 2 % of the peak, makes no second pulse, and the force window takes its energy. */
-static void noise_makes_no_impacts(void **state)
+POOL_TEST(noise_makes_no_impacts)
 {
     static const double start[] = {0.1, 1.6, 3.1};
     struct time_record record = hits(4.6, 3, start, NULL);
     uint64_t seed = 77;
-    (void)state;
     struck_noise(&seed, 2, record.count, struck_force(&record));
     struct transfer with = compute(1, &record, &(struct transfer_options){0});
     struct transfer without = compute(1, &record, &(struct transfer_options){.force_window = -1});
@@ -253,11 +243,10 @@ static void noise_makes_no_impacts(void **state)
 }
 
 /* An offset of either channel and a window that would let it leak into all lines: taken off by the mean before the impact. */
-static void offsets_do_not_leak(void **state)
+POOL_TEST(offsets_do_not_leak)
 {
     static const double start[] = {0.1};
     struct transfer_options options = {.exponential = 1e-3, .block = 0.8};
-    (void)state;
     for (int noisy = 0; noisy < 2; noisy++) {
         struct time_record record = hits(2, 1, start, NULL);
         uint64_t seed = 6;
@@ -271,21 +260,19 @@ static void offsets_do_not_leak(void **state)
     }
 }
 
-static void the_tail_tells_a_block_that_ends_too_early(void **state)
+POOL_TEST(the_tail_tells_a_block_that_ends_too_early)
 {
     static const double start[] = {0.1};
     struct time_record record = hits(2, 1, start, NULL);
-    (void)state;
     assert_true(compute(1, &record, &(struct transfer_options){0}).impact[0].tail < 1e-6);
     assert_true(compute(1, &record, &(struct transfer_options){.block = 0.1}).impact[0].tail > 0.2);
     assert_true(compute(1, &record, &(struct transfer_options){.block = 0.1, .exponential = 1e-3}).impact[0].tail < 0.05);
 }
 
-static void spacing_is_that_of_impacts_not_of_bounces(void **state)
+UNIT_TEST(spacing_is_that_of_impacts_not_of_bounces)
 {
     struct impact pulse[6];
     double work[6];
-    (void)state;
     memset(pulse, 0, sizeof pulse);
     for (int k = 0; k < 6; k++) { /* each one bounces after 30 samples */
         pulse[k].onset = 100 + 1000 * (k / 2) + 30 * (k % 2);
@@ -298,24 +285,4 @@ static void spacing_is_that_of_impacts_not_of_bounces(void **state)
         assert_int_equal(pulse[k].onset, 100 + 1000 * k);
         assert_int_equal(impact_room(3, pulse, k, 1000, pulse[k].onset - 10, 3100), k < 2 ? 1005 : 1010);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(an_impact_is_where_its_pulse_is, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(spreading_impacts_over_records_changes_nothing, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(double_hits_are_told_from_the_next_impact, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(ringing_of_a_filter_is_no_double_hit, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_quick_second_impact_is_no_double_hit, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(impacts_without_room_are_left_out, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(all_records_share_the_shortest_block, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(overload_of_either_channel_is_found, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(coarse_steps_are_no_overload, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(noise_makes_no_impacts, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(offsets_do_not_leak, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_tail_tells_a_block_that_ends_too_early, open_test_pool, close_test_pool),
-        cmocka_unit_test(spacing_is_that_of_impacts_not_of_bounces),
-    };
-    return cmocka_run_group_tests_name("signal_impact", tests, NULL, NULL);
 }

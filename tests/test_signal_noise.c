@@ -73,9 +73,8 @@ static double bias(const struct trial *trial, int repeats)
 
 /* Noise of variance s per sample has |N|^2 = 960 s; the pulse has |F|^2 = 1e4 (1 + cos w)^2, so the averaged estimates are off by
  * the ratio of noise to signal in the channel that they trust. */
-static void each_estimator_is_blind_to_the_noise_of_one_channel(void **state)
+POOL_TEST(each_estimator_is_blind_to_the_noise_of_one_channel)
 {
-    (void)state;
     struct trial on_response = {.impacts = 20, .response_noise = 6}, on_force = {.impacts = 20, .force_noise = 1};
     double b[6];
     for (int e = TRANSFER_H1; e <= TRANSFER_HV; e++) {
@@ -92,13 +91,12 @@ static void each_estimator_is_blind_to_the_noise_of_one_channel(void **state)
 }
 
 /* Noise in both channels of the same share of their energy: H1 is low, H2 high, Hv in the middle without bias. */
-static void hv_is_unbiased_where_both_channels_have_the_same_share_of_noise(void **state)
+POOL_TEST(hv_is_unbiased_where_both_channels_have_the_same_share_of_noise)
 {
     struct trial trial = {.impacts = 20, .force_noise = 1.5};
     struct transfer out;
     uint64_t seed = 1;
     double b[3];
-    (void)state;
     run(&trial, &seed, &out);
     double ff = 0, xx = 0;
     for (int l = 0; l < out.set.nline; l++) {
@@ -116,11 +114,10 @@ static void hv_is_unbiased_where_both_channels_have_the_same_share_of_noise(void
 }
 
 /* Hv by the definition of an eigenvector, and free of units. */
-static void hv_is_the_eigenvector_of_the_larger_eigenvalue(void **state)
+UNIT_TEST(hv_is_the_eigenvector_of_the_larger_eigenvalue)
 {
     static const double scale[] = {1, 1e-6, 1e6};
     double complex h[3];
-    (void)state;
     for (int i = 0; i < 3; i++) {
         double ff = 2, xx = 5 * scale[i] * scale[i];
         double complex xf = CMPLX(1.5, -2) * scale[i];
@@ -142,13 +139,12 @@ static void hv_is_the_eigenvector_of_the_larger_eigenvalue(void **state)
 }
 
 /* gamma^2 = 1/(1 + 1/SNR), SNR = |H F|^2/(noise of the response), up to the bias (1 - gamma^2)^2/K of K impacts. */
-static void coherence_tells_the_signal_to_noise_ratio(void **state)
+POOL_TEST(coherence_tells_the_signal_to_noise_ratio)
 {
     struct trial trial = {.impacts = 40, .response_noise = 8};
     uint64_t seed = 5;
     double sum = 0, expected = 0, lowest = 1;
     int count = 0;
-    (void)state;
     for (int r = 0; r < 20; r++) {
         struct transfer out;
         run(&trial, &seed, &out);
@@ -191,7 +187,7 @@ static double honesty(const struct trial *trial, int repeats, double *worst_band
     return error / variance;
 }
 
-static void variance_is_the_scatter_of_the_estimate(void **state)
+POOL_TEST(variance_is_the_scatter_of_the_estimate)
 {
     static const struct trial trial[] = {
         {.impacts = 2, .response_noise = 2},
@@ -203,7 +199,6 @@ static void variance_is_the_scatter_of_the_estimate(void **state)
         {.impacts = 5, .force_noise = 0.3, .options = {.estimator = TRANSFER_H2}},
         {.impacts = 5, .force_noise = 0.2, .response_noise = 1, .options = {.estimator = TRANSFER_HV}},
     };
-    (void)state;
     for (size_t t = 0; t < sizeof trial / sizeof *trial; t++) {
         double worst, ratio = honesty(&trial[t], 400, &worst);
         print_message(
@@ -217,13 +212,12 @@ static void variance_is_the_scatter_of_the_estimate(void **state)
 }
 
 /* S_nn/sum |F|^2 line by line, and how much the smoothed variance scatters about it. */
-static void smoothed_variance_has_many_degrees_of_freedom(void **state)
+POOL_TEST(smoothed_variance_has_many_degrees_of_freedom)
 {
     struct trial trial = {.impacts = 3, .response_noise = 2};
     uint64_t seed = 8;
     double squares = 0, largest = 0;
     int count = 0;
-    (void)state;
     for (int r = 0; r < 100; r++) {
         struct transfer out;
         run(&trial, &seed, &out);
@@ -243,11 +237,10 @@ static void smoothed_variance_has_many_degrees_of_freedom(void **state)
 }
 
 /* A resonance where the impacts scatter does not spoil the lines beside it, nor do these hide it; what is flat stays flat. */
-static void smoothing_keeps_a_peak_to_itself(void **state)
+UNIT_TEST(smoothing_keeps_a_peak_to_itself)
 {
     enum { LINES = 200, PEAK = 100 };
     double force[LINES], variance[LINES], work[LINES + 2 * ESTIMATOR_SMOOTH + 2];
-    (void)state;
     for (int n = 1; n <= LINES; n += n < 2 ? 1 : 198) {
         for (int l = 0; l < n; l++) {
             force[l] = 1 + l; /* flat noise of the response is no flat variance */
@@ -260,19 +253,4 @@ static void smoothing_keeps_a_peak_to_itself(void **state)
             else
                 assert_close(variance[l] * force[l], n == 1 ? 1 : 1.25, 0.03, 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(each_estimator_is_blind_to_the_noise_of_one_channel, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(hv_is_unbiased_where_both_channels_have_the_same_share_of_noise, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test(hv_is_the_eigenvector_of_the_larger_eigenvalue),
-        cmocka_unit_test_setup_teardown(coherence_tells_the_signal_to_noise_ratio, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(variance_is_the_scatter_of_the_estimate, open_test_pool, close_test_pool),
-        cmocka_unit_test(smoothing_keeps_a_peak_to_itself),
-        cmocka_unit_test_setup_teardown(smoothed_variance_has_many_degrees_of_freedom, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("signal_noise", tests, NULL, NULL);
 }

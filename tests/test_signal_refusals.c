@@ -38,7 +38,7 @@ static void assert_refused(int nrecord, const struct time_record *record, double
     assert_int_equal(bad, expected);
 }
 
-static void options_out_of_range_are_refused(void **state)
+POOL_TEST(options_out_of_range_are_refused)
 {
     struct time_record record = usual(1);
     const struct transfer_options wrong[] = {
@@ -73,7 +73,6 @@ static void options_out_of_range_are_refused(void **state)
     static const double rate[] = {0, -1, NAN, INFINITY, -INFINITY, 1e300, 1e-300};
     struct transfer out;
     int bad;
-    (void)state;
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
         assert_refused(1, &record, RATE, &wrong[w], -1);
     for (size_t r = 0; r < sizeof rate / sizeof *rate; r++)
@@ -94,11 +93,10 @@ static void options_out_of_range_are_refused(void **state)
     assert_close(out.set.frequency_hz[out.set.nline - 1], RATE / 2, 1e-12, 0);
 }
 
-static void records_without_an_impact_are_named(void **state)
+POOL_TEST(records_without_an_impact_are_named)
 {
     struct transfer_options options = {0};
     uint64_t seed = 2;
-    (void)state;
     for (int kind = 0; kind < 12; kind++) {
         struct time_record record[] = {usual(1), usual(2), usual(2)};
         double *f = struck_force(&record[2]), *x = struck_response(&record[2]);
@@ -150,10 +148,9 @@ static void records_without_an_impact_are_named(void **state)
 }
 
 /* All impacts of node 2 are overloaded or cut: its first record is named. */
-static void transfer_functions_without_a_usable_impact_are_named(void **state)
+POOL_TEST(transfer_functions_without_a_usable_impact_are_named)
 {
     struct time_record record[] = {usual(1), usual(2), usual(2)};
-    (void)state;
     for (int r = 1; r < 3; r++)
         for (int j = 0; j < LENGTH; j++)
             struck_response(&record[r])[j] = fmax(-10, fmin(10, record[r].response[j]));
@@ -168,11 +165,10 @@ static int compute(struct pool *pool, int nrecord, const struct time_record *rec
     return transfer_compute(pool, nrecord, record, RATE, FRF_ACCELERATION, &options, threads, out, &bad);
 }
 
-static void every_failing_allocation_is_reported(void **state)
+POOL_TEST(every_failing_allocation_is_reported)
 {
     struct time_record record[] = {usual(1), usual(2), usual(1), usual(3)};
     int status = ROTID_ERROR_MEMORY, n = 0;
-    (void)state;
     while (status == ROTID_ERROR_MEMORY) {
         struct failing_allocator failing;
         struct pool pool;
@@ -190,12 +186,11 @@ static void every_failing_allocation_is_reported(void **state)
     assert_true(n > 30);
 }
 
-static void results_do_not_depend_on_the_threads(void **state)
+POOL_TEST(results_do_not_depend_on_the_threads)
 {
     enum { FUNCTIONS = 9 };
     struct time_record record[FUNCTIONS];
     struct transfer serial, out;
-    (void)state;
     for (int r = 0; r < FUNCTIONS; r++)
         record[r] = usual(r);
     assert_status(compute(&test_pool, FUNCTIONS, record, 1, &serial), ROTID_OK);
@@ -216,11 +211,10 @@ static void results_do_not_depend_on_the_threads(void **state)
 }
 
 /* The single spectra give the estimate again, and any other choice of impacts. */
-static void single_impacts_add_up_to_the_estimate(void **state)
+POOL_TEST(single_impacts_add_up_to_the_estimate)
 {
     struct time_record record[] = {usual(1), usual(2)};
     struct transfer out;
-    (void)state;
     assert_status(compute(&test_pool, 2, record, 1, &out), ROTID_OK);
     size_t n = (size_t)out.set.nline, at = n * (size_t)out.first[1];
     struct spectra column = {out.single_force + at, out.single_response + at, out.single + at};
@@ -239,14 +233,13 @@ static void single_impacts_add_up_to_the_estimate(void **state)
 
 /* Where there is no force nothing is known: h = 0, infinite variance, coherence 0; the lines beside are as without it. A silent
  * response has h = 0 with variance 0. */
-static void lines_without_force_say_nothing(void **state)
+UNIT_TEST(lines_without_force_say_nothing)
 {
     enum { LINES = 60, GAP = 20 };
     double ff[2 * LINES], xx[2 * LINES], variance[LINES], coherence[LINES], sums[2 * LINES], weight[2];
     double smooth[LINES + 2 * ESTIMATOR_SMOOTH + 2];
     double complex xf[2 * LINES], h[LINES], part[LINES], sum_xf[LINES];
     struct spectra column = {ff, xx, xf}, sum = {sums, sums + LINES, sum_xf};
-    (void)state;
     for (int estimator = TRANSFER_H1; estimator <= TRANSFER_HV; estimator++)
         for (int silent = 0; silent < 2; silent++) {
             for (int i = 0; i < 2 * LINES; i++) {
@@ -275,12 +268,11 @@ static void lines_without_force_say_nothing(void **state)
 }
 
 /* Force and response in units as far apart as samples may be: the same digits. */
-static void units_may_be_of_any_size(void **state)
+POOL_TEST(units_may_be_of_any_size)
 {
     struct time_record plain = usual(1), scaled = usual(1);
     struct transfer out, far;
     int bad;
-    (void)state;
     for (int estimator = TRANSFER_H1; estimator <= TRANSFER_HV; estimator++)
         for (int sign = -1; sign <= 1; sign += 2) {
             struct transfer_options options = {.estimator = estimator, .exponential = 0.1};
@@ -297,19 +289,4 @@ static void units_may_be_of_any_size(void **state)
                 assert_close(far.set.frf[0].coherence[l], out.set.frf[0].coherence[l], 1e-12, 0);
             }
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(options_out_of_range_are_refused, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(records_without_an_impact_are_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(transfer_functions_without_a_usable_impact_are_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_failing_allocation_is_reported, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(results_do_not_depend_on_the_threads, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(units_may_be_of_any_size, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(single_impacts_add_up_to_the_estimate, open_test_pool, close_test_pool),
-        cmocka_unit_test(lines_without_force_say_nothing),
-    };
-    return cmocka_run_group_tests_name("signal_refusals", tests, NULL, NULL);
 }

@@ -40,10 +40,9 @@ static double error_of(const struct struck *hammer, const struct frf_set *set)
     return worst / largest;
 }
 
-static void transfer_functions_are_those_of_the_continuous_system(void **state)
+POOL_TEST(transfer_functions_are_those_of_the_continuous_system)
 {
     static const enum frf_quantity quantity[] = {FRF_DISPLACEMENT, FRF_VELOCITY, FRF_ACCELERATION};
-    (void)state;
     for (int q = 0; q < 3; q++)
         for (int system = 0; system < 2; system++)
             for (int estimator = TRANSFER_H1; estimator <= TRANSFER_HV; estimator++) {
@@ -62,10 +61,9 @@ static void transfer_functions_are_those_of_the_continuous_system(void **state)
 }
 
 /* The pulse sampled twice as densely has a quarter of the aliases. */
-static void what_is_left_are_the_aliases_of_the_pulse(void **state)
+POOL_TEST(what_is_left_are_the_aliases_of_the_pulse)
 {
     double error[2];
-    (void)state;
     for (int i = 0; i < 2; i++) {
         struct struck hammer = {3, three, FRF_DISPLACEMENT, 0.005, i ? 12800 : 6400};
         struct transfer_options options = {.high_hz = 200};
@@ -85,12 +83,11 @@ static double complex pole_from(double complex h, double omega, double residue)
 }
 
 /* The block ends long before the motion does; with the window it is as if it did not, and the pole comes back exactly. */
-static void the_exponential_window_shifts_poles_by_its_decay(void **state)
+POOL_TEST(the_exponential_window_shifts_poles_by_its_decay)
 {
     static const struct struck_mode light[] = {{50, 0.001, 0.5}};
     static const double end[] = {1e-3, 1e-5, 1e-7};
     double complex exact = struck_pole(light);
-    (void)state;
     for (int i = 0; i < 3; i++) {
         struct struck hammer = {1, light, FRF_DISPLACEMENT, 0.004, 51200};
         struct transfer_options options = {.exponential = end[i], .low_hz = 30, .high_hz = 80};
@@ -112,13 +109,12 @@ static void the_exponential_window_shifts_poles_by_its_decay(void **state)
 
 /* Sampled systems have exact transfer functions of their own: y_j = a y_(j-1) + f_j gives 1/(1 - a exp(-i omega dt)) for any
  * force, and a exp(-decay dt) in place of a with the window. No aliases, so single precision is all that is left. */
-static void windowed_recursion_is_exact_to_single_precision(void **state)
+POOL_TEST(windowed_recursion_is_exact_to_single_precision)
 {
     const double a = 0.999;
     struct transfer_options options = {.exponential = 1e-6};
     struct transfer out;
     int bad;
-    (void)state;
     struct time_record record = struck_record(4096);
     double *f = struck_force(&record), *y = struck_response(&record), worst = 0, largest = 0;
     f[200] = 3, f[201] = 10, f[202] = 5, f[203] = 2;
@@ -132,15 +128,4 @@ static void windowed_recursion_is_exact_to_single_precision(void **state)
     }
     print_message("error %.1e of the largest |H| on all lines\n", worst / largest);
     assert_true(worst < 1e-6 * largest);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(transfer_functions_are_those_of_the_continuous_system, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_left_are_the_aliases_of_the_pulse, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_exponential_window_shifts_poles_by_its_decay, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(windowed_recursion_is_exact_to_single_precision, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("signal_truth", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 #include "solid_rig.h"
+#include "support.h"
 
 /* ---- motions in closed form */
 
@@ -133,12 +134,11 @@ static void everything(struct rig *b)
     rig_sensors(b, 68);
 }
 
-static void rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh(void **state)
+POOL_TEST(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh)
 {
     struct rig b;
     struct assembled a;
     struct mass_properties own;
-    (void)state;
     everything(&b);
     assemble(&b.rotor, &a);
     double scale = product(&a, &a.k, shear, shear), mass = product(&a, &a.m, translation, translation),
@@ -152,12 +152,11 @@ static void rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh(void **sta
     assert_close(mass, rotor_mass(&b.rotor), 1e-12, 0);
 }
 
-static void uniform_strains_have_their_energy_exactly(void **state)
+POOL_TEST(uniform_strains_have_their_energy_exactly)
 {
     struct rig b;
     struct assembled a;
     const double pi = 3.14159265358979323846, length = 0.5, d = 0.2, e = 0.9e11, g = 3e10;
-    (void)state;
     rig_begin(&b, 2);
     rig_section(&b, 0, 0.2, d);
     rig_section(&b, 1, 0.3, d);
@@ -184,7 +183,7 @@ static double largest_difference(const rotid_matrix *a, const rotid_matrix *b) /
     return largest;
 }
 
-static void derivatives_agree_with_differences(void **state)
+POOL_TEST(derivatives_agree_with_differences)
 {
     static const char *const names[] = {"core.E",
                                         "core.G",
@@ -250,7 +249,6 @@ static void derivatives_agree_with_differences(void **state)
     struct parameter parameter[COUNT];
     double x[COUNT];
     const char *unit;
-    (void)state;
     everything(&b);
     b.group[0].name = "left";
     b.group[1].name = "core";
@@ -296,9 +294,8 @@ static void derivatives_agree_with_differences(void **state)
 
 /* Motions of the coarse mesh on the finer one: a translation as it is, others but for the elements at corners, whose nodes are
  * not half-way. */
-static void a_motion_is_carried_to_a_finer_mesh(void **state)
+POOL_TEST(a_motion_is_carried_to_a_finer_mesh)
 {
-    (void)state;
     struct field (*const fields[])(double, double) = {translation, rotation, bending};
     const double off[] = {1e-12, 2e-3, 2e-3}; /* of the length of the motion in M */
     struct rig b;
@@ -321,16 +318,4 @@ static void a_motion_is_carried_to_a_finer_mesh(void **state)
         double square = matrix_product(&fine.m, v, v, image);
         assert_true(sqrt(fmax(square, 0) / length) < off[f]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(uniform_strains_have_their_energy_exactly, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(derivatives_agree_with_differences, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_motion_is_carried_to_a_finer_mesh, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

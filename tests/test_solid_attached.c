@@ -6,6 +6,7 @@
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 #include "solid_rig.h"
+#include "support.h"
 
 #define MODES 3
 
@@ -31,10 +32,9 @@ static void compare(const struct rig *plain, const struct rig *b, double rtol)
     }
 }
 
-static void disks_and_springs_act_as_on_a_beam(void **state)
+POOL_TEST(disks_and_springs_act_as_on_a_beam)
 {
     struct rig plain, b;
-    (void)state;
     slender(&plain, 1);
     slender(&b, 1);
     b.rotor.ndisk = 1;
@@ -45,10 +45,9 @@ static void disks_and_springs_act_as_on_a_beam(void **state)
     compare(&plain, &b, 2e-3);
 }
 
-static void masses_and_joints_act_as_on_a_beam(void **state)
+POOL_TEST(masses_and_joints_act_as_on_a_beam)
 {
     struct rig plain, b;
-    (void)state;
     slender(&plain, 2);
     slender(&b, 2);
     b.rotor.neffect = 1;
@@ -65,7 +64,7 @@ static void masses_and_joints_act_as_on_a_beam(void **state)
 }
 
 /* Away from a line a solid has them by rigid pieces of the sections on either side. */
-static void springs_anywhere_act_as_on_a_beam(void **state)
+POOL_TEST(springs_anywhere_act_as_on_a_beam)
 {
     static const struct {
         const char *id;
@@ -74,7 +73,6 @@ static void springs_anywhere_act_as_on_a_beam(void **state)
     } cause[] = {{"support_extra", -1, {3e6, 0.613}}, {"support_rotation", -1, {4e5, 0.613}},
                  {"support_position", 0, {0.213}},    {"clamp", 0, {2e-6, 1e-7}},
                  {"added_inertia", 0, {0.4}},         {"hub_stiffness", -1, {0.8}}};
-    (void)state;
     for (size_t i = 0; i < sizeof cause / sizeof *cause; i++) {
         struct rig plain, b;
         slender(&plain, 1);
@@ -97,11 +95,10 @@ static void springs_anywhere_act_as_on_a_beam(void **state)
 }
 
 /* A cause may put a spring anywhere, so neutral has to be the spring of the deck to the last digit. */
-static void a_spring_that_did_not_move_is_that_of_the_deck(void **state)
+POOL_TEST(a_spring_that_did_not_move_is_that_of_the_deck)
 {
     struct rig b;
     double plain[MODES], with[MODES];
-    (void)state;
     slender(&b, 1);
     rig_springs(&b, 4e6, 5e6);
     b.spring[0].position = 0.4123;
@@ -114,14 +111,13 @@ static void a_spring_that_did_not_move_is_that_of_the_deck(void **state)
 }
 
 /* Beside a line too: of a motion of the whole rotor, v = a - b z, it takes up k v^2 where it is, and k_rot b^2. */
-static void a_spring_holds_its_point(void **state)
+POOL_TEST(a_spring_holds_its_point)
 {
     const double at = 0.4123 + 0.0171, motion[3][2] = {{1, 0}, {0, 1}, {at, 1}};
     struct rig b;
     struct solid solid;
     rotid_matrix k, m;
     int failed;
-    (void)state;
     slender(&b, 1);
     rig_springs(&b, 4e6, 0);
     b.spring[0].position = 0.4123;
@@ -162,11 +158,10 @@ static void rods(struct rig *b, int elements, double tension)
 /* Of several elements they bend by themselves; of one they follow the section, and in a beam have their mass at their ends:
  * without mass, both are a spring between the ends. Tension and what it presses together cancel where rods follow, and a beam's
  * bow. */
-static void tie_rods_act_as_on_a_beam(void **state)
+POOL_TEST(tie_rods_act_as_on_a_beam)
 {
     static const double tension[] = {0, 2e4};
     struct rig plain, b;
-    (void)state;
     for (int t = 0; t < 2; t++) {
         slender(&plain, 1);
         slender(&b, 1);
@@ -179,10 +174,9 @@ static void tie_rods_act_as_on_a_beam(void **state)
     compare(&plain, &b, 3e-3);
 }
 
-static void axial_force_acts_as_in_a_beam(void **state)
+POOL_TEST(axial_force_acts_as_in_a_beam)
 {
     struct rig plain, b;
-    (void)state;
     slender(&plain, 2);
     slender(&b, 2);
     b.group[0].preload = 5e4;
@@ -190,10 +184,9 @@ static void axial_force_acts_as_in_a_beam(void **state)
     compare(&plain, &b, 2e-3);
 }
 
-static void holes_bores_and_bars_act_as_in_a_beam(void **state)
+POOL_TEST(holes_bores_and_bars_act_as_in_a_beam)
 {
     struct rig plain, b;
-    (void)state;
     slender(&plain, 1);
     slender(&b, 1);
     b.segment[0].inner = 0.03;
@@ -249,11 +242,10 @@ static double surface(const struct solved *s, int mode, double z)
     return motion_value(&motion, s->phi + (ptrdiff_t)mode * s->solid.mesh.ndof);
 }
 
-static void a_sensor_inside_an_element_moves_with_its_surface(void **state)
+POOL_TEST(a_sensor_inside_an_element_moves_with_its_surface)
 {
     struct rig b;
     struct solved without, with;
-    (void)state;
     rig_two_steps(&b);
     solve(&b.rotor, &without);
     const struct solid_mesh *mesh = &without.solid.mesh;
@@ -278,12 +270,11 @@ static void a_sensor_inside_an_element_moves_with_its_surface(void **state)
     }
 }
 
-static void sensors_do_not_move_frequencies(void **state)
+POOL_TEST(sensors_do_not_move_frequencies)
 {
     static const int count[] = {1, 68, 500};
     struct rig b;
     double hz[4], with[4];
-    (void)state;
     rig_two_steps(&b);
     rig_solid(&b.rotor, NULL, 1, 2, 4, hz);
     for (int i = 0; i < 3; i++) {
@@ -294,13 +285,12 @@ static void sensors_do_not_move_frequencies(void **state)
     }
 }
 
-static void sensors_at_steps_at_ends_and_close_together_are_distinct(void **state)
+POOL_TEST(sensors_at_steps_at_ends_and_close_together_are_distinct)
 {
     static const double at[] = {0, 0.001, 0.002, 0.299, 0.3, 0.301, 0.4501, 0.4511, 0.4521, 0.4531, 0.599, 0.6, 0.899, 0.9};
     enum { COUNT = sizeof at / sizeof *at };
     struct rig b;
     struct solved s;
-    (void)state;
     rig_two_steps(&b);
     for (int i = 0; i < COUNT; i++)
         b.sensor[b.rotor.nsensor++] = (struct sensor){i + 1, at[i]};
@@ -316,12 +306,11 @@ static void sensors_at_steps_at_ends_and_close_together_are_distinct(void **stat
 
 /* ---- dimensions */
 
-static void extreme_dimensions_are_solved(void **state)
+POOL_TEST(extreme_dimensions_are_solved)
 {
     static const double size[] = {1e-3, 1, 100};
     struct rig b;
     double hz[3], first = 0;
-    (void)state;
     for (int i = 0; i < 3; i++) { /* frequencies of a similar rotor fall with its size */
         rig_begin(&b, 1);
         for (int s = 0; s < 3; s++)
@@ -347,12 +336,11 @@ static void extreme_dimensions_are_solved(void **state)
     assert_hz(3, hz, beam, 1e-3);
 }
 
-static void what_has_no_meaning_is_refused_with_its_place(void **state)
+POOL_TEST(what_has_no_meaning_is_refused_with_its_place)
 {
     struct rig b;
     struct solid solid;
     int failed;
-    (void)state;
     slender(&b, 2);
     b.segment[1].rectangular = 1;
     assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, NULL, 1, &solid, &failed), ROTID_ERROR_SECTION);
@@ -371,25 +359,4 @@ static void what_has_no_meaning_is_refused_with_its_place(void **state)
     assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 2e-4, 0}, 1, &solid, &failed),
                   ROTID_ERROR_SECTION);
     assert_int_equal(failed, 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(disks_and_springs_act_as_on_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(springs_anywhere_act_as_on_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_spring_that_did_not_move_is_that_of_the_deck, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_spring_holds_its_point, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(masses_and_joints_act_as_on_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(tie_rods_act_as_on_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(axial_force_acts_as_in_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(holes_bores_and_bars_act_as_in_a_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_sensor_inside_an_element_moves_with_its_surface, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(sensors_do_not_move_frequencies, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(sensors_at_steps_at_ends_and_close_together_are_distinct, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(extreme_dimensions_are_solved, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_has_no_meaning_is_refused_with_its_place, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #include "linalg/linalg.h"
 #include "run/run.h"
 #include "solid_rig.h"
+#include "support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -17,7 +18,7 @@ static double limit(double coarse, double fine) /* errors fall as the size to th
     return fine - (coarse - fine) / (pow(2, 1.089) - 1);
 }
 
-static void stepped_rotors_have_the_limit_of_an_independent_program(void **state)
+POOL_TEST(stepped_rotors_have_the_limit_of_an_independent_program)
 {
     static const double laminated[2][6] = {{396.300, 687.293, 1128.543, 1618.094, 2148.762, 2766.570},
                                            {396.198, 687.051, 1128.303, 1617.613, 2148.154, 2765.969}},
@@ -27,7 +28,6 @@ static void stepped_rotors_have_the_limit_of_an_independent_program(void **state
                                            {719.707, 1260.786, 3255.174, 3914.256, 6008.569}};
     struct rig b;
     double hz[6], expected[6];
-    (void)state;
     for (int lam = 0; lam < 2; lam++) {
         rig_rotor_a(&b, lam);
         rig_solid(&b.rotor, NULL, 1, 2, 6, hz);
@@ -44,11 +44,10 @@ static void stepped_rotors_have_the_limit_of_an_independent_program(void **state
 
 /* ---- orders of convergence */
 
-static void errors_at_a_corner_fall_as_its_singularity_says(void **state)
+POOL_TEST(errors_at_a_corner_fall_as_its_singularity_says)
 {
     struct rig b;
     double hz[3], least;
-    (void)state;
     rig_two_steps(&b);
     for (int i = 0; i < 3; i++)
         rig_solid(&b.rotor, &(struct solid_rule){0.008 / (1 << i), 0.025, 1}, 1, 2, 1, &hz[i]);
@@ -62,11 +61,10 @@ static void errors_at_a_corner_fall_as_its_singularity_says(void **state)
     assert_true(fabs(least - truth) < 0.5 * fabs(hz[0] - truth));
 }
 
-static void errors_of_a_smooth_rotor_fall_with_the_fourth_power(void **state)
+POOL_TEST(errors_of_a_smooth_rotor_fall_with_the_fourth_power)
 {
     struct rig b;
     double hz[3][3];
-    (void)state;
     rig_begin(&b, 1);
     rig_section(&b, 0, 0.8, 0.2);
     for (int i = 0; i < 3; i++)
@@ -81,13 +79,12 @@ static void errors_of_a_smooth_rotor_fall_with_the_fourth_power(void **state)
 /* The coarse mesh, the one of a run and one twice as fine, without corners: errors fall 2^4 times from one to the next, slender
  * or not, so that the mesh leaves a fifteenth; a disc has Kirchhoff's plate for a limit. Sheets that are ten times as soft along
  * the axis converge at their free edges with the third power only, and the limit is off by less than the correction still. */
-static void a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes(void **state)
+POOL_TEST(a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes)
 {
     static const struct {
         double length, diameter, bore;
         int soft;
     } body[] = {{0.3, 0.1, 0, 0}, {1, 0.1, 0, 0}, {6, 0.1, 0, 0}, {0.3, 0.1, 0.06, 1}};
-    (void)state;
     for (int i = 0; i < 4; i++) {
         struct rig b;
         double hz[3][6];
@@ -122,12 +119,11 @@ static void a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes(void
 
 /* A thin wheel on a shaft, whose spokes the elements of a quarter of the radius do not resolve: their modes have 9 to 26 % of
  * mesh error, and those of two meshes lie in another order. */
-static void meshes_that_are_apart_are_refined(void **state)
+POOL_TEST(meshes_that_are_apart_are_refined)
 {
     struct rig b;
     struct spectrum s;
     double hz[6];
-    (void)state;
     rig_begin(&b, 1);
     rig_section(&b, 0, 0.4, 0.08);
     rig_section(&b, 0, 0.004, 1);
@@ -141,9 +137,8 @@ static void meshes_that_are_apart_are_refined(void **state)
 }
 
 /* Exact: Euler's rod, whose shear and rotary inertia are 1e-6 of the frequency and less; and a beam of 9000 elements. */
-static void rigid_motions_of_a_slender_rod_are_no_elastic_modes(void **state)
+POOL_TEST(rigid_motions_of_a_slender_rod_are_no_elastic_modes)
 {
-    (void)state;
     for (int i = 0; i < 3; i++) {
         struct rig b;
         struct spectrum s;
@@ -218,7 +213,7 @@ static double wave_hz(double k, double a)
     return low / (2 * pi);
 }
 
-static void a_cylinder_between_held_ends_bends_in_exact_waves(void **state)
+POOL_TEST(a_cylinder_between_held_ends_bends_in_exact_waves)
 {
     enum { COUNT = 4 };
     const double a = 0.1, length = 0.8;
@@ -228,7 +223,6 @@ static void a_cylinder_between_held_ends_bends_in_exact_waves(void **state)
     rotid_matrix k, m;
     double lambda[COUNT], hz[COUNT], expected[COUNT];
     int failed;
-    (void)state;
     rig_begin(&b, 1);
     rig_section(&b, 0, length, 2 * a);
     assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 0.02, 0}, 1, &solid, &failed), ROTID_OK);
@@ -264,12 +258,11 @@ static void compare_with_beam(struct rig *b, int count, double rtol)
     assert_hz(count, solid, beam, rtol);
 }
 
-static void a_slender_rod_is_a_timoshenko_beam(void **state)
+POOL_TEST(a_slender_rod_is_a_timoshenko_beam)
 {
     struct rig b;
     struct exact exact;
     double solid[4], beam[4];
-    (void)state;
     rig_begin(&b, 1);
     rig_section(&b, 0, 2.4, 0.08);
     exact_open(&b.rotor, &exact);
@@ -281,11 +274,10 @@ static void a_slender_rod_is_a_timoshenko_beam(void **state)
 }
 
 /* Bonded layers that contract alike, and those that do not and stiffen each other. */
-static void layers_of_a_slender_bar_bend_together(void **state)
+POOL_TEST(layers_of_a_slender_bar_bend_together)
 {
     double alike[2], beam[2];
     struct rig b;
-    (void)state;
     rig_begin(&b, 3);
     rig_section(&b, 0, 2.4, 0.05);
     b.rotor.nring = 2;
@@ -305,11 +297,10 @@ static void layers_of_a_slender_bar_bend_together(void **state)
     assert_true(beam[0] > 1.005 * alike[0]);
 }
 
-static void a_laminated_bar_shears_as_an_orthotropic_section_does(void **state)
+POOL_TEST(a_laminated_bar_shears_as_an_orthotropic_section_does)
 {
     static const double e[] = {1.05e11, 1.05e11, 3e10}, g[] = {4.7e10, 1e10, 1.2e10};
     struct rig b;
-    (void)state;
     for (int i = 0; i < 3; i++) {
         rig_begin(&b, 1);
         rig_section(&b, 0, 1.6, 0.1);
@@ -317,22 +308,4 @@ static void a_laminated_bar_shears_as_an_orthotropic_section_does(void **state)
             .name = "stack", .e = e[i], .g = g[i], .nu = 0.3, .rho = 7600, .laminated = 1, .sheet_e = 2.1e11, .stacking = 1};
         compare_with_beam(&b, 4, 3e-3);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(stepped_rotors_have_the_limit_of_an_independent_program, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(errors_at_a_corner_fall_as_its_singularity_says, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(errors_of_a_smooth_rotor_fall_with_the_fourth_power, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(meshes_that_are_apart_are_refined, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(rigid_motions_of_a_slender_rod_are_no_elastic_modes, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_cylinder_between_held_ends_bends_in_exact_waves, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_slender_rod_is_a_timoshenko_beam, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(layers_of_a_slender_bar_bend_together, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_laminated_bar_shears_as_an_orthotropic_section_does, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

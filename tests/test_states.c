@@ -64,9 +64,8 @@ static rotid_identification *identify(const char *text, int baseline)
     return found;
 }
 
-static void all_states_are_identified_together(void **state)
+POOL_TEST(all_states_are_identified_together)
 {
-    (void)state;
     static const char *const functionals[] = {"LIKELIHOOD", "HYBRID"};
     double hz[STATES][MODES];
     measure(hz);
@@ -96,9 +95,8 @@ static void all_states_are_identified_together(void **state)
 }
 
 /* The third state is wrong by 10 %: held out, nothing of that is in the others, and all of it in its prediction. */
-static void a_state_held_out_is_predicted(void **state)
+POOL_TEST(a_state_held_out_is_predicted)
 {
-    (void)state;
     double hz[STATES][MODES];
     measure(hz);
     for (int k = 0; k < MODES; k++)
@@ -115,9 +113,8 @@ static void a_state_held_out_is_predicted(void **state)
 }
 
 /* By itself, by FIT.STATE and as the deck of its state. */
-static void one_state_is_the_same_however_it_is_asked_for(void **state)
+POOL_TEST(one_state_is_the_same_however_it_is_asked_for)
 {
-    (void)state;
     static const char *const set[] = {"FIT.STATE=loaded"};
     double hz[STATES][MODES];
     char failure[ROTID_FAILURE_LENGTH];
@@ -141,9 +138,8 @@ static void one_state_is_the_same_however_it_is_asked_for(void **state)
     rotid_deck_free(one);
 }
 
-static void every_failing_allocation_is_survived(void **state)
+POOL_TEST(every_failing_allocation_is_survived)
 {
-    (void)state;
     double hz[STATES][MODES];
     measure(hz);
     const char *text = deck_text("LIKELIHOOD", "", hz);
@@ -167,16 +163,4 @@ static void every_failing_allocation_is_survived(void **state)
         if (done)
             print_message("three states: %d allocations\n", n);
     }
-}
-
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-    const struct CMUnitTest tests[] = {
-        TEST(all_states_are_identified_together),
-        TEST(a_state_held_out_is_predicted),
-        TEST(one_state_is_the_same_however_it_is_asked_for),
-        TEST(every_failing_allocation_is_survived),
-    };
-    return cmocka_run_group_tests_name("states", tests, NULL, NULL);
 }

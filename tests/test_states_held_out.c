@@ -63,9 +63,8 @@ static void run(const char *path, int held, double *error, double *fitted, doubl
 }
 
 /* The mesh of a beam leaves parts in a million at these elements, the beam itself two hundredths of a per cent of a solid. */
-static void a_state_is_predicted_from_the_others(void **state)
+POOL_TEST(a_state_is_predicted_from_the_others)
 {
-    (void)state;
     static const char *const model[] = {"", ", MODEL=SOLID"};
     static const double within[] = {0.01, 0.03};
     for (int m = 0; m < 2; m++)
@@ -78,9 +77,8 @@ static void a_state_is_predicted_from_the_others(void **state)
 }
 
 /* The disc is half as heavy as it was: where its state is fitted the moduli absorb part of that, where it is held out nothing. */
-static void a_mistake_in_a_state_shows_where_it_is_held_out(void **state)
+POOL_TEST(a_mistake_in_a_state_shows_where_it_is_held_out)
 {
-    (void)state;
     static const char *const model[] = {"", ", MODEL=SOLID"};
     for (int m = 0; m < 2; m++) {
         double error, fitted, e;
@@ -90,11 +88,4 @@ static void a_mistake_in_a_state_shows_where_it_is_held_out(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_state_is_predicted_from_the_others, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_mistake_in_a_state_shows_where_it_is_held_out, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("states_held_out", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

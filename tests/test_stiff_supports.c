@@ -90,10 +90,9 @@ static int run_one(void *context, int i, int worker)
     return hidden_run(&c, NULL, NULL, NULL, &score[i]);
 }
 
-static void close_pairs_end_no_diagnosis(void **state)
+UNIT_TEST(close_pairs_end_no_diagnosis)
 {
     int failed = 0;
-    (void)state;
     assert_non_null(mkdtemp(directory));
     assert_int_equal(parallel_for(JOBS, COUNT, run_one, NULL), 0);
     assert_int_equal(rmdir(directory), 0);
@@ -105,10 +104,4 @@ static void close_pairs_end_no_diagnosis(void **state)
         failed += score[i].outcome == HIDDEN_FAILED;
     }
     assert_int_equal(failed, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(close_pairs_end_no_diagnosis)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static char *text_of(const char *path)
 
 /* Frequencies and shapes of the paper's rotor with something hidden in it, by exact dynamic stiffness: what is left is the mesh.
  */
-static void hidden_effects_do_what_exact_dynamics_says(void **state)
+POOL_TEST(hidden_effects_do_what_exact_dynamics_says)
 {
-    (void)state;
     static const struct {
         const char *card, *spec;
         double shapes; /* tolerance */
@@ -146,9 +145,8 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
 }
 
 /* A replicate has its noise, whatever the cell fits, keeps or hides. */
-static void cells_see_the_same_noise(void **state)
+POOL_TEST(cells_see_the_same_noise)
 {
-    (void)state;
     open_study(MODEL "*VARIANT, NAME=a\n*VARIANT, NAME=b\nFIT.REDUCTION=GUYAN\n*MODES\n1-4\n1-6\n*SENSORS\nALL\nEVERY, "
                      "1\n*NOISE\n0.001, 0.01\n");
     struct experiment first = make(7);
@@ -167,9 +165,8 @@ static void cells_see_the_same_noise(void **state)
 }
 
 /* Mean and variance of what is added, its independence between modes and sensors, and what the fit is told. */
-static void noise_is_what_it_is_said_to_be(void **state)
+POOL_TEST(noise_is_what_it_is_said_to_be)
 {
-    (void)state;
     open_study("*STUDY, REPLICATES=2000\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.002, 0.03\n0, 0\n");
     struct experiment clean = make(2000);
     double f1 = 0, f2 = 0, f12 = 0, s1 = 0, s2 = 0;
@@ -194,9 +191,8 @@ static void noise_is_what_it_is_said_to_be(void **state)
     jobs_close(&jobs);
 }
 
-static void noise_adds_to_that_of_measured_data(void **state)
+POOL_TEST(noise_adds_to_that_of_measured_data)
 {
-    (void)state;
     (void)bench_write("noisy.inp", BENCH_DECK "*NOISE, FREQUENCY=0.003\n");
     open_study("*STUDY, REPLICATES=3\n*DECKS\nnoisy.inp\n*NOISE\n0.004\n");
     struct experiment e = make(1);
@@ -222,9 +218,8 @@ static int has(const struct job *job, int id)
 
 /* Fewer sensors of a replicate are some of more, replicates differ, each sensor has its chance, and what is hidden at one stays.
  */
-static void sensors_are_drawn_from_all(void **state)
+POOL_TEST(sensors_are_drawn_from_all)
 {
-    (void)state;
     open_study(MODEL "*SENSORS\n3\n6\n9\nEVERY, 5\n*NOISE\n0.001, 0.01\n");
     int seen[13] = {0}, differ = 0;
     for (long r = 0; r < 40; r++) {
@@ -258,9 +253,8 @@ static void sensors_are_drawn_from_all(void **state)
 }
 
 /* Both that were exchanged, in either order; of a channel that repeats another one, it alone. */
-static void a_fault_is_found_where_its_sensors_are(void **state)
+POOL_TEST(a_fault_is_found_where_its_sensors_are)
 {
-    (void)state;
     static const struct {
         const char *card, *id;
         int sensor[2];
@@ -286,9 +280,8 @@ static void a_fault_is_found_where_its_sensors_are(void **state)
     }
 }
 
-static void starts_lie_around_that_of_the_deck(void **state)
+POOL_TEST(starts_lie_around_that_of_the_deck)
 {
-    (void)state;
     (void)bench_write("bounded.inp", BENCH_BEAM BENCH_MODES "*IDENTIFY\ncore.E, 1.5e11, 1e12, 2e11\nleft.E, 1e10, 1e12, 2e11\n");
     open_study("*STUDY\n*DECKS\nbounded.inp\n*STARTS, SPREAD=0.5, GRID=5\n");
     assert_int_equal(study.runs, 25);
@@ -313,9 +306,8 @@ static void starts_lie_around_that_of_the_deck(void **state)
     jobs_close(&jobs);
 }
 
-static void truths_are_drawn_from_their_ranges(void **state)
+POOL_TEST(truths_are_drawn_from_their_ranges)
 {
-    (void)state;
     open_study("*STUDY, REPLICATES=500\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1e11, 2e11\nright.E, "
                "1.9e11\n*NOISE\n0\n");
     double least = INFINITY, most = 0, sum = 0;
@@ -331,17 +323,4 @@ static void truths_are_drawn_from_their_ranges(void **state)
     jobs_close(&jobs);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(hidden_effects_do_what_exact_dynamics_says, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(cells_see_the_same_noise, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(noise_is_what_it_is_said_to_be, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(noise_adds_to_that_of_measured_data, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(sensors_are_drawn_from_all, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_fault_is_found_where_its_sensors_are, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(starts_lie_around_that_of_the_deck, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(truths_are_drawn_from_their_ranges, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("study_data", tests, bench_make, bench_remove);
-}
+TEST_GROUP(bench_make, bench_remove);

@@ -26,9 +26,8 @@ static void complains(const char *text, int line, int column, const char *words)
     assert_true(found && status == ROTID_ERROR_SYNTAX);
 }
 
-static void every_mistake_has_its_place(void **state)
+POOL_TEST(every_mistake_has_its_place)
 {
-    (void)state;
     complains("*STUDY\n", 1, 7, "names no deck, expected *DECKS");
     complains("*STUDY, COMMAND=FIT\n*DECKS\ndeck.inp\n", 1, 17, "COMMAND=FIT is not known, expected one of IDENTIFY, DIAGNOSE");
     complains("*STUDY, SEED=-1\n*DECKS\ndeck.inp\n", 1, 14, "SEED is -1, expected a whole number from 0");
@@ -64,9 +63,8 @@ static void every_mistake_has_its_place(void **state)
 }
 
 /* What only the deck can tell stands at its place in the plan as well. */
-static void mistakes_that_a_deck_finds_stand_in_the_plan(void **state)
+POOL_TEST(mistakes_that_a_deck_finds_stand_in_the_plan)
 {
-    (void)state;
     complains(ONE "*VARIANT, NAME=a\nFIT.TIE=E\n", 5, 1, "TIE=E is not known, expected one of E:G (deck deck.inp)");
     complains(ONE "*VARIANT, NAME=a\nBARS.MODEL=TUBE\n", 5, 1, "the deck has no card *BARS");
     complains(ONE "*MODES\n1-3\n1-7\n", 6, 1, "mode 7 of MODES is not measured");
@@ -87,9 +85,8 @@ static void mistakes_that_a_deck_finds_stand_in_the_plan(void **state)
 }
 
 /* A deck that is wrong as it stands does not stop the others; alone it does. */
-static void a_wrong_deck_fails_alone(void **state)
+POOL_TEST(a_wrong_deck_fails_alone)
 {
-    (void)state;
     struct message_list messages;
     struct study study;
     (void)bench_write("wrong.inp", "*SHAFT\n");
@@ -109,9 +106,8 @@ static void a_wrong_deck_fails_alone(void **state)
 }
 
 /* Every combination once, and every run somewhere. */
-static void axes_multiply(void **state)
+POOL_TEST(axes_multiply)
 {
-    (void)state;
     struct message_list messages;
     struct study study;
     (void)bench_write("other.inp", BENCH_DECK);
@@ -149,9 +145,8 @@ static void axes_multiply(void **state)
 }
 
 /* With G identified beside E, TIE leaves one parameter less, and the grid has a dimension less. */
-static void grids_follow_the_parameters_of_a_variant(void **state)
+POOL_TEST(grids_follow_the_parameters_of_a_variant)
 {
-    (void)state;
     struct message_list messages;
     struct study study;
     (void)bench_write("moduli.inp", BENCH_BEAM BENCH_MODES "*IDENTIFY\ncore.E, 1e10, 1e12, 2e11\ncore.G, 1e10, 1e12, 8e10\n");
@@ -176,9 +171,8 @@ static struct study digests(const char *plan)
 }
 
 /* What means the same has the same digest; what means another thing does not, and the digest that changes says what it was. */
-static void digests_follow_the_meaning(void **state)
+POOL_TEST(digests_follow_the_meaning)
 {
-    (void)state;
     (void)bench_write("data.inp", BENCH_BEAM "*INCLUDE, FILE=modes.inc\n" BENCH_WANTED);
     (void)bench_write("modes.inc", BENCH_MODES);
     struct study first = digests("*STUDY\n*DECKS\ndata.inp\n"),
@@ -200,9 +194,8 @@ static void digests_follow_the_meaning(void **state)
 }
 
 /* Every memory that a plan and its check ask for runs out once. */
-static void running_out_of_memory_is_a_status(void **state)
+POOL_TEST(running_out_of_memory_is_a_status)
 {
-    (void)state;
     const char *path =
         bench_write("plan.txt", "*STUDY\n*DECKS\ndeck.inp\n*VARIANT, NAME=a\nFIT.TIE=E:G\n*MODES\n1-4\n*SENSORS\nEVERY, 2\n"
                                 "*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1e11, 2e11\n*NOISE\n0.001, 0.01\n*HIDE, TYPE=sensor_gain, "
@@ -229,16 +222,4 @@ static void running_out_of_memory_is_a_status(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(every_mistake_has_its_place, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(mistakes_that_a_deck_finds_stand_in_the_plan, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_wrong_deck_fails_alone, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(axes_multiply, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(grids_follow_the_parameters_of_a_variant, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(digests_follow_the_meaning, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(running_out_of_memory_is_a_status, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("study_plan", tests, bench_make, bench_remove);
-}
+TEST_GROUP(bench_make, bench_remove);

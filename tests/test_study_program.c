@@ -32,9 +32,8 @@ static int setup(void **state)
     return bench_run("study a.plan -o one.jsonl --threads 1 --quiet").code;
 }
 
-static void any_number_of_processes_gives_one_result(void **state)
+UNIT_TEST(any_number_of_processes_gives_one_result)
 {
-    (void)state;
     assert_int_equal(bench_lines("one.jsonl"), 1 + RUNS);
     bench_says("study a.plan -o three.jsonl --threads 3 --quiet", 0, "");
     assert_true(bench_same("one.jsonl", "three.jsonl"));
@@ -43,9 +42,8 @@ static void any_number_of_processes_gives_one_result(void **state)
 }
 
 /* Results in order take the place of those that came out of order, and a summary that of an earlier one. */
-static void who_may_read_a_file_is_kept(void **state)
+UNIT_TEST(who_may_read_a_file_is_kept)
 {
-    (void)state;
     struct stat is;
     char *whole = bench_read("one.jsonl"), *last = strstr(whole, "{\"run\":119,"), *second = strstr(whole, "{\"run\":0,");
     assert_true(last && second);
@@ -63,9 +61,8 @@ static void who_may_read_a_file_is_kept(void **state)
     assert_true(stat(bench_path("private.json"), &is) == 0 && (is.st_mode & 0777) == 0640);
 }
 
-static void shards_merge_to_one_result(void **state)
+UNIT_TEST(shards_merge_to_one_result)
 {
-    (void)state;
     bench_says("study a.plan -o s1.jsonl --shard 1/3 --quiet", 0, "");
     bench_says("study a.plan -o s2.jsonl --shard 2/3 --quiet", 0, "");
     bench_says("study --merge s1.jsonl s2.jsonl -o most.jsonl --quiet", 1, "40 of 120 runs are missing in most.jsonl: 2, 5, 8,");
@@ -79,9 +76,8 @@ static void shards_merge_to_one_result(void **state)
 
 /* The coordinator is killed at some moment, again and again: what is there is whole, and in the end all is. Where a machine is
  * too slow for a run to end before that moment, the next one comes later. */
-static void nothing_is_lost_by_kill_9(void **state)
+UNIT_TEST(nothing_is_lost_by_kill_9)
 {
-    (void)state;
     unsigned seed = 12345;
     for (int round = 0; round < 4; round++) {
         int kills = 0, before = 0;
@@ -125,9 +121,8 @@ static int wait_for_children(pid_t process, int wanted, pid_t *child)
     return count;
 }
 
-static void a_worker_that_dies_costs_its_run(void **state)
+UNIT_TEST(a_worker_that_dies_costs_its_run)
 {
-    (void)state;
     (void)bench_write("slow.plan", SLOW);
     bench_delete("slow.jsonl");
     pid_t process = bench_start("study slow.plan -o slow.jsonl --threads 2"), child[2];
@@ -148,9 +143,8 @@ static void a_worker_that_dies_costs_its_run(void **state)
 }
 
 /* A parent that ignores SIGCHLD hands that on, and then the system keeps no word of how a child ended. */
-static void a_worker_says_how_it_died_whoever_started_the_program(void **state)
+UNIT_TEST(a_worker_says_how_it_died_whoever_started_the_program)
 {
-    (void)state;
     (void)bench_write("slow.plan", SLOW);
     bench_delete("ignored.jsonl");
     void (*before)(int) = signal(SIGCHLD, SIG_IGN);
@@ -165,9 +159,8 @@ static void a_worker_says_how_it_died_whoever_started_the_program(void **state)
 }
 
 /* With standard error closed the file of results must not become it: the message would stand among the results. */
-static void closed_streams_are_no_files_of_results(void **state)
+UNIT_TEST(closed_streams_are_no_files_of_results)
 {
-    (void)state;
     for (int closed = STDERR_FILENO; closed >= STDIN_FILENO; closed--) { /* that stream and those behind it */
         bench_delete("closed.jsonl");
         pid_t process = fork();
@@ -189,18 +182,16 @@ static void closed_streams_are_no_files_of_results(void **state)
     }
 }
 
-static void a_run_that_takes_too_long_has_failed(void **state)
+UNIT_TEST(a_run_that_takes_too_long_has_failed)
 {
-    (void)state;
     (void)bench_write("slow.plan", SLOW);
     bench_delete("late.jsonl");
     bench_says("study slow.plan -o late.jsonl --timeout 0.05", 1, "no result within 0.05 s (--timeout)");
     bench_says("study --summary late.jsonl", 1, "4 of 4 runs of diagnose, 4 failed");
 }
 
-static void an_interruption_keeps_what_is_finished(void **state)
+UNIT_TEST(an_interruption_keeps_what_is_finished)
 {
-    (void)state;
     static const int signals[] = {SIGINT, SIGTERM};
     for (int i = 0; i < 2; i++) {
         bench_delete("stopped.jsonl");
@@ -228,9 +219,8 @@ static void an_interruption_keeps_what_is_finished(void **state)
 }
 
 /* Whatever they do: a stopped one would not see that nobody listens any more. */
-static void workers_end_with_their_study(void **state)
+UNIT_TEST(workers_end_with_their_study)
 {
-    (void)state;
     pid_t child[2];
     (void)bench_write("slow.plan", SLOW);
     bench_delete("orphan.jsonl");
@@ -249,9 +239,8 @@ static void workers_end_with_their_study(void **state)
     }
 }
 
-static void two_studies_do_not_write_one_file(void **state)
+UNIT_TEST(two_studies_do_not_write_one_file)
 {
-    (void)state;
     (void)bench_write("slow.plan", SLOW);
     bench_delete("held.jsonl");
     pid_t process = bench_start("study slow.plan -o held.jsonl --threads 1 --quiet"), child[1];
@@ -262,28 +251,8 @@ static void two_studies_do_not_write_one_file(void **state)
     assert_int_equal(bench_wait(process).code, 1);
 }
 
-static void a_changed_study_is_refused(void **state)
+UNIT_TEST(decks_are_identified_as_they_stand)
 {
-    (void)state;
-    bench_says("study a.plan -o one.jsonl --seed 2", 2, "its seed is 1, not 2");
-    bench_says("study a.plan -o one.jsonl --set NOISE.FREQUENCY=0.01", 2, "--set has changed");
-    bench_says("study a.plan -o one.jsonl --shard 1/2", 2, "this file is of shard 1/1 and not of 1/2");
-    (void)bench_write("a.plan", PLAN "*SENSORS\nALL\n");
-    bench_says("study a.plan -o one.jsonl", 2, "the plan has changed since it was begun");
-    (void)bench_write("a.plan", PLAN);
-    (void)bench_write("deck.inp", BENCH_BEAM BENCH_SENSORS BENCH_WANTED BENCH_MODES "*DISK\n0.5, 1\n");
-    bench_says("study a.plan -o one.jsonl", 2, "a deck has changed since it was begun");
-    (void)bench_write("deck.inp", "** the same\n" BENCH_DECK);
-    bench_says("study a.plan -o one.jsonl --quiet", 0, "");
-    bench_says("study a.plan -o deck.inp", 2, "--output deck.inp is a file that is read");
-    (void)bench_write("other.inp", BENCH_DECK);
-    bench_says("study a.plan -o other.inp", 2, "other.inp:1:1: this is no file of results");
-    assert_int_equal(bench_lines("deck.inp"), 1 + bench_lines("plain.inp"));
-}
-
-static void decks_are_identified_as_they_stand(void **state)
-{
-    (void)state;
     (void)bench_write("wrong.inp", "*SHAFT\n");
     bench_says("study deck.inp wrong.inp plain.inp -o decks.jsonl --json d.json", 1, "1 of 3 decks cannot be used");
     assert_int_equal(bench_lines("decks.jsonl"), 4);
@@ -298,9 +267,8 @@ static void decks_are_identified_as_they_stand(void **state)
 }
 
 /* Of decks named on the command line a repeated command computes those again that were mended, and nothing else. */
-static void a_mended_deck_runs_again(void **state)
+UNIT_TEST(a_mended_deck_runs_again)
 {
-    (void)state;
     (void)bench_write("first.inp", BENCH_DECK);
     (void)bench_write("second.inp", "*SHAFT\n");
     bench_says("study first.inp second.inp -o mended.jsonl", 1, "1 failed");
@@ -327,9 +295,8 @@ static void a_mended_deck_runs_again(void **state)
     bench_says("study first.inp -o mended.jsonl", 2, "the plan has changed"); /* not the same decks */
 }
 
-static void wrong_usage_is_refused(void **state)
+UNIT_TEST(wrong_usage_is_refused)
 {
-    (void)state;
     bench_says("study a.plan", 2, "no file for the results, expected -o FILE");
     bench_says("study a.plan -o -", 2, "expected a file");
     bench_says("study a.plan -o a.plan", 2, "is the file that is read");
@@ -356,9 +323,8 @@ static void wrong_usage_is_refused(void **state)
 }
 
 /* A row a cell, a row for each parameter of it, a row for each parameter of a run; in SI, what the JSON holds. */
-static void summary_and_runs_are_tables_for_a_spreadsheet(void **state)
+UNIT_TEST(summary_and_runs_are_tables_for_a_spreadsheet)
 {
-    (void)state;
     bench_says("study --summary one.jsonl --csv out --json out.json", 0,
                "out.cells.csv, out.parameters.csv and out.runs.csv are written");
     char *json = bench_read("out.json"), *cells = bench_read("out.cells.csv"), *parameters = bench_read("out.parameters.csv"),
@@ -384,9 +350,8 @@ static void summary_and_runs_are_tables_for_a_spreadsheet(void **state)
     bench_says("study --summary one.jsonl --csv out --json out.runs.csv", 2, "the file of --json");
 }
 
-static void the_summary_is_a_table_or_json(void **state)
+UNIT_TEST(the_summary_is_a_table_or_json)
 {
-    (void)state;
     bench_says("study --summary one.jsonl", 0, "study a.plan: 120 of 120 runs of identify, 0 failed");
     bench_says("study --summary one.jsonl", 0, "core.E");
     struct bench_outcome outcome = bench_run("study --summary one.jsonl --json -");
@@ -426,9 +391,8 @@ static void the_summary_is_a_table_or_json(void **state)
 }
 
 /* A file that may not grow: exit code 3, whole lines, and on it goes. */
-static void a_full_disk_stops_it(void **state)
+UNIT_TEST(a_full_disk_stops_it)
 {
-    (void)state;
     char command[1500];
     bench_delete("full.jsonl");
     (void)snprintf(command, sizeof command, "cd %s && (ulimit -f 40; exec %s study a.plan -o full.jsonl --quiet) >said 2>&1",
@@ -444,27 +408,23 @@ static void a_full_disk_stops_it(void **state)
     assert_true(bench_same("one.jsonl", "full.jsonl"));
 }
 
-int main(void)
+/* Last: it changes the deck. */
+UNIT_TEST(a_changed_study_is_refused)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_number_of_processes_gives_one_result),
-        cmocka_unit_test(who_may_read_a_file_is_kept),
-        cmocka_unit_test(shards_merge_to_one_result),
-        cmocka_unit_test(nothing_is_lost_by_kill_9),
-        cmocka_unit_test(a_worker_that_dies_costs_its_run),
-        cmocka_unit_test(a_worker_says_how_it_died_whoever_started_the_program),
-        cmocka_unit_test(closed_streams_are_no_files_of_results),
-        cmocka_unit_test(a_run_that_takes_too_long_has_failed),
-        cmocka_unit_test(an_interruption_keeps_what_is_finished),
-        cmocka_unit_test(workers_end_with_their_study),
-        cmocka_unit_test(two_studies_do_not_write_one_file),
-        cmocka_unit_test(decks_are_identified_as_they_stand),
-        cmocka_unit_test(a_mended_deck_runs_again),
-        cmocka_unit_test(wrong_usage_is_refused),
-        cmocka_unit_test(the_summary_is_a_table_or_json),
-        cmocka_unit_test(summary_and_runs_are_tables_for_a_spreadsheet),
-        cmocka_unit_test(a_full_disk_stops_it),
-        cmocka_unit_test(a_changed_study_is_refused), /* last: it changes the deck */
-    };
-    return cmocka_run_group_tests_name("study_program", tests, setup, bench_remove);
+    bench_says("study a.plan -o one.jsonl --seed 2", 2, "its seed is 1, not 2");
+    bench_says("study a.plan -o one.jsonl --set NOISE.FREQUENCY=0.01", 2, "--set has changed");
+    bench_says("study a.plan -o one.jsonl --shard 1/2", 2, "this file is of shard 1/1 and not of 1/2");
+    (void)bench_write("a.plan", PLAN "*SENSORS\nALL\n");
+    bench_says("study a.plan -o one.jsonl", 2, "the plan has changed since it was begun");
+    (void)bench_write("a.plan", PLAN);
+    (void)bench_write("deck.inp", BENCH_BEAM BENCH_SENSORS BENCH_WANTED BENCH_MODES "*DISK\n0.5, 1\n");
+    bench_says("study a.plan -o one.jsonl", 2, "a deck has changed since it was begun");
+    (void)bench_write("deck.inp", "** the same\n" BENCH_DECK);
+    bench_says("study a.plan -o one.jsonl --quiet", 0, "");
+    bench_says("study a.plan -o deck.inp", 2, "--output deck.inp is a file that is read");
+    (void)bench_write("other.inp", BENCH_DECK);
+    bench_says("study a.plan -o other.inp", 2, "other.inp:1:1: this is no file of results");
+    assert_int_equal(bench_lines("deck.inp"), 1 + bench_lines("plain.inp"));
 }
+
+TEST_GROUP(setup, bench_remove);

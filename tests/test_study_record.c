@@ -106,9 +106,8 @@ static void refuses(const char *text, int status, const char *words)
 }
 
 /* In any order, whatever interrupts it: in the end the lines stand in the order of the runs. */
-static void the_file_ends_in_order(void **state)
+FIXTURE_TEST(the_file_ends_in_order, setup, close_test_pool)
 {
-    (void)state;
     static const long order[RUNS] = {3, 0, 5, 1, 4, 2};
     char expected[6000] = "";
     struct study_record record = opened(0);
@@ -148,9 +147,8 @@ static void the_file_ends_in_order(void **state)
 }
 
 /* Whatever byte the end comes at, everything before the cut line is kept and the cut line goes. */
-static void a_cut_line_is_removed(void **state)
+FIXTURE_TEST(a_cut_line_is_removed, setup, close_test_pool)
 {
-    (void)state;
     struct study_record record = opened(0);
     for (long run = 0; run < 3; run++)
         append(&record, run, "converged");
@@ -180,9 +178,8 @@ static void a_cut_line_is_removed(void **state)
     json_free(first);
 }
 
-static void other_files_are_left_alone(void **state)
+FIXTURE_TEST(other_files_are_left_alone, setup, close_test_pool)
 {
-    (void)state;
     struct study_header other = header;
     struct study_record record = opened(0);
     append(&record, 0, "converged");
@@ -222,9 +219,8 @@ static void other_files_are_left_alone(void **state)
     json_free(first);
 }
 
-static void what_is_no_file_is_refused(void **state)
+FIXTURE_TEST(what_is_no_file_is_refused, setup, close_test_pool)
 {
-    (void)state;
     struct message_list messages;
     struct study_record record;
     static const char *const paths[] = {"/dev/full", "/dev/null", "/tmp", "/nowhere/at/all"};
@@ -240,9 +236,8 @@ static void what_is_no_file_is_refused(void **state)
 }
 
 /* A second process is kept out while the first one lives, and no longer. */
-static void one_process_at_a_time(void **state)
+FIXTURE_TEST(one_process_at_a_time, setup, close_test_pool)
 {
-    (void)state;
     int pipes[2];
     char byte;
     assert_int_equal(pipe(pipes), 0);
@@ -263,9 +258,8 @@ static void one_process_at_a_time(void **state)
 }
 
 /* A file that may not grow, at every size: an error, and whole lines only. */
-static void a_full_disk_leaves_whole_lines(void **state)
+FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
 {
-    (void)state;
     struct rlimit before, limit;
     struct sigaction ignore = {.sa_handler = SIG_IGN}, old;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -327,9 +321,8 @@ static void a_full_disk_leaves_whole_lines(void **state)
     (void)sigaction(SIGXFSZ, &old, NULL);
 }
 
-static void shards_share_the_runs(void **state)
+FIXTURE_TEST(shards_share_the_runs, setup, close_test_pool)
 {
-    (void)state;
     char *paths[3] = {pool_copy_text(&test_pool, bench_path("1.jsonl")), pool_copy_text(&test_pool, bench_path("2.jsonl")),
                       pool_copy_text(&test_pool, bench_path("3.jsonl"))};
     struct message_list messages;
@@ -377,9 +370,8 @@ static void shards_share_the_runs(void **state)
     record_close(&record);
 }
 
-static void parts_that_contradict_each_other_are_refused(void **state)
+FIXTURE_TEST(parts_that_contradict_each_other_are_refused, setup, close_test_pool)
 {
-    (void)state;
     char *first = header_text(&header), text[4000];
     char *paths[2] = {pool_copy_text(&test_pool, bench_path("1.jsonl")), pool_copy_text(&test_pool, bench_path("2.jsonl"))};
     struct message_list messages;
@@ -451,9 +443,8 @@ static void assert_all_refuse(const char *text, int line, const char *words)
 }
 
 /* What accidents make of lines, and what somebody writes who also computes the digest. */
-static void a_line_that_is_wrong_is_never_kept(void **state)
+FIXTURE_TEST(a_line_that_is_wrong_is_never_kept, setup, close_test_pool)
 {
-    (void)state;
     static const char changed_words[] = "is not as rotid wrote it";
     bench_delete("all.jsonl");
     struct study_record record = opened(0);
@@ -520,9 +511,8 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
 }
 
 /* Sums by hand. */
-static void summaries_add_up(void **state)
+FIXTURE_TEST(summaries_add_up, setup, close_test_pool)
 {
-    (void)state;
     struct message_list messages;
     struct study_result s;
     struct study_header found;
@@ -552,19 +542,4 @@ static void summaries_add_up(void **state)
     assert_close(s.seconds, 0.015, 1e-9, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_file_ends_in_order, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_cut_line_is_removed, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(other_files_are_left_alone, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_is_no_file_is_refused, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(one_process_at_a_time, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_full_disk_leaves_whole_lines, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(shards_share_the_runs, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(parts_that_contradict_each_other_are_refused, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_line_that_is_wrong_is_never_kept, setup, close_test_pool),
-        cmocka_unit_test_setup_teardown(summaries_add_up, setup, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("study_record", tests, bench_make, bench_remove);
-}
+TEST_GROUP(bench_make, bench_remove);

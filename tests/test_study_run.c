@@ -28,9 +28,8 @@ static const char *word(const cJSON *json, const char *key)
     return get(json, key)->valuestring;
 }
 
-static void a_run_does_not_depend_on_the_runs_before_it(void **state)
+POOL_TEST(a_run_does_not_depend_on_the_runs_before_it)
 {
-    (void)state;
     struct jobs jobs;
     open_study(
         "*STUDY, REPLICATES=2, BASELINE=YES\n*DECKS\ndeck.inp\n*VARIANT, NAME=a\n*VARIANT, NAME=b\nFIT.REDUCTION=GUYAN\n"
@@ -55,9 +54,8 @@ static void a_run_does_not_depend_on_the_runs_before_it(void **state)
     jobs_close(&jobs);
 }
 
-static void exact_data_give_back_the_truth(void **state)
+POOL_TEST(exact_data_give_back_the_truth)
 {
-    (void)state;
     open_study(
         "*STUDY, REPLICATES=5\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1e11, 3e11\nleft.E, 1.5e11, 2.5e11\n");
     for (long run = 0; run < 5; run++) {
@@ -70,9 +68,8 @@ static void exact_data_give_back_the_truth(void **state)
 }
 
 /* With the stated noise the estimates scatter as the fits state, without bias, and their intervals hold the truth. */
-static void estimates_scatter_as_they_are_said_to(void **state)
+POOL_TEST(estimates_scatter_as_they_are_said_to)
 {
-    (void)state;
     enum { N = 400 };
     struct jobs jobs;
     double sum[2] = {0}, square[2] = {0}, stated[2] = {0};
@@ -107,9 +104,8 @@ static void estimates_scatter_as_they_are_said_to(void **state)
 }
 
 /* Figure 12: every start within 70 % leads to one minimum. */
-static void every_start_of_the_paper_reaches_the_minimum(void **state)
+POOL_TEST(every_start_of_the_paper_reaches_the_minimum)
 {
-    (void)state;
     struct jobs jobs;
     open_study("*STUDY\n*DECKS\n" PAPER "\n*STARTS, SPREAD=0.7, GRID=5\n");
     assert_int_equal(study.runs, 25);
@@ -136,9 +132,8 @@ static void every_start_of_the_paper_reaches_the_minimum(void **state)
 }
 
 /* The paper's orthotropic and isotropic cores by the first m modes; what is not fitted is predicted. */
-static void variants_and_modes_are_those_of_the_deck(void **state)
+POOL_TEST(variants_and_modes_are_those_of_the_deck)
 {
-    (void)state;
     open_study("*STUDY\n*DECKS\n" PAPER "\n*VARIANT, NAME=two\n*VARIANT, NAME=one\nFIT.TIE=E:G\n*MODES\n1-2\n1-6\n");
     static const int parameters[] = {2, 2, 1, 1}, fitted[] = {2, 6, 2, 6};
     double objective[4];
@@ -158,9 +153,8 @@ static void variants_and_modes_are_those_of_the_deck(void **state)
     assert_close(objective[1], 0.02305273403, 1e-8, 0);
 }
 
-static void a_hidden_mass_is_named(void **state)
+POOL_TEST(a_hidden_mass_is_named)
 {
-    (void)state;
     open_study("*STUDY, COMMAND=DIAGNOSE, REPLICATES=2\n*DECKS\n" PAPER
                "\n*VARIANT, NAME=full\nFIT.REDUCTION=NONE\n*SENSORS\nEVERY, 3\n"
                "*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.01\n*HIDE, TYPE=added_mass\nmass, 12, 16\nz, 0.1, 0.4\n"
@@ -188,9 +182,8 @@ static void a_hidden_mass_is_named(void **state)
 }
 
 /* A shaft on stiff pins: every critical speed goes with the root of E, whose truth makes that of the speeds; exact data. */
-static void critical_speeds_are_those_of_the_machine_and_of_its_truth(void **state)
+POOL_TEST(critical_speeds_are_those_of_the_machine_and_of_its_truth)
 {
-    (void)state;
     static const char deck[] = "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.05, 0, "
                                "20\n*MODES\n1, 200\n2, 600\n*IDENTIFY\na.E, 1e9, 1e13, 2e11\n*RUNNING\n*BEARING\nstart, 1e13, "
                                "0\n*BEARING\nend, 1e13, 0\n*OPERATION, MARGIN=0.1\n2000, 12000\n";
@@ -221,9 +214,8 @@ static void critical_speeds_are_those_of_the_machine_and_of_its_truth(void **sta
 }
 
 /* A mode that has the shape of another one which has none, a model that cannot be: a result that says why. */
-static void what_cannot_be_computed_says_why(void **state)
+POOL_TEST(what_cannot_be_computed_says_why)
 {
-    (void)state;
     (void)bench_write("unpaired.inp",
                       BENCH_BEAM BENCH_SENSORS "*MODES\n1, 398.9\n2, 713.5\n3, 1722\n" BENCH_WANTED
                                                "*SHAPE, MODE=1\n1, 1\n2, 0.4\n3, -0.1\n4, -0.4\n5, -0.2\n6, 0\n7, 0.2\n"
@@ -246,9 +238,8 @@ static int stop_at_once(void *context)
     return 1;
 }
 
-static void a_cancelled_run_leaves_no_line(void **state)
+POOL_TEST(a_cancelled_run_leaves_no_line)
 {
-    (void)state;
     const rotid_environment environment = {.size = sizeof environment, .cancelled = stop_at_once};
     struct jobs jobs;
     char *line = (char *)"";
@@ -259,9 +250,8 @@ static void a_cancelled_run_leaves_no_line(void **state)
     jobs_close(&jobs);
 }
 
-static void seeds_change_the_noise_alone(void **state)
+POOL_TEST(seeds_change_the_noise_alone)
 {
-    (void)state;
     open_study("*STUDY\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001\n0\n");
     cJSON *noisy = bench_result(&study, 0), *clean = bench_result(&study, 1);
     study.seed = 2;
@@ -274,20 +264,4 @@ static void seeds_change_the_noise_alone(void **state)
     cJSON_Delete(same);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_run_does_not_depend_on_the_runs_before_it, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(exact_data_give_back_the_truth, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(estimates_scatter_as_they_are_said_to, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(every_start_of_the_paper_reaches_the_minimum, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(variants_and_modes_are_those_of_the_deck, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_hidden_mass_is_named, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(critical_speeds_are_those_of_the_machine_and_of_its_truth, open_test_pool,
-                                        close_test_pool),
-        cmocka_unit_test_setup_teardown(what_cannot_be_computed_says_why, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_cancelled_run_leaves_no_line, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(seeds_change_the_noise_alone, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("study_run", tests, bench_make, bench_remove);
-}
+TEST_GROUP(bench_make, bench_remove);

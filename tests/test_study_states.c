@@ -37,9 +37,8 @@ static struct experiment make(long run)
 }
 
 /* Data of the model at values that are drawn once for all states: fitted without noise they give these values back. */
-static void the_truth_is_that_of_all_states(void **state)
+POOL_TEST(the_truth_is_that_of_all_states)
 {
-    (void)state;
     open_study("*STUDY, REPLICATES=3\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1.5e11, 2.5e11\nfront.k, 3e6\n");
     for (long run = 0; run < 3; run++) {
         struct experiment e = make(run);
@@ -61,9 +60,8 @@ static void the_truth_is_that_of_all_states(void **state)
 }
 
 /* The same truth, and noise of its own in each state. */
-static void noise_is_that_of_each_state(void **state)
+POOL_TEST(noise_is_that_of_each_state)
 {
-    (void)state;
     const char *same = STATES "*STATE, NAME=again\n*MODES\n1, 250\n2, 680\n3, 1300\n";
     open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0\n0.001\n");
     (void)bench_write("states.inp", same);
@@ -88,9 +86,8 @@ static void noise_is_that_of_each_state(void **state)
 }
 
 /* What is hidden is in all states. */
-static void effects_are_hidden_in_all_states(void **state)
+POOL_TEST(effects_are_hidden_in_all_states)
 {
-    (void)state;
     open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n");
     struct experiment bare = make(0);
     jobs_close(&jobs);
@@ -103,9 +100,8 @@ static void effects_are_hidden_in_all_states(void **state)
 }
 
 /* The line of a run: parameters of all, and modes that name their state. */
-static void a_run_names_the_state_of_its_modes(void **state)
+POOL_TEST(a_run_names_the_state_of_its_modes)
 {
-    (void)state;
     char *text;
     open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001\n");
     assert_status(study_run(&jobs, 0, NULL, &text), ROTID_OK);
@@ -137,9 +133,8 @@ static void a_run_names_the_state_of_its_modes(void **state)
 
 /* A heavier end, in the data of all states: named once for all, also where one of them is held out; what is held out is
  * predicted, and its modes name it. */
-static void all_states_are_diagnosed_together(void **state)
+POOL_TEST(all_states_are_diagnosed_together)
 {
-    (void)state;
     static const char *const fit[] = {"", "*FIT, HOLDOUT=STATE:disc\n"};
     static const char plan[] =
         "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
@@ -179,14 +174,4 @@ static void all_states_are_diagnosed_together(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_truth_is_that_of_all_states, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(noise_is_that_of_each_state, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(effects_are_hidden_in_all_states, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_run_names_the_state_of_its_modes, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(all_states_are_diagnosed_together, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("study_states", tests, bench_make, bench_remove);
-}
+TEST_GROUP(bench_make, bench_remove);

@@ -38,13 +38,12 @@ static rotid_suggestion *suggest_text(const char *text, const rotid_suggest_opti
 /* ---- before a test */
 
 /* Where E alone is free and G follows, every frequency goes with the root of E: 196 2 s / sqrt(m) percent. */
-static void an_interval_of_e_alone_has_a_closed_form(void **state)
+POOL_TEST(an_interval_of_e_alone_has_a_closed_form)
 {
     static const char text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
                                "0.8, 0.03, 0, 30\n*NOISE, FREQUENCY=0.004\n*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\n*FIT, TIE=E:G\n";
     const rotid_suggest_options options = {.size = sizeof options, .wanted_percent = 0.8, .replicates = 100};
     rotid_suggestion *s = suggest_text(text, &options);
-    (void)state;
     assert_int_equal(s->noise.frequency_assumed, 0);
     assert_int_equal(s->noise.shape_assumed, 1);
     for (int i = 0; i < s->nmodes; i++)
@@ -74,7 +73,7 @@ static const char seven[] = "*SENSORS\n1, 0.05\n2, 0.2\n3, 0.35\n4, 0.5\n5, 0.7\
                             "SHAPE=0.005\n";
 
 /* The data that were expected, measured without error: identification states the intervals, diagnosis the limits. */
-static void intervals_and_limits_are_those_of_the_test_that_is_made(void **state)
+POOL_TEST(intervals_and_limits_are_those_of_the_test_that_is_made)
 {
     const rotid_suggest_options options = {.size = sizeof options, .modes = 5, .replicates = 1000};
     char failure[ROTID_FAILURE_LENGTH], *before = pool_format(&test_pool, "%s%s", shaft, seven);
@@ -82,7 +81,6 @@ static void intervals_and_limits_are_those_of_the_test_that_is_made(void **state
     rotid_deck *bare = read_handle(before, 0, NULL), *deck = read_handle(measured_deck(bare, 5, seven), 0, NULL);
     rotid_identification *fit;
     rotid_diagnosis *d;
-    (void)state;
     if (rotid_identify(deck, 0, NULL, failure, &fit) || rotid_diagnose(deck, NULL, NULL, failure, &d))
         fail_msg("%s", failure);
     assert_string_equal(s->plans[0].method, "deck");
@@ -147,13 +145,12 @@ static double product(const struct design *d, const int *taken, int i, int j)
 }
 
 /* With one parameter and one target determinants are written out. */
-static void the_value_of_places_is_that_of_their_projected_columns(void **state)
+POOL_TEST(the_value_of_places_is_that_of_their_projected_columns)
 {
     const struct design d = random_design(1, 1);
     const int taken[PLACES] = {1, 0, 1, 1, 0, 0, 1, 0, 0};
     struct information found = {0};
     double g = product(&d, taken, 0, 0), q;
-    (void)state;
     q = product(&d, taken, 1, 1) - product(&d, taken, 0, 1) * product(&d, taken, 0, 1) / (1 + g);
     assert_int_equal(design_information(&test_pool, &d, MODES, taken, 0, &found), 0);
     assert_close(found.target, log1p(q), 1e-12, 0);
@@ -161,13 +158,12 @@ static void the_value_of_places_is_that_of_their_projected_columns(void **state)
 }
 
 /* All 84 choices of three places beside the one that is made. */
-static void no_choice_of_three_places_is_much_better(void **state)
+POOL_TEST(no_choice_of_three_places_is_much_better)
 {
     const struct design d = random_design(2, 3);
     static const double z[PLACES] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
     double best = -INFINITY, found;
     int taken[PLACES] = {0};
-    (void)state;
     for (int a = 0; a < PLACES; a++)
         for (int b = a + 1; b < PLACES; b++)
             for (int c = b + 1; c < PLACES; c++) {
@@ -197,12 +193,11 @@ static double determinant(int n, double a[3][3])
 }
 
 /* To lose the place of the least leverage is to lose the least of det(Phi'Phi): det(F - f f') = det F (1 - f'F^-1 f). */
-static void effective_independence_keeps_the_determinant(void **state)
+POOL_TEST(effective_independence_keeps_the_determinant)
 {
     struct random_stream stream = {3};
     double shape[PLACES * MODES], best = -1;
     int taken[PLACES], lost = -1, left = 0;
-    (void)state;
     for (int i = 0; i < PLACES * MODES; i++)
         shape[i] = random_normal(&stream);
     for (int out = 0; out < PLACES; out++) {
@@ -396,9 +391,8 @@ static void the_oracle_keeps_the_promise(const struct suggestion *s)
 }
 
 /* The promise: leads that are expected by linear columns, beside those of nonlinear fits to both states over draws. */
-static void a_lead_that_is_promised_is_found(void **state)
+POOL_TEST(a_lead_that_is_promised_is_found)
 {
-    (void)state;
     for (int c = 0; c < CASES; c++) {
         const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
         struct suggestion s;
@@ -441,13 +435,12 @@ static void a_lead_that_is_promised_is_found(void **state)
 
 /* Rivals that leave no more than noise hold the truth but for what was not taken as a rival; where even the best leaves far more,
  * no test can be promised a name. */
-static void a_chance_allows_for_a_truth_that_is_no_rival(void **state)
+POOL_TEST(a_chance_allows_for_a_truth_that_is_no_rival)
 {
     const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
     struct suggestion sound, spoilt;
     struct message_list notes;
     struct job job;
-    (void)state;
     make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
     message_open(&notes, &test_pool);
     assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &sound), 0);
@@ -494,14 +487,13 @@ static int rival_called(const struct rivals *rivals, const char *label)
 
 /* Two states of one structure that share out its modes say what one state with all of them says: of causes that act in both the
  * same chi2, and for the same test the same distances between them. */
-static void states_that_share_out_the_modes_say_the_same(void **state)
+POOL_TEST(states_that_share_out_the_modes_say_the_same)
 {
     const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
     struct suggestion one, two;
     struct message_list notes;
     struct job job;
     int compared = 0, feasible;
-    (void)state;
     make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
     struct states states = shared_out(&job);
     message_open(&notes, &test_pool);
@@ -537,13 +529,12 @@ static void states_that_share_out_the_modes_say_the_same(void **state)
 /* ---- the deck of a test */
 
 /* A test like a state takes what that state has, and measures anew. */
-static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
+POOL_TEST(the_deck_of_a_test_like_a_state_has_its_cards)
 {
     static const char old[] = "*SHAFT, NAME=bar\n1, 0.1, 0, 4\n*STATE, NAME=bare\n*MODES\n1, 90\n*STATE, NAME=Disc\n*DISK, "
                               "NAME=d\n** heavy\n0.5, 3\n*SENSORS\n1, 0.2\n*SET\nbar.length, 0.9\n*MODES\n1, 70\n",
                       cards[] = "** proposed\n*STATE, NAME=again\n*NOISE, FREQUENCY=0.001\n";
     char *text;
-    (void)state;
     const struct deck_file file = {"old", old};
     const struct deck_origin origin = {.path = "old", .memory = 1, .nfile = 1, .file = &file};
     assert_int_equal(deck_add_state(&test_pool, &origin, "disc", cards, &text), 0);
@@ -560,7 +551,7 @@ static void the_deck_of_a_test_like_a_state_has_its_cards(void **state)
     assert_string_equal(text, pool_format(&test_pool, "%s%s%s", old, cards, machine));
 }
 
-static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
+POOL_TEST(the_deck_of_a_test_is_the_deck_and_a_state)
 {
     static const char old[] = "** my shaft\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, "
                               "MATERIAL=steel\n0.8, 0.03, 0, 10\n*MODES\n1, 200\n2, 550\n** soft\n*SPRING, NAME=foam\n0.1, 500\n"
@@ -573,7 +564,6 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
     struct message_list messages;
     const struct deck_memory memory = {.name = "old", .text = old, .length = sizeof old - 1};
     struct states states;
-    (void)state;
     message_open(&messages, &test_pool);
     assert_int_equal(deck_read_states(&test_pool, memory.name, &memory, 0, NULL, &messages, &states), 0);
     job = states.state[0].job;
@@ -648,7 +638,7 @@ static int propose(const char *from, const char *to, const char *home, enum test
 
 /* What is proposed for a deck stands in its units, finds its files from the other folder, gets a name of its own and goes with
  * the files that the deck includes. Each of these was once written as something else. */
-static void what_is_proposed_reads_as_it_is_meant(void **state)
+POOL_TEST(what_is_proposed_reads_as_it_is_meant)
 {
     static const char *const shaft_mm = "*UNITS, LENGTH=MM, MASS=G, STIFFNESS=N/MM, FREQUENCY=KHZ\n*MATERIAL, NAME=steel\n"
                                         "*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
@@ -660,7 +650,6 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
     const char *to = pool_copy_text(&test_pool, folder_path("next/next.inp"));
     struct message_list notes;
     char *text;
-    (void)state;
     assert_int_equal(mkdir(folder_path("next"), 0700), 0);
     (void)folder_write("units.inp", pool_format(&test_pool, "%s%s", shaft_mm, modes));
     (void)folder_write("modes.csv", "mode,frequency [kHz]\n1,0.2\n2,0.55\n");
@@ -721,13 +710,12 @@ static void what_is_proposed_reads_as_it_is_meant(void **state)
 }
 
 /* Modes that *FIT holds out are of the test that was made: the next one may not measure them. This once gave no deck. */
-static void modes_that_are_held_out_stay_with_their_state(void **state)
+POOL_TEST(modes_that_are_held_out_stay_with_their_state)
 {
     static const char *const model = STEEL_BAR "*SPRING, NAME=foam\n0.1, 500\n*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\n";
     struct message_list notes;
     struct states states;
     char *text;
-    (void)state;
     (void)folder_write(
         "held.inp", pool_format(&test_pool, "%s*MODES\n1, 200\n2, 550\n3, 1080\n4, 1780\n*FIT, MODES=1-3, HOLDOUT=3\n", model));
     assert_int_equal(propose(folder_path("held.inp"), folder_path("next.inp"), NULL, TEST_MASS, NULL, &notes, &text), 0);
@@ -740,12 +728,11 @@ static void modes_that_are_held_out_stay_with_their_state(void **state)
 }
 
 /* A rival with a parameter that no datum feels, of a lap whose bending and shear are sought apart: it has a prior of 100 %. */
-static void a_parameter_that_nothing_feels_ends_no_suggestion(void **state)
+POOL_TEST(a_parameter_that_nothing_feels_ends_no_suggestion)
 {
     rotid_deck *deck;
     rotid_suggestion *suggestion;
     char failure[ROTID_FAILURE_LENGTH];
-    (void)state;
     assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp", 0, NULL, NULL, failure, &deck), ROTID_OK);
     rotid_suggest_options options = {.size = sizeof options, .replicates = 200, .threads = 1};
     assert_status(rotid_suggest(deck, &options, NULL, failure, &suggestion), ROTID_OK);
@@ -754,23 +741,4 @@ static void a_parameter_that_nothing_feels_ends_no_suggestion(void **state)
     rotid_deck_free(deck);
 }
 
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-    const struct CMUnitTest tests[] = {
-        TEST(an_interval_of_e_alone_has_a_closed_form),
-        TEST(intervals_and_limits_are_those_of_the_test_that_is_made),
-        TEST(the_value_of_places_is_that_of_their_projected_columns),
-        TEST(no_choice_of_three_places_is_much_better),
-        TEST(effective_independence_keeps_the_determinant),
-        TEST(a_lead_that_is_promised_is_found),
-        TEST(a_chance_allows_for_a_truth_that_is_no_rival),
-        TEST(states_that_share_out_the_modes_say_the_same),
-        TEST(the_deck_of_a_test_is_the_deck_and_a_state),
-        TEST(the_deck_of_a_test_like_a_state_has_its_cards),
-        TEST(what_is_proposed_reads_as_it_is_meant),
-        TEST(modes_that_are_held_out_stay_with_their_state),
-        TEST(a_parameter_that_nothing_feels_ends_no_suggestion),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -43,9 +43,8 @@ static void assert_public_names(const char *names, const char *library)
         fail_msg("%s lacks%s", library, missing);
 }
 
-static void the_shared_library_shows_what_the_header_declares(void **state)
+POOL_TEST(the_shared_library_shows_what_the_header_declares)
 {
-    (void)state;
     assert_public_names(shell(&test_pool, "nm -D --defined-only " SHARED " | awk '{ print $3 }'"), "librotid.so");
     assert_string_equal(shell(&test_pool, "objdump -p " SHARED " | awk '$1 == \"SONAME\" { print $2 }'"),
                         pool_format(&test_pool, "librotid.so.%d\n", ROTID_VERSION_MAJOR));
@@ -62,18 +61,16 @@ static void the_shared_library_shows_what_the_header_declares(void **state)
     }
 }
 
-static void the_static_library_shows_what_the_header_declares(void **state)
+POOL_TEST(the_static_library_shows_what_the_header_declares)
 {
-    (void)state;
     assert_public_names(
         shell(&test_pool, "nm -g --defined-only " STATIC " | awk 'NF == 3 && $3 !~ /^rotid_private_/ { print $3 }'"),
         "librotid.a");
 }
 
 /* No public routine reaches the rooms of the program, and no host links what they call. */
-static void the_library_holds_nothing_of_the_program(void **state)
+POOL_TEST(the_library_holds_nothing_of_the_program)
 {
-    (void)state;
     const char *held = shell(&test_pool, "nm " STATIC " | sed -n 's/.* \\(rotid_private_\\)*//p' | sort -u"), *line;
     const char *of_program =
         shell(&test_pool, "cd " ROTID_BUILD "/src && nm -g --defined-only signal/*.o ema/*.o import/*.o report/*.o "
@@ -119,9 +116,8 @@ static const char *find_call(const char *calls, const char *const *names)
     return NULL;
 }
 
-static void the_library_does_not_print_or_exit(void **state)
+POOL_TEST(the_library_does_not_print_or_exit)
 {
-    (void)state;
     static const char *const never[] = {"printf",
                                         "vprintf",
                                         "puts",
@@ -182,9 +178,8 @@ static void the_library_does_not_print_or_exit(void **state)
 }
 
 /* What is printed passes one filter: no other file can reach the two streams. */
-static void one_file_knows_the_terminal(void **state)
+POOL_TEST(one_file_knows_the_terminal)
 {
-    (void)state;
     assert_string_equal(shell(&test_pool,
                               "cd " ROTID_BUILD "/src && find . -name '*.o' ! -path './mpi/*' | xargs nm -A -u | "
                               "awk '$NF ~ /^(__)?(stdout|stderr|v?printf(_chk)?|puts|putchar|perror|psignal|v?warnx?|v?errx?|"
@@ -193,25 +188,11 @@ static void one_file_knows_the_terminal(void **state)
 }
 
 /* Static variables that can be written to would be shared by all calls. */
-static void the_library_keeps_no_state(void **state)
+POOL_TEST(the_library_keeps_no_state)
 {
-    (void)state;
     if (is_counted() || strstr(ROTID_FLAGS, "-fsanitize")) /* these keep some of their own */
         return;
     assert_string_equal(shell(&test_pool, "nm -f sysv " STATIC " | awk -F '|' "
                                           "'$3 ~ /C/ || ($7 ~ /^\\.t?(data|bss)/ && $7 !~ /^\\.data\\.rel\\.ro/) { print $1 }'"),
                         "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_shared_library_shows_what_the_header_declares, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_static_library_shows_what_the_header_declares, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_library_holds_nothing_of_the_program, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_library_does_not_print_or_exit, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(one_file_knows_the_terminal, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_library_keeps_no_state, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,9 +89,8 @@ static double worst_error(const struct setup *t, const struct rotor *rotor, int 
     return worst;
 }
 
-static void the_sum_is_the_exact_receptance_and_the_residual_makes_it_so(void **state)
+POOL_TEST(the_sum_is_the_exact_receptance_and_the_residual_makes_it_so)
 {
-    (void)state;
     static struct setup t;
     static const double hz[] = {3, 40, 150, 400, 620, 900, 1200, 1600, 1990};
     const struct rotor *rotor = stepped_rotor(160);
@@ -102,9 +101,8 @@ static void the_sum_is_the_exact_receptance_and_the_residual_makes_it_so(void **
 }
 
 /* What is left out enters with the square of (f/f_next)^2: from twice to four times the highest line it drops by 2^4 and more. */
-static void more_modes_help_as_the_formula_says(void **state)
+POOL_TEST(more_modes_help_as_the_formula_says)
 {
-    (void)state;
     static struct setup all, t;
     static const double hz[] = {1980}, factor[] = {2, 4, 8};
     const struct rotor *rotor = stepped_rotor(40);
@@ -128,9 +126,8 @@ static void more_modes_help_as_the_formula_says(void **state)
     assert_true(error[1] < error[0] / 10 && error[2] < error[1] / 10 && error[1] < 2e-3);
 }
 
-static void functions_are_reciprocal_and_take_energy_in(void **state)
+POOL_TEST(functions_are_reciprocal_and_take_energy_in)
 {
-    (void)state;
     static struct setup t;
     enum { LINES = 400 };
     double hz[LINES];
@@ -154,9 +151,8 @@ static void functions_are_reciprocal_and_take_energy_in(void **state)
     }
 }
 
-static void far_below_the_first_mode_the_free_rotor_is_a_rigid_body(void **state)
+POOL_TEST(far_below_the_first_mode_the_free_rotor_is_a_rigid_body)
 {
-    (void)state;
     static struct setup t;
     open_setup(&t, stepped_rotor(20), 8000, 0.01);
     double hz = 0.3;
@@ -171,9 +167,8 @@ static void far_below_the_first_mode_the_free_rotor_is_a_rigid_body(void **state
 }
 
 /* With s = decay + i omega the exponential window adds decay/w to the ratio of every mode: |H| at the resonance falls by that. */
-static void an_exponential_window_adds_its_decay_to_the_damping(void **state)
+POOL_TEST(an_exponential_window_adds_its_decay_to_the_damping)
 {
-    (void)state;
     static struct setup t;
     open_setup(&t, stepped_rotor(20), 8000, 0.002);
     double w = sqrt(t.s.lambda[2]), hz = w / TWO_PI, decay = 0.002 * w;
@@ -219,9 +214,8 @@ static double half_power(const struct setup *t, int pair, int r)
     return (high - low) / 2 / resonance;
 }
 
-static void half_power_bandwidths_are_the_damping_of_table_4(void **state)
+POOL_TEST(half_power_bandwidths_are_the_damping_of_table_4)
 {
-    (void)state;
     static const double table4[PAPER_MODES] = {6.008e-3, 9.205e-3, 1.592e-2, 1.045e-2, 1.935e-2, 1.893e-2};
     static struct setup t;
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 0);
@@ -243,9 +237,8 @@ static void half_power_bandwidths_are_the_damping_of_table_4(void **state)
 
 /* ------------------------------------------------------------------------------------------------ FRAC */
 
-static void frac_is_one_for_the_same_and_blind_to_scale(void **state)
+POOL_TEST(frac_is_one_for_the_same_and_blind_to_scale)
 {
-    (void)state;
     enum { LINES = 50 };
     double complex a[LINES], b[LINES];
     for (int l = 0; l < LINES; l++)
@@ -276,30 +269,12 @@ static void frac_is_one_for_the_same_and_blind_to_scale(void **state)
     assert_true(isnan(frf_sums_frac(&empty)) && isnan(frf_sums_scale(&empty)) && isnan(frf_sums_level(&empty)));
 }
 
-static void too_many_modes_are_refused(void **state)
+POOL_TEST(too_many_modes_are_refused)
 {
-    (void)state;
     static struct setup t;
     int failed, dof[1];
     struct synthesis_pair pair = {0};
     assert_status(model_open(&test_pool, NULL, stepped_rotor(200), 0, NULL, 1, &t.client, &failed), ROTID_OK);
     dof[0] = t.client.master[0];
     assert_status(synthesis_open(&test_pool, &t.client.equations, NULL, 1e8, 0, 1, dof, 1, &pair, &t.s), ROTID_ERROR_ARGUMENT);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(the_sum_is_the_exact_receptance_and_the_residual_makes_it_so),
-        TEST(more_modes_help_as_the_formula_says),
-        TEST(functions_are_reciprocal_and_take_energy_in),
-        TEST(far_below_the_first_mode_the_free_rotor_is_a_rigid_body),
-        TEST(an_exponential_window_adds_its_decay_to_the_damping),
-        TEST(half_power_bandwidths_are_the_damping_of_table_4),
-        TEST(frac_is_one_for_the_same_and_blind_to_scale),
-        TEST(too_many_modes_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,9 +61,8 @@ static double cell(int mode, int column)
     return value;
 }
 
-static void identify_shows_measured_predicted_error_and_the_papers_own(void **state)
+UNIT_TEST(identify_shows_measured_predicted_error_and_the_papers_own)
 {
-    (void)state;
     static const double paper_hz[] = {418.86, 796.78, 1188.6, 1781.8, 2335.5, 2889.1},
                         paper[] = {-3.83, 8.38, 2.52, -1.12, -3.72, -1.00};
     assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
@@ -82,9 +81,8 @@ static void identify_shows_measured_predicted_error_and_the_papers_own(void **st
     assert_null(strstr(text, "NLopt"));
 }
 
-static void held_out_modes_and_widened_intervals_are_said(void **state)
+UNIT_TEST(held_out_modes_and_widened_intervals_are_said)
 {
-    (void)state;
     assert_int_equal(run("identify " INPUT "brake_reuss_beam.inp --no-baseline"), 0);
     assert_non_null(strstr(line_with("1526.76"), "held out"));
     (void)line_with("rms error of the fitted modes 12.45 %, of the modes held out 14.27 %");
@@ -94,9 +92,8 @@ static void held_out_modes_and_widened_intervals_are_said(void **state)
     (void)line_with("chi2 4795 with 406 degrees of freedom");
 }
 
-static void what_is_not_determined_or_at_a_bound_is_said(void **state)
+UNIT_TEST(what_is_not_determined_or_at_a_bound_is_said)
 {
-    (void)state;
     char deck[] = "/tmp/rotid_tables_XXXXXX", arguments[128];
     FILE *file = fdopen(mkstemp(deck), "w");
     assert_non_null(file);
@@ -115,9 +112,8 @@ static void what_is_not_determined_or_at_a_bound_is_said(void **state)
     (void)remove(deck);
 }
 
-static void modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error(void **state)
+UNIT_TEST(modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error)
 {
-    (void)state;
     assert_int_equal(run("modes " INPUT "solid_steel.inp"), 0);
     for (int k = 1; k <= 6; k++) {
         assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 6e-4);
@@ -130,9 +126,8 @@ static void modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error(v
     (void)line_with("  2.03000 ");
 }
 
-static void sensitivity_shows_table_1_beside_the_paper(void **state)
+UNIT_TEST(sensitivity_shows_table_1_beside_the_paper)
 {
-    (void)state;
     assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp --at core.E=8e10,core.G=3e10,core.nu=0.3333333333 --points 3"), 0);
     assert_non_null(strstr(line_with("373.1534"), "0.6690")); /* the paper's first entry beside ours */
     (void)line_with("core.nu at 0.333333");
@@ -151,9 +146,8 @@ static void sensitivity_shows_table_1_beside_the_paper(void **state)
     assert_int_equal(run("sensitivity " INPUT "solid_steel.inp --at core.G --points 1"), 0);
 }
 
-static void check_shows_mass_mesh_and_groups(void **state)
+UNIT_TEST(check_shows_mass_mesh_and_groups)
 {
-    (void)state;
     assert_int_equal(run("check " INPUT "paper_rotor.inp"), 0);
     assert_non_null(strstr(line_with("mass  "), "998.2755 kg"));
     assert_non_null(strstr(line_with("centre of mass"), "1.059125 m"));
@@ -197,9 +191,8 @@ static double free_shape(int n, double z)
     return cosh(b * z) + cos(b * z) - s * (sinh(b * z) + sin(b * z));
 }
 
-static void what_is_no_number_is_a_dash(void **state)
+UNIT_TEST(what_is_no_number_is_a_dash)
 {
-    (void)state;
     enum { MANY = 1020 }; /* more masters than a condensation is made for: no NCO */
     static char deck[1 << 17];
     char first[512];
@@ -237,9 +230,8 @@ static void what_is_no_number_is_a_dash(void **state)
 }
 
 /* Whatever the number, a column is as wide as its widest cell, and a huge one gets a power of ten. */
-static void columns_are_as_wide_as_their_cells(void **state)
+UNIT_TEST(columns_are_as_wide_as_their_cells)
 {
-    (void)state;
     static const double values[] = {NAN, INFINITY, -INFINITY, 0, 1, -1, 1e20, -1e20, 1e300, -1e300, 1e-300, 1234.567, -0.001};
     char *made = NULL;
     size_t length, width = 0;
@@ -266,17 +258,4 @@ static void columns_are_as_wide_as_their_cells(void **state)
     free(made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(identify_shows_measured_predicted_error_and_the_papers_own),
-        cmocka_unit_test(held_out_modes_and_widened_intervals_are_said),
-        cmocka_unit_test(what_is_not_determined_or_at_a_bound_is_said),
-        cmocka_unit_test(modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error),
-        cmocka_unit_test(sensitivity_shows_table_1_beside_the_paper),
-        cmocka_unit_test(what_is_no_number_is_a_dash),
-        cmocka_unit_test(columns_are_as_wide_as_their_cells),
-        cmocka_unit_test(check_shows_mass_mesh_and_groups),
-    };
-    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
-}
+TEST_GROUP(open_test_pool, close_test_pool);

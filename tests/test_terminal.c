@@ -131,9 +131,8 @@ static void assert_text_file(const char *name, int latin)
 
 /* ---- decks */
 
-static void decks_and_their_names(void **state)
+FIXTURE_TEST(decks_and_their_names, setup, teardown)
 {
-    (void)state;
     static const char *const commands[] = {"check", "modes", "sensitivity", "identify", "diagnose", "frf"};
     char *deck = HOSTILE ".inp";
     write_file(deck, DECK);
@@ -154,9 +153,8 @@ static void decks_and_their_names(void **state)
 }
 
 /* What says one thing to a reader and another one to the program is refused where it stands, in comments too. */
-static void decks_with_control_characters(void **state)
+FIXTURE_TEST(decks_with_control_characters, setup, teardown)
 {
-    (void)state;
     static const struct {
         const char *text, *says;
     } table[] = {{"\x1b[2J", "byte 0x1b is not text"},
@@ -182,9 +180,8 @@ static void decks_with_control_characters(void **state)
 }
 
 /* A heading in Latin-1 is cleaned in a deck that is written; a name in it, which may be that of a file, stays. */
-static void extended_decks(void **state)
+FIXTURE_TEST(extended_decks, setup, teardown)
 {
-    (void)state;
     static char text[1 << 16];
     write_file("a.inp",
                "*HEADING\nL\xe4nge \x96 \xff " LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
@@ -199,11 +196,10 @@ static void extended_decks(void **state)
 }
 
 /* A deck from standard input, and one that is made of it: files are relative to where the program runs. */
-static void a_deck_may_come_from_standard_input(void **state)
+FIXTURE_TEST(a_deck_may_come_from_standard_input, setup, teardown)
 {
     static char text[1 << 16];
     const char *output;
-    (void)state;
     write_file("modes.csv", "mode,frequency [Hz]\n1,430\n2,1150\n3,2150\n4,3380\n");
     write_file("a.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
                         "1, 0.1, 0, 20\n** of today\n*MODES, FILE=modes.csv\n*NOISE, FREQUENCY=0.002\n"
@@ -229,9 +225,8 @@ static const char *replaced(const char *text, const char *old, const char *new)
     return pool_format(&test_pool, "%s%s", all, text);
 }
 
-static void universal_files(void **state)
+FIXTURE_TEST(universal_files, setup, teardown)
 {
-    (void)state;
     static char text[1 << 20];
     char *file = HOSTILE ".uff";
     write_file("a.inp", DECK);
@@ -282,9 +277,8 @@ static void poison(cJSON *json)
     }
 }
 
-static void results_of_commands(void **state)
+FIXTURE_TEST(results_of_commands, setup, teardown)
 {
-    (void)state;
     static const char *const commands[] = {"check", "modes", "identify", "diagnose", "frf"};
     int pages = 0;
     write_file("a.inp", DECK);
@@ -309,9 +303,8 @@ static void results_of_commands(void **state)
     assert_true(pages >= 2); /* of others the words of other keys are refused */
 }
 
-static void results_of_studies(void **state)
+FIXTURE_TEST(results_of_studies, setup, teardown)
 {
-    (void)state;
     static char text[1 << 20];
     char study[DIGEST_LETTERS + 1], *deck = HOSTILE ".inp", *results = HOSTILE ".jsonl";
     struct study_header header;
@@ -345,9 +338,8 @@ static void results_of_studies(void **state)
 
 /* ---- arguments */
 
-static void arguments(void **state)
+FIXTURE_TEST(arguments, setup, teardown)
 {
-    (void)state;
     static const char *const options[] = {"--set",     "--at",        "--step",    "--points", "--threads",   "--seed",
                                           "--format",  "--band",      "--method",  "--pick",   "--reference", "--shard",
                                           "--timeout", "--json",      "--output",  "--range",  "--order",     "--exponential",
@@ -383,9 +375,8 @@ static const char *cell_of(int width, const char *text)
     return kept;
 }
 
-static void names_along_the_axis_keep_their_columns(void **state)
+FIXTURE_TEST(names_along_the_axis_keep_their_columns, setup, teardown)
 {
-    (void)state;
     char *text = NULL;
     size_t length;
     FILE *stream = open_memstream(&text, &length);
@@ -403,9 +394,8 @@ static void names_along_the_axis_keep_their_columns(void **state)
 }
 
 /* One column for one character or one byte that is none, so that rows stay in line. */
-static void cells_keep_their_width(void **state)
+FIXTURE_TEST(cells_keep_their_width, setup, teardown)
 {
-    (void)state;
     assert_string_equal(cell_of(5, "abc"), "abc  |");
     assert_string_equal(cell_of(5, LETTERS), LETTERS "  |");
     assert_string_equal(cell_of(5, "a\x1b\xc2\x9b"
@@ -418,9 +408,8 @@ static void cells_keep_their_width(void **state)
                                             "b|");
 }
 
-static void every_character(void **state)
+FIXTURE_TEST(every_character, setup, teardown)
 {
-    (void)state;
     for (unsigned u = 1; u < 0x3000; u++) {
         char text[4] = {0};
         unsigned code;
@@ -437,22 +426,4 @@ static void every_character(void **state)
         assert_int_equal(code, u);
         assert_int_equal(text_visible(text), is_control ? 0 : strlen(text));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(decks_and_their_names, setup, teardown),
-        cmocka_unit_test_setup_teardown(decks_with_control_characters, setup, teardown),
-        cmocka_unit_test_setup_teardown(extended_decks, setup, teardown),
-        cmocka_unit_test_setup_teardown(a_deck_may_come_from_standard_input, setup, teardown),
-        cmocka_unit_test_setup_teardown(universal_files, setup, teardown),
-        cmocka_unit_test_setup_teardown(results_of_commands, setup, teardown),
-        cmocka_unit_test_setup_teardown(results_of_studies, setup, teardown),
-        cmocka_unit_test_setup_teardown(arguments, setup, teardown),
-        cmocka_unit_test_setup_teardown(names_along_the_axis_keep_their_columns, setup, teardown),
-        cmocka_unit_test_setup_teardown(cells_keep_their_width, setup, teardown),
-        cmocka_unit_test_setup_teardown(every_character, setup, teardown),
-    };
-    return cmocka_run_group_tests_name("terminal", tests, NULL, NULL);
 }

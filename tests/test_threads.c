@@ -8,6 +8,7 @@
 
 #include "api_bench.h"
 #include "api_dump.h"
+#include "support.h"
 
 #define IDENTIFIERS 8 /* threads; the last two work on one deck */
 #define DECKS       (IDENTIFIERS - 1)
@@ -97,9 +98,8 @@ static void check(struct task *task, const struct expected *e)
     rotid_diagnosis_free(task->diagnosis);
 }
 
-static void eight_identifications_and_two_diagnoses_at_once(void **state)
+UNIT_TEST(eight_identifications_and_two_diagnoses_at_once)
 {
-    (void)state;
     pthread_t thread[IDENTIFIERS + DIAGNOSERS];
     struct task task[IDENTIFIERS + DIAGNOSERS] = {{.path = NULL}};
     struct expected expected[DECKS], diagnosed[DIAGNOSERS];
@@ -159,10 +159,4 @@ static int remove_directory(void **state)
     return rmdir(directory);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eight_identifications_and_two_diagnoses_at_once),
-    };
-    return cmocka_run_group_tests_name("threads", tests, open_directory, remove_directory);
-}
+TEST_GROUP(open_directory, remove_directory);

@@ -33,9 +33,8 @@ static void frequencies(const char *text, int type, int count, double *hz)
 }
 
 /* n elements of length l of a free bar: w^2 = 6 (c/j) (1 - cos b l)/(l^2 (2 + cos b l)), b = k pi/L */
-static void free_bar_has_the_frequencies_of_its_elements(void **state)
+POOL_TEST(free_bar_has_the_frequencies_of_its_elements)
 {
-    (void)state;
     const double modulus[2] = {8e10, 2.1e11};
     for (int type = ROTID_TORSION; type <= ROTID_AXIAL; type++) {
         double hz[6];
@@ -84,9 +83,8 @@ static void exact_frequencies(const struct stepped *s, int count, double *hz)
 }
 
 /* Elements of l = 2 mm raise a frequency by at most (b l)^2/24 of it, and less where disk and spring hold the energy. */
-static void stepped_bar_with_disk_and_spring_is_exact(void **state)
+POOL_TEST(stepped_bar_with_disk_and_spring_is_exact)
 {
-    (void)state;
     const double outer[2] = {0.06, 0.09}, inner[2] = {0.01, 0.01};
     static const char text[] = STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n0.4, 0.06, 0.01, 200\n0.5, 0.09, 0.01, 250\n"
                                      "*DISK, NAME=d\n0.9, 12, 0.1, 0.35\n*SPRING\n0, 1e7, 0, 4e5, 3e8\n";
@@ -110,9 +108,8 @@ static void stepped_bar_with_disk_and_spring_is_exact(void **state)
 }
 
 /* cases/running/B13: chains of rigid inertias on springs, as bars that weigh nothing. */
-static void chains_of_inertias_have_the_printed_frequencies(void **state)
+POOL_TEST(chains_of_inertias_have_the_printed_frequencies)
 {
-    (void)state;
     static const struct {
         int count;
         double inertia[5], stiffness[4], hz[4];
@@ -133,9 +130,8 @@ static void chains_of_inertias_have_the_printed_frequencies(void **state)
 }
 
 /* Saint-Venant's constants of rectangles, J = k a b^3: Timoshenko and Goodier, article 109 */
-static void rectangles_have_the_printed_torsion_constants(void **state)
+POOL_TEST(rectangles_have_the_printed_torsion_constants)
 {
-    (void)state;
     const double ratio[3] = {1, 2, 10}, printed[3] = {0.1406, 0.229, 0.312};
     for (int i = 0; i < 3; i++) {
         struct section section, turned;
@@ -177,9 +173,8 @@ static void assemble(struct discrete *d, const double *x, rotid_matrix *k, rotid
 
 /* Nothing resists a rigid motion; its inertia is that of the parts: axially the mass of the beam, in torsion the polar inertia.
  */
-static void rigid_motion_has_the_inertia_of_the_parts(void **state)
+POOL_TEST(rigid_motion_has_the_inertia_of_the_parts)
 {
-    (void)state;
     const struct rotor *rotor = workshop();
     for (int as = AS_TORSION; as <= AS_AXIAL; as++) {
         struct discrete d;
@@ -216,9 +211,8 @@ static void rigid_motion_has_the_inertia_of_the_parts(void **state)
 }
 
 /* In an even twist, rods at the radius of gyration of the section that they press together gain what its fibres lose. */
-static void tension_of_rods_and_pressure_of_the_core_balance(void **state)
+POOL_TEST(tension_of_rods_and_pressure_of_the_core_balance)
 {
-    (void)state;
     const double gyration = sqrt((0.2 * 0.2 + 0.1 * 0.1) / 8), tension = 5e6; /* sqrt(J/S) of the tube */
     double energy[3];
     for (int i = 0; i < 3; i++) {
@@ -261,9 +255,8 @@ static double entry(const rotid_matrix *a, int i, int j, double *work)
     return matrix_product(a, work, work + a->n, image);
 }
 
-static void derivatives_are_those_of_differences(void **state)
+POOL_TEST(derivatives_are_those_of_differences)
 {
-    (void)state;
     struct rotor *rotor = workshop();
     for (int type = 0; type < 2; type++) {
         struct parameter parameter[PARAMETERS];
@@ -343,9 +336,8 @@ static rotid_identification *identified(const char *text)
     return found;
 }
 
-static void torsion_alone_gives_g_and_axial_motion_e(void **state)
+POOL_TEST(torsion_alone_gives_g_and_axial_motion_e)
 {
-    (void)state;
     for (int type = ROTID_TORSION; type <= ROTID_AXIAL; type++) {
         int seen = type == ROTID_TORSION;
         rotid_identification *found = identified(pool_format(&test_pool, HUNG "%s", measured(type, 2)));
@@ -358,9 +350,8 @@ static void torsion_alone_gives_g_and_axial_motion_e(void **state)
 }
 
 /* Bending hardly sees G of a slender bar: with torsion as a second state its interval shrinks, and a third state is predicted. */
-static void bending_and_torsion_are_fitted_together(void **state)
+POOL_TEST(bending_and_torsion_are_fitted_together)
 {
-    (void)state;
     const char *bending = measured(ROTID_BENDING, 3), *torsion = measured(ROTID_TORSION, 2), *axial = measured(ROTID_AXIAL, 2);
     rotid_identification *alone = identified(pool_format(&test_pool, HUNG "%s", bending)),
                          *both = identified(pool_format(&test_pool,
@@ -382,9 +373,8 @@ static void bending_and_torsion_are_fitted_together(void **state)
 }
 
 /* Shapes are rotations at the sensors: cos(k pi z/L); they pair modes whose numbers are wrong. */
-static void shapes_of_torsion_pair_its_modes(void **state)
+POOL_TEST(shapes_of_torsion_pair_its_modes)
 {
-    (void)state;
     double hz[2];
     const double z[4] = {0, 0.3, 0.55, 1};
     frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 100\n", ROTID_TORSION, 2, hz);
@@ -398,9 +388,8 @@ static void shapes_of_torsion_pair_its_modes(void **state)
     rotid_identification_free(found);
 }
 
-static void what_is_of_bending_alone_is_refused(void **state)
+POOL_TEST(what_is_of_bending_alone_is_refused)
 {
-    (void)state;
     struct reading r;
     rotid_diagnosis *diagnosis;
     rotid_suggestion *suggestion;
@@ -420,9 +409,8 @@ static void what_is_of_bending_alone_is_refused(void **state)
     pool_close(&r.pool);
 }
 
-static void what_a_type_does_not_see_is_said(void **state)
+POOL_TEST(what_a_type_does_not_see_is_said)
 {
-    (void)state;
     struct message_list messages;
     struct job job;
     read_job(pool_format(&test_pool, HUNG "*DISK\n0.3, 5\n*FIT, MODEL=SOLID\n%s", measured(ROTID_TORSION, 2)), &messages, &job);
@@ -432,9 +420,8 @@ static void what_a_type_does_not_see_is_said(void **state)
 }
 
 /* The one writer of decks gives the type back. */
-static void type_is_written_and_read_back(void **state)
+POOL_TEST(type_is_written_and_read_back)
 {
-    (void)state;
     struct states given = read_states(pool_format(&test_pool, HUNG "%s", measured(ROTID_TORSION, 2))), again;
     struct message_list notes;
     const struct deck_write_options options = {0, NULL, NULL};
@@ -448,24 +435,4 @@ static void type_is_written_and_read_back(void **state)
     assert_true(deck_compare(&test_pool, &given.state->job, &other.state->job, &(const char *){NULL}) & DECK_OTHER_DATA);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(free_bar_has_the_frequencies_of_its_elements),
-        TEST(stepped_bar_with_disk_and_spring_is_exact),
-        TEST(chains_of_inertias_have_the_printed_frequencies),
-        TEST(rectangles_have_the_printed_torsion_constants),
-        TEST(rigid_motion_has_the_inertia_of_the_parts),
-        TEST(tension_of_rods_and_pressure_of_the_core_balance),
-        TEST(derivatives_are_those_of_differences),
-        TEST(torsion_alone_gives_g_and_axial_motion_e),
-        TEST(bending_and_torsion_are_fitted_together),
-        TEST(shapes_of_torsion_pair_its_modes),
-        TEST(what_is_of_bending_alone_is_refused),
-        TEST(what_a_type_does_not_see_is_said),
-        TEST(type_is_written_and_read_back),
-    };
-    return cmocka_run_group_tests_name("torsion", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

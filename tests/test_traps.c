@@ -310,9 +310,8 @@ static int run(int i, double scale)
     return status;
 }
 
-static void no_routine_kills_a_host_with_traps(void **state)
+UNIT_TEST(no_routine_kills_a_host_with_traps)
 {
-    (void)state;
     static const double scale[] = {1, 1e300, 1e-300};
     int status = run(-1, 1);
     if (!WIFSIGNALED(status) || WTERMSIG(status) != SIGFPE)
@@ -329,9 +328,8 @@ static void no_routine_kills_a_host_with_traps(void **state)
         }
 }
 
-static void every_routine_is_called(void **state)
+POOL_TEST(every_routine_is_called)
 {
-    (void)state;
     struct header header;
     const char *called = " ";
     for (int i = 0; i < CALLS; i++)
@@ -340,13 +338,4 @@ static void every_routine_is_called(void **state)
     for (int i = 0; i < header.nfunction; i++)
         if (!strstr(called, pool_format(&test_pool, " %s ", header.function[i].name)))
             fail_msg("%s is not called here", header.function[i].name);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_routine_kills_a_host_with_traps),
-        cmocka_unit_test_setup_teardown(every_routine_is_called, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("traps", tests, NULL, NULL);
 }

@@ -154,9 +154,8 @@ static void run_tutorial(void)
     (void)shell(&test_pool, "rm -r '%s'", folder);
 }
 
-static void what_is_printed_stands_there(void **state)
+POOL_TEST(what_is_printed_stands_there)
 {
-    (void)state;
     read_tutorial(shell_file(&test_pool, TUTORIAL));
     run_tutorial();
     int compared = 0;
@@ -188,9 +187,8 @@ static void what_is_printed_stands_there(void **state)
     assert_true(numbers >= 8);
 }
 
-static void lines_are_compared_as_they_should_be(void **state)
+POOL_TEST(lines_are_compared_as_they_should_be)
 {
-    (void)state;
     assert_true(same_line("core.E  1.20001e+11 Pa\n", "core.E 1.20002e+11  Pa"));
     assert_false(same_line("core.E  1.20001e+11 Pa\n", "core.E 1.20003e+11  Pa"));
     assert_false(same_line("core.E  1.2 Pa\n", "core.G 1.2 Pa"));
@@ -214,9 +212,8 @@ static const char *commands_of(const char *text, const char **output)
     return commands;
 }
 
-static void what_the_readme_prints_is_printed(void **state)
+POOL_TEST(what_the_readme_prints_is_printed)
 {
-    (void)state;
     static const char *const begins[] = {"```\nbuild/rotid identify input/paper_rotor.inp\n",
                                          "```\nbuild/rotid identify input/strip_states.inp\n", "```\nmake build/hammer\n"};
     const char *readme = shell_file(&test_pool, ROTID_SOURCE_DIR "/README.md"),
@@ -246,25 +243,12 @@ static void what_the_readme_prints_is_printed(void **state)
 }
 
 /* Both ways into the project are two commands, each of one line. */
-static void no_third_step_is_asked_for(void **state)
+POOL_TEST(no_third_step_is_asked_for)
 {
-    (void)state;
     const char *readme = shell_file(&test_pool, ROTID_SOURCE_DIR "/README.md");
     assert_non_null(strstr(readme, "./tools/setup && make demo"));
     assert_non_null(strstr(readme, "./tools/setup && make test"));
     assert_non_null(strstr(readme, "docs/tutorial.md"));
     assert_non_null(strstr(readme, "docs/reference.md"));
     assert_non_null(strstr(shell_file(&test_pool, TUTORIAL), "./tools/setup && make"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(lines_are_compared_as_they_should_be),
-        TEST(what_is_printed_stands_there),
-        TEST(what_the_readme_prints_is_printed),
-        TEST(no_third_step_is_asked_for),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "support.h"
 #include "uff/uff.h"
 
 #ifndef ROTID_SOURCE_DIR
@@ -132,9 +133,8 @@ static void check_node(const struct uff_node *node, int id, double x, double y, 
 
 /* ------------------------------------------------------------------------------------------------ sound files */
 
-static void real_shape_and_nodes(void **state)
+UNIT_TEST(real_shape_and_nodes)
 {
-    (void)state;
     struct reading r;
     read_text(&r, NODE_SET "         7         0         0         8  1.00000E+00 -2.00000E+00  3.00000E+00\n"
                            "         2         0         0         8  0.00000E+00  2.50000E-01 -1.00000E-03\n" END SHAPE_SET
@@ -165,9 +165,8 @@ static void real_shape_and_nodes(void **state)
 }
 
 /* Every number of values per node, real and complex, in columns, and separated by blanks on one line. */
-static void values_per_node(void **state)
+UNIT_TEST(values_per_node)
 {
-    (void)state;
     for (int components = 1; components <= 6; ++components)
         for (int variant = 0; variant < 4; ++variant) {
             int is_complex = variant & 1, free_format = variant >> 1;
@@ -209,9 +208,8 @@ static void values_per_node(void **state)
         }
 }
 
-static void complex_eigenvalues(void **state)
+UNIT_TEST(complex_eigenvalues)
 {
-    (void)state;
     static const int analysis[] = {3, 7};
     for (int i = 0; i < 2; ++i) {
         char text[2048];
@@ -232,9 +230,8 @@ static void complex_eigenvalues(void **state)
     }
 }
 
-static void frequency_response(void **state)
+UNIT_TEST(frequency_response)
 {
-    (void)state;
     struct reading r;
     read_text(&r,
               SHAPE_SET "         1         5         1         8         5         1\n"
@@ -248,9 +245,8 @@ static void frequency_response(void **state)
 }
 
 /* Lines of 80 columns that end as on Windows; a double precision exponent; no line end at the end of the file. */
-static void windows_and_trailing_blanks(void **state)
+UNIT_TEST(windows_and_trailing_blanks)
 {
-    (void)state;
     struct reading r;
     read_text(&r, "    -1                                                                          \r\n"
                   "  2411                                                                          \r\n"
@@ -276,9 +272,8 @@ static void windows_and_trailing_blanks(void **state)
     pool_close(&r.pool);
 }
 
-static void touching_fields(void **state)
+UNIT_TEST(touching_fields)
 {
-    (void)state;
     struct reading r;
     read_text(&r, NODE_SET "1000000001         0         0         8 -1.00000E+00-2.000000E-03  3.00000E+00\n"
                            "1000000002000000000300000000040000000005-1.000000E+00-2.000000E-03-3.000000E+00\n"
@@ -302,9 +297,8 @@ static void touching_fields(void **state)
     pool_close(&r.pool);
 }
 
-static void free_format(void **state)
+UNIT_TEST(free_format)
 {
-    (void)state;
     struct reading r;
     read_text(&r, "-1\n15\n1 0 0 8 1.0 -2.0 3\n\t2\t0\t0\t8\t-1 -1 -1\n -1\n"
                   "-1\n2411\n3 0 0 8\n1.5 2.5 3.5\n  -1\n"
@@ -320,9 +314,8 @@ static void free_format(void **state)
 }
 
 /* -1 where a text, a node or a value is due does not end the set. */
-static void minus_one_as_data(void **state)
+UNIT_TEST(minus_one_as_data)
 {
-    (void)state;
     struct reading r;
     read_text(&r, NODE_SET "    -1         0         0         8 -1.00000E+00 -1.00000E+00 -1.00000E+00\n"
                            "-1 -1 -1 -1 -1 -1 -2\n" END);
@@ -345,9 +338,8 @@ static void minus_one_as_data(void **state)
     pool_close(&r.pool);
 }
 
-static void records_7_and_8_spill(void **state)
+UNIT_TEST(records_7_and_8_spill)
 {
-    (void)state;
     struct reading r;
     read_text(&r, SHAPE_SET KIND_NORMAL_1 "        10        12         1         5         0         0         0         0\n"
                                           "         0         0         0         0\n"
@@ -372,9 +364,8 @@ static void records_7_and_8_spill(void **state)
 
 /* ------------------------------------------------------------------------------------------------ sets that are skipped */
 
-static void skipped_sets(void **state)
+UNIT_TEST(skipped_sets)
 {
-    (void)state;
     char text[8192], wide[5001];
     memset(wide, 'x', sizeof wide - 1);
     wide[sizeof wide - 1] = '\0';
@@ -401,9 +392,8 @@ static void skipped_sets(void **state)
     pool_close(&r.pool);
 }
 
-static void many_types_of_sets(void **state)
+UNIT_TEST(many_types_of_sets)
 {
-    (void)state;
     char text[8192];
     int n = 0;
     for (int i = 0; i < 100; ++i)
@@ -428,9 +418,8 @@ static size_t binary_set(char *bytes, size_t room, const char *header, const cha
            (size_t)snprintf(bytes + n, room - n, "%s    -1\n" SHAPE_SET KIND_NORMAL_1 MODE_4 RECORD_8 "1\n1\n" END, before_end);
 }
 
-static void binary_sets(void **state)
+UNIT_TEST(binary_sets)
 {
-    (void)state;
     static const char *const good[] = {"    58b     1     2          11          32     0     0           0           0",
                                        "    58B     1     2          11          32", "58b 1 2 11 32 0 0 0 0"};
     static const char *const before_end[] = {"", "\n", "\r\n", "\r\n\r\n"};
@@ -465,9 +454,8 @@ static void binary_sets(void **state)
 
 /* ------------------------------------------------------------------------------------------------ malformed files */
 
-static void no_universal_file(void **state)
+UNIT_TEST(no_universal_file)
 {
-    (void)state;
     check_refused("", 0, "no universal file: expected a line '    -1'");
     check_refused("\n\r\n  \n", 3, "no universal file");
     check_refused("[case]\n    -1\n", 1, "no universal file");
@@ -494,9 +482,8 @@ static void no_universal_file(void **state)
     pool_close(&r.pool);
 }
 
-static void between_sets(void **state)
+UNIT_TEST(between_sets)
 {
-    (void)state;
     check_refused("    -1\n", 1, "expected the number of a set");
     check_refused("    -1\n    -1\n", 2, "expected the number of a set");
     check_refused("    -1\nfifteen\n", 2, "found 'fifteen'");
@@ -505,9 +492,8 @@ static void between_sets(void **state)
     check_refused("    -1\n    15\n    -1\nrubbish\x01\n", 4, "expected a line '    -1' that opens a set, found 'rubbish?'");
 }
 
-static void cut_off(void **state)
+UNIT_TEST(cut_off)
 {
-    (void)state;
     check_refused("    -1\n   151\nmodel\n", 3, "set 151: the file ends after this line; expected the '-1'");
     check_refused(NODE_SET, 2, "set 15: the file ends after this line; expected a node or '-1'");
     check_refused("    -1\n  2411\n1 0 0 8\n", 3, "set 2411: the file ends after this line; expected coordinates");
@@ -524,9 +510,8 @@ static void cut_off(void **state)
     check_refused(SHAPE_SET KIND_NORMAL_3 MODE_4 RECORD_8 "1\n" END, 12, "expected 3 reals, found 1 field");
 }
 
-static void wrong_numbers(void **state)
+UNIT_TEST(wrong_numbers)
 {
-    (void)state;
     static const struct {
         const char *line, *part;
     } node[] = {
@@ -568,9 +553,8 @@ static void wrong_numbers(void **state)
     }
 }
 
-static void wrong_records(void **state)
+UNIT_TEST(wrong_records)
 {
-    (void)state;
     check_refused(SHAPE_SET "1 2 2 8 3 3\n", 8, "data type 3; expected 2 (real) or 5 (complex)");
     check_refused(SHAPE_SET "1 2 2 8 2 0\n", 8, "0 values per node; expected 1 to 6");
     check_refused(SHAPE_SET "1 2 2 8 2 7\n", 8, "7 values per node; expected 1 to 6");
@@ -593,9 +577,8 @@ static void wrong_records(void **state)
                   "a node number: expected 1 integer, found at least 2 fields");
 }
 
-static void repeated_nodes(void **state)
+UNIT_TEST(repeated_nodes)
 {
-    (void)state;
     check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 RECORD_8 "5\n1.0\n3\n1.0\n5\n2.0\n" END, 15,
                   "set 55: node 5 occurs twice in the set, first in line 11");
     check_refused(NODE_SET "4 0 0 8 1. 2. 3.\n7 0 0 8 1. 2. 3.\n4 0 0 8 1. 2. 3.\n" END, 5,
@@ -613,9 +596,8 @@ static void repeated_nodes(void **state)
     pool_close(&r.pool);
 }
 
-static void other_coordinate_system(void **state)
+UNIT_TEST(other_coordinate_system)
 {
-    (void)state;
     struct reading r;
     read_text(&r, NODE_SET "4 0 0 8 1. 2. 3.\n5 2 0 8 1. 2. 3.\n6 2 0 8 1. 2. 3.\n" END);
     check_ok(&r);
@@ -624,9 +606,8 @@ static void other_coordinate_system(void **state)
     pool_close(&r.pool);
 }
 
-static void overlong_lines(void **state)
+UNIT_TEST(overlong_lines)
 {
-    (void)state;
     char text[8192], wide[4098];
     memset(wide, ' ', sizeof wide);
     wide[0] = 'x';
@@ -655,9 +636,8 @@ static const char specimen[] =
     "         1\n  1.00000E+00 -1.00000E+00  1.00000E+00 -1.00000E+00  1.00000E+00 -1.00000E+00\n" END;
 
 /* Cut off anywhere but behind a set, the file is refused. */
-static void truncated_at_every_byte(void **state)
+UNIT_TEST(truncated_at_every_byte)
 {
-    (void)state;
     size_t length = sizeof specimen - 1;
     int accepted = 0;
     for (size_t cut = 0; cut <= length; ++cut) {
@@ -680,9 +660,8 @@ static void truncated_at_every_byte(void **state)
 }
 
 /* Whatever stands in one byte: a status, and errors exactly when it is not ROTID_OK. The sanitizers watch. */
-static void every_byte_replaced(void **state)
+UNIT_TEST(every_byte_replaced)
 {
-    (void)state;
     static const char other[] = {'\0', '\n', ' ', '-', '9', '.', 'e', 'b', '\xff'};
     size_t length = sizeof specimen - 1;
     char *bytes = malloc(length);
@@ -723,9 +702,8 @@ static void limited_release(void *context, void *block)
     free(block);
 }
 
-static void memory_runs_out(void **state)
+UNIT_TEST(memory_runs_out)
 {
-    (void)state;
     char path[512];
     write_bytes(path, specimen, sizeof specimen - 1);
     int failures = 0;
@@ -757,9 +735,8 @@ static double pyuff_value(int mode, int node, int component)
     return (node % 2 ? -1 : 1) * (mode * 1000 + node * 10 + component) / 1000.;
 }
 
-static void pyuff_real_modes(void **state)
+UNIT_TEST(pyuff_real_modes)
 {
-    (void)state;
     struct reading r;
     read_path(&r, ROTID_SOURCE_DIR "/tests/data/uff/real_modes.uff", NULL);
     check_ok(&r);
@@ -789,9 +766,8 @@ static void pyuff_real_modes(void **state)
     pool_close(&r.pool);
 }
 
-static void pyuff_complex_modes(void **state)
+UNIT_TEST(pyuff_complex_modes)
 {
-    (void)state;
     struct reading r;
     read_path(&r, ROTID_SOURCE_DIR "/tests/data/uff/complex_modes.uff", NULL);
     check_ok(&r);
@@ -818,9 +794,8 @@ static void pyuff_complex_modes(void **state)
     pool_close(&r.pool);
 }
 
-static void pyuff_nodes_2411(void **state)
+UNIT_TEST(pyuff_nodes_2411)
 {
-    (void)state;
     struct reading r;
     read_path(&r, ROTID_SOURCE_DIR "/tests/data/uff/nodes_2411.uff", NULL);
     check_ok(&r);
@@ -829,37 +804,4 @@ static void pyuff_nodes_2411(void **state)
     for (int k = 0; k < 6; ++k) /* all digits of a double */
         check_node(&r.file.node[k], pyuff_nodes[k], -1, k / 3., -3.141592653589793 * k);
     pool_close(&r.pool);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(real_shape_and_nodes),
-        cmocka_unit_test(values_per_node),
-        cmocka_unit_test(complex_eigenvalues),
-        cmocka_unit_test(frequency_response),
-        cmocka_unit_test(windows_and_trailing_blanks),
-        cmocka_unit_test(touching_fields),
-        cmocka_unit_test(free_format),
-        cmocka_unit_test(minus_one_as_data),
-        cmocka_unit_test(records_7_and_8_spill),
-        cmocka_unit_test(skipped_sets),
-        cmocka_unit_test(many_types_of_sets),
-        cmocka_unit_test(binary_sets),
-        cmocka_unit_test(no_universal_file),
-        cmocka_unit_test(between_sets),
-        cmocka_unit_test(cut_off),
-        cmocka_unit_test(wrong_numbers),
-        cmocka_unit_test(wrong_records),
-        cmocka_unit_test(repeated_nodes),
-        cmocka_unit_test(other_coordinate_system),
-        cmocka_unit_test(overlong_lines),
-        cmocka_unit_test(truncated_at_every_byte),
-        cmocka_unit_test(every_byte_replaced),
-        cmocka_unit_test(memory_runs_out),
-        cmocka_unit_test(pyuff_real_modes),
-        cmocka_unit_test(pyuff_complex_modes),
-        cmocka_unit_test(pyuff_nodes_2411),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

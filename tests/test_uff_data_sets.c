@@ -1,6 +1,7 @@
 /* Set 55: data at nodes. */
 #include <stdio.h>
 
+#include "support.h"
 #include "uff/uff.h"
 #include "uff_fixture.h"
 
@@ -10,9 +11,8 @@
 #define SHAPE(text, analysis, numbers)                                                                                           \
     SET(55) text "\ntwo\nthree\nfour\nfive\n" analysis "\n" numbers "         1\n  1.00000E+00\n" UFF_EDGE
 
-static void shapes(void **state)
+UNIT_TEST(shapes)
 {
-    (void)state;
     static const char text[] = SHAPE("ROTID residuals", "         1         0         1         8         2         1",
                                      "         2         1         3         4\n  2.50000E+00\n")
         SHAPE("other", "         1         0         1         8         2         1",
@@ -64,10 +64,4 @@ static void shapes(void **state)
     assert_string_equal(file.extra[0].id[0], "ROTID residuals");
     assert_int_equal(messages.count, 2);
     uff_fixture_close(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shapes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

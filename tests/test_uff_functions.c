@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support.h"
 #include "uff_fixture.h"
 
 enum { COUNT = 13, ROOM = 8192 };
@@ -155,9 +156,8 @@ static void check_function(struct uff_fixture *fixture, const struct specimen *s
     assert_int_equal(got, 0);
 }
 
-static void every_kind(void **state)
+UNIT_TEST(every_kind)
 {
-    (void)state;
     static const int ordinate[] = {UFF_REAL_SINGLE, UFF_REAL_DOUBLE, UFF_COMPLEX_SINGLE, UFF_COMPLEX_DOUBLE};
     static const int most[] = {1, 7, 100};
     for (int kind = 0; kind < 4; ++kind)
@@ -186,9 +186,8 @@ static void every_kind(void **state)
 }
 
 /* What was not read is read over, from every place in a set. */
-static void sets_read_in_part(void **state)
+UNIT_TEST(sets_read_in_part)
 {
-    (void)state;
     static char all[8 * ROOM];
     size_t length = 0;
     struct specimen s;
@@ -221,9 +220,8 @@ static void sets_read_in_part(void **state)
 
 /* The number of bytes announced is 0, or half of it as pyuff writes it for complex values; the end may stand in a line of its
  * own, and the bytes may look like it. */
-static void binary_lengths(void **state)
+UNIT_TEST(binary_lengths)
 {
-    (void)state;
     static const char *const before_end[] = {"", "\n", "\r\n"};
     for (int i = 0; i < 9; ++i) {
         struct specimen s = {.ordinate = UFF_COMPLEX_DOUBLE,
@@ -264,9 +262,8 @@ static void binary_lengths(void **state)
     uff_fixture_close(&fixture);
 }
 
-static void binary_that_is_wrong(void **state)
+UNIT_TEST(binary_that_is_wrong)
 {
-    (void)state;
     struct specimen s = {.ordinate = UFF_REAL_DOUBLE, .is_even = 1, .order = 2, .bytes = -1};
     make(&s);
     for (size_t cut = s.length - 7; cut > s.length - 7 - COUNT * 8; --cut) {
@@ -313,15 +310,4 @@ static void binary_that_is_wrong(void **state)
     assert_int_equal(uff_read_function(fixture.reader, &function), ROTID_OK);
     uff_fixture_refuses(&fixture, uff_read_values(fixture.reader, 100, NULL, NULL, NULL, &got), 13, 0, "value 12 of 13 is");
     uff_fixture_close(&fixture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind),
-        cmocka_unit_test(sets_read_in_part),
-        cmocka_unit_test(binary_lengths),
-        cmocka_unit_test(binary_that_is_wrong),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,9 +33,8 @@ static uint64_t next_random(uint64_t *state)
     return *state;
 }
 
-static void random_bits(void **state)
+UNIT_TEST(random_bits)
 {
-    (void)state;
     static const char *const format[] = {"%.5E", "%.12E", "%.16E", "%.17E", "%.24E", "%.0f", "%.6f"};
     uint64_t random = 88172645463325252u;
     for (int i = 0; i < 200000; ++i) {
@@ -55,9 +54,8 @@ static void random_bits(void **state)
     }
 }
 
-static void corners(void **state)
+UNIT_TEST(corners)
 {
-    (void)state;
     static const char *const text[] = {"0",
                                        "-0",
                                        "+0.0",
@@ -96,10 +94,4 @@ static void corners(void **state)
     static const char *const wrong[] = {"", "-", ".", "e5", "1e", "1e+", "1-2", "1.2.3", "0x10", "1 2", "1.0e5x", "1.0e5-3"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i)
         assert_int_equal(uff_parse_real(wrong[i], strlen(wrong[i]), &value), UFF_FAULT_MALFORMED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bits), cmocka_unit_test(corners)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "support.h"
 #include "uff/uff.h"
 #include "uff_fixture.h"
 
@@ -11,9 +12,8 @@
 #define TEXTS       "one\ntwo\nthree\nfour\nNONE\n"
 
 /* After each error the next set is found, and a set that was returned is found again. */
-static void goes_on_behind_errors(void **state)
+UNIT_TEST(goes_on_behind_errors)
 {
-    (void)state;
     static const char good[] = SET(15) "         1         0         0         8  1.0  2.0  3.0\n" UFF_EDGE;
     static const char *const bad[] = {
         SET(15) "         1         0         0         8  1.0  2.0\n" UFF_EDGE, /* a number missing */
@@ -54,9 +54,8 @@ static void goes_on_behind_errors(void **state)
     }
 }
 
-static void no_universal_file(void **state)
+UNIT_TEST(no_universal_file)
 {
-    (void)state;
     static const struct {
         const char *text, *part;
     } item[] = {{"", "no universal file"},
@@ -101,9 +100,8 @@ static void release(void *context, void *block)
 }
 
 /* 300 MB of zeros in one 58b between two sets, without a block on the disk: listed by seeking, read in pieces. */
-static void little_memory(void **state)
+UNIT_TEST(little_memory)
 {
-    (void)state;
     static const long long count = 37500000;
     char text[2048];
     int head = snprintf(text, sizeof text,
@@ -153,9 +151,8 @@ static void little_memory(void **state)
 }
 
 /* A pipe cannot be sought in: what is read over is read. */
-static void from_a_pipe(void **state)
+UNIT_TEST(from_a_pipe)
 {
-    (void)state;
     static const char before[] =
         SET(15) "1 0 0 8 1. 2. 3.\n" UFF_EDGE
                 "    -1\n    58b     1     2          11       40000     0     0           0           0\n" TEXTS
@@ -215,9 +212,8 @@ static int sweep_once(const char *path, const rotid_allocator *allocator)
     return status;
 }
 
-static void memory_runs_out(void **state)
+UNIT_TEST(memory_runs_out)
 {
-    (void)state;
     static const char text[] =
         SET(15) "1 0 0 8 1. 2. 3.\n" UFF_EDGE SET(18) "1 0 0 8 1\nCS\n0 0 0 1 0 0\n0 0 1\n" UFF_EDGE SET(55) TEXTS
         "1 2 1 8 2 1\n2 1 3 4\n1.25\n1\n1.0\n" UFF_EDGE;
@@ -235,13 +231,4 @@ static void memory_runs_out(void **state)
     print_message("%d allocations\n", failures);
     assert_true(failures > 5);
     (void)unlink(path);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(goes_on_behind_errors), cmocka_unit_test(no_universal_file), cmocka_unit_test(little_memory),
-        cmocka_unit_test(memory_runs_out),       cmocka_unit_test(from_a_pipe),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,8 @@ static void at_end(struct uff_reader *reader)
     uff_close(reader);
 }
 
-static void header_and_units(void **state)
+POOL_TEST(header_and_units)
 {
-    (void)state;
     const struct uff_header header = {.model = "rotor.mdl",
                                       .description = "hammer test",
                                       .program = "bench",
@@ -84,9 +83,8 @@ static void header_and_units(void **state)
     at_end(reader);
 }
 
-static void geometry(void **state)
+POOL_TEST(geometry)
 {
-    (void)state;
     const struct uff_node node[] = {{.id = 7, .definition_system = 1, .color = 8, .x = {1.0 / 3, -2e-7, 1e5}},
                                     {.id = 3, .displacement_system = 2, .x = {0, 0.1, -0.5}}};
     int count;
@@ -107,9 +105,8 @@ static void geometry(void **state)
     }
 }
 
-static void shapes(void **state)
+POOL_TEST(shapes)
 {
-    (void)state;
     static const int analysis[] = {0, 2, 3, 5, 7};
     int node[] = {30, 2};
     double real[12] = {1, -0.5, 0.25, 1e-3, 5, 6, 7, 8, 9, 10, 11, 12}, imag[12] = {0, 1, 2, -3, 4, 5, 6, 7, 8, 9, 10, -11};
@@ -173,9 +170,8 @@ static double digits(const struct uff_function *f)
     return single ? 5.1e-6 : 5.1e-13;
 }
 
-static void functions(void **state)
+POOL_TEST(functions)
 {
-    (void)state;
     static const int ordinate[] = {UFF_REAL_SINGLE, UFF_REAL_DOUBLE, UFF_COMPLEX_SINGLE, UFF_COMPLEX_DOUBLE};
     static double x[VALUES], real[VALUES], imag[VALUES], x_read[VALUES], real_read[VALUES], imag_read[VALUES];
     for (int i = 0; i < VALUES; i++) {
@@ -244,13 +240,4 @@ static int remove_file(void **state)
     return unlink(path);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(header_and_units, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(geometry, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(shapes, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(functions, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
-}
+TEST_GROUP(make_file, remove_file);

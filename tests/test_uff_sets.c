@@ -2,13 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support.h"
 #include "uff_fixture.h"
 
 #define SET(number) UFF_EDGE #number "\n"
 
-static void header(void **state)
+UNIT_TEST(header)
 {
-    (void)state;
     struct uff_fixture fixture;
     struct uff_header h;
     uff_fixture_text(&fixture,
@@ -41,9 +41,8 @@ static void header(void **state)
 
 #define FACTORS(length, force) "   " length "   " force "   1.0000000000000000D+00\n   2.7314999999999998D+02\n"
 
-static void units(void **state)
+UNIT_TEST(units)
 {
-    (void)state;
     struct uff_fixture fixture;
     struct uff_units u;
     uff_fixture_text(
@@ -103,9 +102,8 @@ static int read_any(struct uff_fixture *fixture, int number)
     return number == 58 ? uff_read_function(fixture->reader, &function) : uff_read_units(fixture->reader, &unit);
 }
 
-static void wrong_records(void **state)
+UNIT_TEST(wrong_records)
 {
-    (void)state;
     static const struct {
         int number;
         const char *text;
@@ -138,14 +136,4 @@ static void wrong_records(void **state)
         uff_fixture_refuses(&fixture, status, item[k].line, item[k].column, item[k].part);
         uff_fixture_close(&fixture);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(header),
-        cmocka_unit_test(units),
-        cmocka_unit_test(wrong_records),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support.h"
 #include "uff_fixture.h"
 
 /* A function of text: its record 7 and its values as given. */
@@ -15,9 +16,8 @@ static void open_text(struct uff_fixture *fixture, const char *record_7, const c
     (void)uff_fixture_next(fixture, 58);
 }
 
-static void text_as_writers_write_it(void **state)
+UNIT_TEST(text_as_writers_write_it)
 {
-    (void)state;
     static const struct {
         const char *record_7, *values;
         int count;
@@ -77,9 +77,8 @@ static void text_as_writers_write_it(void **state)
 
 #define EVEN_3 "         2         3         1  0.00000E+00  1.00000E+00  0.00000E+00"
 
-static void text_that_is_wrong(void **state)
+UNIT_TEST(text_that_is_wrong)
 {
-    (void)state;
     static const struct {
         const char *record_7, *values;
         int line, column;
@@ -119,10 +118,4 @@ static void text_that_is_wrong(void **state)
         assert_int_equal(uff_next(fixture.reader, &set), UFF_END);
         uff_fixture_close(&fixture);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(text_as_writers_write_it), cmocka_unit_test(text_that_is_wrong)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

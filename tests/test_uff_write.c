@@ -25,9 +25,8 @@ static void is_text(FILE *stream, const char *expected)
     assert_string_equal(text, expected);
 }
 
-static void the_header_has_seven_records(void **state)
+UNIT_TEST(the_header_has_seven_records)
 {
-    (void)state;
     const struct uff_header header = {.model = "rotor.mdl",
                                       .program = "rotid",
                                       .created = "21-NOV-26 16:31:39",
@@ -44,9 +43,8 @@ static void the_header_has_seven_records(void **state)
                     "22-NOV-26\nrotid 1\n22-NOV-26 10:00:00\n    -1\n");
 }
 
-static void units_keep_seventeen_digits(void **state)
+UNIT_TEST(units_keep_seventeen_digits)
 {
-    (void)state;
     const struct uff_units units = {.code = 2,
                                     .description = "Foot (pound f)",
                                     .temperature_mode = 2,
@@ -63,9 +61,8 @@ static void units_keep_seventeen_digits(void **state)
                     "    -1\n");
 }
 
-static void nodes_stand_in_columns(void **state)
+UNIT_TEST(nodes_stand_in_columns)
 {
-    (void)state;
     const struct uff_node node[] = {
         {.id = 16, .definition_system = 11, .displacement_system = 12, .color = 8, .x = {0, -1.53, 2e-101}},
         {.id = 2147483647, .x = {0.1, 1, -1}}};
@@ -83,9 +80,8 @@ static void nodes_stand_in_columns(void **state)
                     "    -1\n");
 }
 
-static void shapes_say_their_analysis(void **state)
+UNIT_TEST(shapes_say_their_analysis)
 {
-    (void)state;
     int node[] = {3, 1};
     double real[] = {1, 0, -0.5, 2, 3, 4}, imag[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
     struct uff_shape shape = {.id = {"mode 1"},
@@ -169,9 +165,8 @@ static void write_all(const struct uff_function *function, const double *x, cons
 
 static const double x[] = {0.5, 1, 2, 4}, real[] = {1, -2, 3.25, 0.1}, imag[] = {0, 5e-10, -1, 7};
 
-static void text_has_the_columns_of_each_case(void **state)
+UNIT_TEST(text_has_the_columns_of_each_case)
 {
-    (void)state;
     struct uff_function f = transfer(UFF_COMPLEX_SINGLE, 4);
     FILE *stream = open_text();
     write_all(&f, NULL, real, imag, stream);
@@ -214,9 +209,8 @@ static void text_has_the_columns_of_each_case(void **state)
 }
 
 /* Each of them alone is refused. */
-static void what_the_format_cannot_hold_is_refused(void **state)
+UNIT_TEST(what_the_format_cannot_hold_is_refused)
 {
-    (void)state;
     struct uff_shape shape = {.id = {"    -1"}, .component_count = 1};
     struct uff_node node = {.id = 1, .x = {0, NAN, 0}};
     struct uff_function f = transfer(UFF_REAL_SINGLE, 1);
@@ -241,9 +235,8 @@ static void what_the_format_cannot_hold_is_refused(void **state)
     (void)fclose(stream);
 }
 
-static void a_full_disk_is_told(void **state)
+UNIT_TEST(a_full_disk_is_told)
 {
-    (void)state;
     struct uff_function f = transfer(UFF_REAL_DOUBLE, 1);
     struct uff_function_writer writer;
     FILE *stream = fopen("/dev/full", "w");
@@ -261,16 +254,4 @@ static int forget_text(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_header_has_seven_records),
-        cmocka_unit_test(units_keep_seventeen_digits),
-        cmocka_unit_test(nodes_stand_in_columns),
-        cmocka_unit_test(shapes_say_their_analysis),
-        cmocka_unit_test(text_has_the_columns_of_each_case),
-        cmocka_unit_test(what_the_format_cannot_hold_is_refused),
-        cmocka_unit_test(a_full_disk_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, forget_text);
-}
+TEST_GROUP(NULL, forget_text);

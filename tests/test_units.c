@@ -105,9 +105,8 @@ static const struct {
     {E_START, "100", "start of a Young's modulus [Pa] is 100", "write 1e+11"},
 };
 
-static void a_number_in_another_unit_is_noticed_with_its_cure(void **state)
+UNIT_TEST(a_number_in_another_unit_is_noticed_with_its_cure)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; i++) {
         const char *field[FIELDS];
         struct message_list messages;
@@ -130,7 +129,7 @@ static void a_number_in_another_unit_is_noticed_with_its_cure(void **state)
 /* ---- right decks */
 
 /* Commas in numbers are told before what follows from them; lists without blanks, and with points, are no such numbers. */
-static void a_decimal_comma_is_told_first(void **state)
+UNIT_TEST(a_decimal_comma_is_told_first)
 {
     static const char model[] = "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n";
     static const struct {
@@ -138,7 +137,6 @@ static void a_decimal_comma_is_told_first(void **state)
         int line;
     } table[] = {{"1.0, 0.05, 0, 20\n*MODES\n1, 435,5\n", 9}, {"1,5, 0,05, 0\n", 7}, {"1.0, 0.05, 0,20\n", 0}, {"1,1,0,20\n", 0}};
     char text[600];
-    (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct message_list messages;
         struct states states;
@@ -151,7 +149,7 @@ static void a_decimal_comma_is_told_first(void **state)
     }
 }
 
-static void right_decks_get_no_warning_of_units(void **state)
+UNIT_TEST(right_decks_get_no_warning_of_units)
 {
     static const char *const decks[] = {"brake_reuss_beam", "brake_reuss_lap",   "converged_rotor",    "converged_stack",
                                         "converged_steel",  "foam_bar",          "foam_bar_supports",  "motor_shaft_stack",
@@ -177,7 +175,6 @@ static void right_decks_get_no_warning_of_units(void **state)
                {{SPRING_K, F1, F2}, {"1e12", "300", "999"}},
                {{SHEET_RHO, RHO, L1}, {"7000", "8900", "0.2"}},
                {{E_LOW, E_HIGH, E_START}, {"1e6", "1e12", "2e11"}}};
-    (void)state;
     for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
         char path[512];
         struct message_list messages;
@@ -220,7 +217,7 @@ static void right_decks_get_no_warning_of_units(void **state)
 /* ---- *UNITS */
 
 /* Every word, by what the unit is: of a length a micrometre is 1e-6 m, so a newton for each is 1e6 N/m. */
-static void every_unit_is_what_it_is_called(void **state)
+UNIT_TEST(every_unit_is_what_it_is_called)
 {
     static const double inch = 0.0254, pound = 0.45359237, standard_g = 9.80665, turn = 6.283185307179586;
     const struct {
@@ -252,12 +249,11 @@ static void every_unit_is_what_it_is_called(void **state)
                 {"Hz", "kHz", 1e3},
                 {"Hz", "rpm", 1.0 / 60},
                 {"Hz", "rad/s", 1 / turn}};
-    (void)state;
     for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
         assert_close(deck_unit_factor(unit[i].si, unit[i].word), unit[i].factor, 1e-12, 0);
 }
 
-static void a_deck_in_other_units_is_the_same_rotor(void **state)
+UNIT_TEST(a_deck_in_other_units_is_the_same_rotor)
 {
     static const char *const mm[FIELDS] = {
         "*UNITS, LENGTH=MM, MODULUS=GPA, DENSITY=G/CM3, MASS=G, INERTIA=KG.MM2, STIFFNESS=N/MM, FREQUENCY=RPM\n",
@@ -293,7 +289,6 @@ static void a_deck_in_other_units_is_the_same_rotor(void **state)
     struct message_list messages;
     struct job job[2];
     const char *card;
-    (void)state;
     assert_status(read_fields(si, &messages, &job[0]), ROTID_OK);
     assert_status(read_fields(mm, &messages, &job[1]), ROTID_OK);
     assert_null(find_message(&messages, "rotors have"));
@@ -318,7 +313,7 @@ static void a_deck_in_other_units_is_the_same_rotor(void **state)
     assert_int_equal(deck_compare(&test_pool, &job[0], &job[1], &card), 0); /* and whatever else there is */
 }
 
-static void units_that_cannot_be_are_refused(void **state)
+UNIT_TEST(units_that_cannot_be_are_refused)
 {
     static const struct {
         const char *card, *says;
@@ -326,7 +321,6 @@ static void units_that_cannot_be_are_refused(void **state)
                  {"*UNITS, LENGTH=MM\n*UNITS, LENGTH=CM\n", "the unit of LENGTH is given twice"},
                  {"*UNITS, LENGTH=M\n7\n", "*UNITS has no data lines"},
                  {"*UNITS, TIME=H\n", "TIME"}};
-    (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const char *field[FIELDS];
         struct message_list messages;
@@ -339,7 +333,7 @@ static void units_that_cannot_be_are_refused(void **state)
 }
 
 /* What sixteen digits cannot hold together has a place, in place of a solution that fails. */
-static void numbers_too_far_apart_are_refused_with_their_place(void **state)
+UNIT_TEST(numbers_too_far_apart_are_refused_with_their_place)
 {
     static const char shaft[] =
         "*MATERIAL, NAME=steel\n*ELASTIC\n%s, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=other\n*ELASTIC\n2e11, 0.3\n"
@@ -357,7 +351,6 @@ static void numbers_too_far_apart_are_refused_with_their_place(void **state)
                  {"2e11", "0.2, 2e-5, 0, 4\n", NULL, 0},
                  {"150", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", "Young's modulus of steel is 150 Pa", 1},
                  {"2e9", "*SHAFT, NAME=end, MATERIAL=other\n1, 0.1, 0, 30\n", NULL, 0}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[600], failure[ROTID_FAILURE_LENGTH];
         rotid_deck *deck = NULL;
@@ -381,7 +374,7 @@ static void numbers_too_far_apart_are_refused_with_their_place(void **state)
 }
 
 /* Each number alone is possible: the problem fails, and the softest section is named beside the stiffest element. */
-static void sections_too_far_apart_are_named_where_the_problem_fails(void **state)
+UNIT_TEST(sections_too_far_apart_are_named_where_the_problem_fails)
 {
     static const char *const sections[][2] = {{"0.5, 0.002, 0, 4", "0.0001, 0.19, 0, 8"},
                                               {"5, 0.0005, 0, 4", "0.002, 1.9, 0, 8"},
@@ -391,7 +384,6 @@ static void sections_too_far_apart_are_named_where_the_problem_fails(void **stat
                                                "0.00042614, 0.0344631, 0, 2\n0.170224, 0.0518854, 0, 1\n"
                                                "0.0876256, 0.0623385, 0.0187015, 1\n0.0942644, 0.00406253, 0.0040219, 8\n"
                                                "0.000147997, 0.00382556, 0, 2\n0.000750908, 0.116142, 0, 8"}};
-    (void)state;
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         char text[800], failure[ROTID_FAILURE_LENGTH];
         rotid_deck *deck;
@@ -410,7 +402,7 @@ static void sections_too_far_apart_are_named_where_the_problem_fails(void **stat
 
 /* ---- frequencies beside the model's */
 
-static void a_common_factor_of_all_frequencies_is_named(void **state)
+UNIT_TEST(a_common_factor_of_all_frequencies_is_named)
 {
     static const struct {
         double factor;
@@ -428,7 +420,6 @@ static void a_common_factor_of_all_frequencies_is_named(void **state)
     struct message_list messages;
     struct job job;
     struct spectrum spectrum;
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int spread = 0; spread < 2; spread++) {
             assert_status(read_fields(si, &messages, &job), ROTID_OK);
@@ -443,18 +434,4 @@ static void a_common_factor_of_all_frequencies_is_named(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_number_in_another_unit_is_noticed_with_its_cure),
-        cmocka_unit_test(a_decimal_comma_is_told_first),
-        cmocka_unit_test(right_decks_get_no_warning_of_units),
-        cmocka_unit_test(every_unit_is_what_it_is_called),
-        cmocka_unit_test(a_deck_in_other_units_is_the_same_rotor),
-        cmocka_unit_test(units_that_cannot_be_are_refused),
-        cmocka_unit_test(numbers_too_far_apart_are_refused_with_their_place),
-        cmocka_unit_test(sections_too_far_apart_are_named_where_the_problem_fails),
-        cmocka_unit_test(a_common_factor_of_all_frequencies_is_named),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -7,6 +7,7 @@
 
 #include "linalg/linalg.h"
 #include "modal/modal.h"
+#include "support.h"
 
 static const struct structure {
     int n, kd, nfar, far[3];
@@ -36,7 +37,7 @@ static void random_profile(struct pool *pool, struct random_stream *stream, cons
     }
 }
 
-static void products_with_many_columns_match_dense(void **state)
+POOL_TEST(products_with_many_columns_match_dense)
 {
     struct random_stream stream = {61};
     for (int s = 0; s < nstructure; s++) {
@@ -64,7 +65,7 @@ static void products_with_many_columns_match_dense(void **state)
     }
 }
 
-static void a_pencil_knows_whether_the_mass_is_the_one_of_before(void **state)
+POOL_TEST(a_pencil_knows_whether_the_mass_is_the_one_of_before)
 {
     struct random_stream stream = {62};
     const struct structure *of = &structures[4];
@@ -93,7 +94,7 @@ static void check_solution(struct pool *pool, struct factor *f, const rotid_matr
     assert_close(relative_difference((size_t)n * columns, b, expected), 0, 0, 1e-9);
 }
 
-static void factors_of_a_pencil_solve_as_dense_ones_and_count(void **state)
+POOL_TEST(factors_of_a_pencil_solve_as_dense_ones_and_count)
 {
     struct random_stream stream = {63};
     for (int s = 0; s < nstructure; s++)
@@ -158,7 +159,7 @@ static void check_derivative(struct pool *pool, struct random_stream *stream, co
     assert_close(relative_difference(2 * (size_t)n, dphi, expected), 0, 0, 1e-9);
 }
 
-static void derivatives_agree_with_dense_ones(void **state)
+POOL_TEST(derivatives_agree_with_dense_ones)
 {
     struct random_stream stream = {64};
     for (int s = 0; s < nstructure; s++) {
@@ -176,7 +177,7 @@ static void derivatives_agree_with_dense_ones(void **state)
 
 /* Two free chains, not coupled: every eigenvalue twice, the lowest ones zero. The second one has its degrees of freedom between
  * those of the first. */
-static void derivatives_in_clusters_of_a_free_structure_agree(void **state)
+POOL_TEST(derivatives_in_clusters_of_a_free_structure_agree)
 {
     enum { each = 60, n = 2 * each };
     struct random_stream stream = {65};
@@ -199,7 +200,7 @@ static void derivatives_in_clusters_of_a_free_structure_agree(void **state)
 
 /* ---- eigenpairs */
 
-static void pairs_agree_with_dense_ones(void **state)
+POOL_TEST(pairs_agree_with_dense_ones)
 {
     struct random_stream stream = {66};
     for (int s = 0; s < nstructure; s++)
@@ -229,7 +230,7 @@ static void pairs_agree_with_dense_ones(void **state)
 
 /* Vectors to 1e-8, those that are not wanted to 1e-4, of a mass that is not looked at: eigenvalues are off by the square, warm
  * and cold. */
-static void pairs_that_are_near_alone_have_the_eigenvalues(void **state)
+POOL_TEST(pairs_that_are_near_alone_have_the_eigenvalues)
 {
     struct random_stream stream = {68};
     enum { COUNT = 6 };
@@ -264,7 +265,7 @@ static void pairs_that_are_near_alone_have_the_eigenvalues(void **state)
 }
 
 /* A mass that has lost its definiteness between two calls is seen though it is not factored where it has not changed. */
-static void a_mass_that_changes_is_checked_again(void **state)
+POOL_TEST(a_mass_that_changes_is_checked_again)
 {
     struct random_stream stream = {67};
     const struct structure *of = &structures[3];
@@ -287,7 +288,7 @@ static void a_mass_that_changes_is_checked_again(void **state)
 }
 
 /* The block behind the basis is twice the pairs that are known, and no more, however often the search is extended. */
-static void a_search_refuses_more_vectors_than_it_has_room_for(void **state)
+POOL_TEST(a_search_refuses_more_vectors_than_it_has_room_for)
 {
     enum { N = 120, COLUMNS = 4, BLOCK = 6 };
     struct random_stream stream = {77};
@@ -320,20 +321,4 @@ static void a_search_refuses_more_vectors_than_it_has_room_for(void **state)
     }
     assert_status(status, ROTID_ERROR_EIGEN);
     assert_int_equal(extended, 1 + (2 * BLOCK - COLUMNS) / COLUMNS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_POOL(products_with_many_columns_match_dense),
-        WITH_POOL(a_pencil_knows_whether_the_mass_is_the_one_of_before),
-        WITH_POOL(factors_of_a_pencil_solve_as_dense_ones_and_count),
-        WITH_POOL(derivatives_agree_with_dense_ones),
-        WITH_POOL(derivatives_in_clusters_of_a_free_structure_agree),
-        WITH_POOL(pairs_agree_with_dense_ones),
-        WITH_POOL(pairs_that_are_near_alone_have_the_eigenvalues),
-        WITH_POOL(a_mass_that_changes_is_checked_again),
-        WITH_POOL(a_search_refuses_more_vectors_than_it_has_room_for),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,9 +53,8 @@ static double std_of(const rotid_suggestion *s, const char *test)
 }
 
 /* d ln f/d ln E = d ln W/d ln E = 1/2: K frequencies with the deviation s leave s/sqrt K of a critical speed. */
-static void a_test_adds_its_information(void **state)
+POOL_TEST(a_test_adds_its_information)
 {
-    (void)state;
     enum { K = 2 };
     rotid_deck *deck = measured(K, 1);
     rotid_suggestion *s = suggest(deck, 1, ROTID_OK, NULL);
@@ -79,9 +78,8 @@ static void a_test_adds_its_information(void **state)
     rotid_deck_free(deck);
 }
 
-static void before_a_test_its_modes_say_all(void **state)
+POOL_TEST(before_a_test_its_modes_say_all)
 {
-    (void)state;
     rotid_deck *deck = deck_of(SHAFT "*NOISE, FREQUENCY=0.002\n" PINS);
     rotid_suggestion *s = suggest(deck, 1, ROTID_OK, NULL);
     assert_true(isnan(s->speed_std));
@@ -91,9 +89,8 @@ static void before_a_test_its_modes_say_all(void **state)
 }
 
 /* The share of the unknowns is that of the variance shares of `rotid speeds`. */
-static void the_share_of_the_unknowns_is_that_of_the_machine(void **state)
+POOL_TEST(the_share_of_the_unknowns_is_that_of_the_machine)
 {
-    (void)state;
     rotid_deck *deck;
     rotid_speeds *speeds;
     const rotid_speeds_options options = {.size = sizeof options, .draws = 20, .count = 9};
@@ -111,9 +108,8 @@ static void the_share_of_the_unknowns_is_that_of_the_machine(void **state)
     rotid_deck_free(deck);
 }
 
-static void what_cannot_be_is_refused(void **state)
+POOL_TEST(what_cannot_be_is_refused)
 {
-    (void)state;
     char failure[ROTID_FAILURE_LENGTH];
     rotid_deck *deck = measured(2, 1), *bare = deck_of(SHAFT "*IDENTIFY\na.E, 1e9, 1e13, 1.9e11\n");
     (void)suggest(bare, 1, ROTID_ERROR_ARGUMENT, failure);
@@ -124,15 +120,4 @@ static void what_cannot_be_is_refused(void **state)
     assert_non_null(strstr(failure, "not number 90"));
     rotid_deck_free(bare);
     rotid_deck_free(deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_test_adds_its_information, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(before_a_test_its_modes_say_all, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_share_of_the_unknowns_is_that_of_the_machine, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_cannot_be_is_refused, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,9 +146,8 @@ static int is_refused_as_it_says(const char *name)
     return count && refuses(deck, expectations, count);
 }
 
-static void each_wrong_deck_is_refused_where_it_is_wrong(void **state)
+UNIT_TEST(each_wrong_deck_is_refused_where_it_is_wrong)
 {
-    (void)state;
     int decks = 0, refused = 0;
     DIR *stream = opendir(CORPUS);
     assert_non_null(stream);
@@ -176,9 +175,8 @@ static int is_refused(const char *deck, const char *place, const char *text)
 
 /* ------------------------------------------------------------------------------------------------ files that are no deck */
 
-static void what_is_no_file_of_text_is_refused(void **state)
+UNIT_TEST(what_is_no_file_of_text_is_refused)
 {
-    (void)state;
     struct random_stream stream = {7};
     char noise[4096];
     noise[0] = 0;
@@ -196,9 +194,8 @@ static void what_is_no_file_of_text_is_refused(void **state)
     assert_true(is_refused("/dev/zero", "1:1025", "the line is longer than 1024 characters"));
 }
 
-static void a_file_that_may_not_be_read_is_refused(void **state)
+UNIT_TEST(a_file_that_may_not_be_read_is_refused)
 {
-    (void)state;
     if (geteuid() == 0)
         skip(); /* root may read everything */
     write_file(folder_path("locked.inp"), "*HEADING\n", 9);
@@ -223,17 +220,15 @@ static void write_many(const char *card, int every, const char *line, int count)
 }
 
 /* The number of elements once overflowed to a small one, 429,497 x 10,000 = 2^32 + 2,704: the mesh went past its memory. */
-static void more_elements_than_an_integer_counts_are_refused(void **state)
+UNIT_TEST(more_elements_than_an_integer_counts_are_refused)
 {
-    (void)state;
     write_many("*SHAFT, NAME=s%d, MATERIAL=steel\n", 10000, "1, 0.1, 0, 10000\n", 429497);
     assert_true(is_refused(folder_path("many.inp"), "420050:1", "elements, expected at most"));
 }
 
 /* Names and ids are compared with each other: tens of thousands once took minutes. */
-static void more_cards_or_sensors_than_a_rotor_has_are_refused_at_once(void **state)
+UNIT_TEST(more_cards_or_sensors_than_a_rotor_has_are_refused_at_once)
 {
-    (void)state;
     write_many("*DISK, NAME=d%d\n", 1, "0.5, 1\n", 50000);
     assert_true(is_refused(folder_path("many.inp"), "10000:1", "the deck has more than 5000 cards"));
     write_many("*SENSORS\n", 200000, "%d, 0.5\n", 200000);
@@ -267,9 +262,8 @@ static int reads(const char *text, size_t length)
     return status == ROTID_OK;
 }
 
-static void a_deck_cut_off_anywhere_gets_an_answer(void **state)
+UNIT_TEST(a_deck_cut_off_anywhere_gets_an_answer)
 {
-    (void)state;
     struct random_stream stream = {11};
     size_t length;
     int good = 0;
@@ -283,9 +277,8 @@ static void a_deck_cut_off_anywhere_gets_an_answer(void **state)
     free(text);
 }
 
-static void a_deck_with_one_wrong_byte_gets_an_answer(void **state)
+UNIT_TEST(a_deck_with_one_wrong_byte_gets_an_answer)
 {
-    (void)state;
     static const char *const path[] = {PAPER_ROTOR, EVERY_CARD};
     struct random_stream stream = {13};
     for (int d = 0; d < 2; d++) {
@@ -304,9 +297,8 @@ static void a_deck_with_one_wrong_byte_gets_an_answer(void **state)
     }
 }
 
-static void without_memory_a_deck_is_no_deck_and_nothing_leaks(void **state)
+UNIT_TEST(without_memory_a_deck_is_no_deck_and_nothing_leaks)
 {
-    (void)state;
     static const char *const path[] = {PAPER_ROTOR, SOLID_ROTOR, EVERY_CARD, CORPUS "/many_errors.inp"};
     for (int d = 0; d < 4; d++) {
         struct failing_allocator failing;
@@ -323,17 +315,4 @@ static void without_memory_a_deck_is_no_deck_and_nothing_leaks(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_wrong_deck_is_refused_where_it_is_wrong),
-        cmocka_unit_test(what_is_no_file_of_text_is_refused),
-        cmocka_unit_test(a_file_that_may_not_be_read_is_refused),
-        cmocka_unit_test(more_elements_than_an_integer_counts_are_refused),
-        cmocka_unit_test(more_cards_or_sensors_than_a_rotor_has_are_refused_at_once),
-        cmocka_unit_test(a_deck_cut_off_anywhere_gets_an_answer),
-        cmocka_unit_test(a_deck_with_one_wrong_byte_gets_an_answer),
-        cmocka_unit_test(without_memory_a_deck_is_no_deck_and_nothing_leaks),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);
