@@ -7,13 +7,12 @@
  *
  *   result.c          result_json: the struct of the command as JSON by its table (result_record), a row of the table a key
  *   result_read.c     result_read: a file to struct result, then contradictions between its parts
- *   record_write.c, record_read.c  any struct that has a table of src/record, to JSON and from JSON
+ *   json_write.c, json_read.c  any struct that has a table of src/record, to JSON and from JSON; a value with its path:
+ *                     "result.json: modes[2].measured_hz: is a text, expected a number"
  *   results.def       the results that only the program has: ema, export, study, frf, uff. Those of the others (check, modes,
  *                     identify, diagnose, suggest, speeds) are structs of rotid.h and have their tables in src/record
  *   tables.c          the tables of results.def, of the sensitivities of src/run, and of the line of a run of a study
- *   json_tree.c       an object under construction; a failed allocation is remembered
  *   json_file.c       a text of JSON, or one value a line, within limits of memory
- *   place.c           a value with its path: "result.json: modes[2].measured_hz: is a text, expected a number"
  *   judgement.c       fit_p_value = P(chi^2 of dof > misfit); worst mode; what hides in a parameter; rivals of a verdict
  *   cause_place.c     where a cause acts along z
  *   head.c            program, seed, command, deck of a result; references of the heading
@@ -156,23 +155,10 @@ void json_free(char *text);
 /* The same without a blank, in one line. */
 char *json_close_line(struct json_tree *tree);
 
-/* Each adds to an object under `key`, to an array where `key` is NULL; nothing and a mark on the tree where `parent` is NULL. */
-cJSON *json_object(struct json_tree *tree, cJSON *parent, const char *key);
-cJSON *json_array(struct json_tree *tree, cJSON *parent, const char *key);
-void json_null(struct json_tree *tree, cJSON *parent, const char *key);
-void json_flag(struct json_tree *tree, cJSON *parent, const char *key, int value);
-/* null where the value is not finite */
-void json_number(struct json_tree *tree, cJSON *parent, const char *key, double value);
-/* In whatever encoding: bytes that are not UTF-8 become U+FFFD; null where there is no text. */
-void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text);
-/* The same with nine significant digits, for arrays that are drawn and not computed with: an array of the length of a mesh takes
- * a third of the room, and one node of the tree. */
-void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
-/* A number rounded to that. */
-void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value);
-/* Rows of a column-major matrix, in full or with nine significant digits. */
-void json_digit_rows(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
-void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
+/* An array under `key` of `object`, with nine significant digits, for what is drawn and not computed with: an array of the length
+ * of a mesh takes a third of the room, and one node of the tree; and the rows of a column-major matrix. */
+void json_digits(struct json_tree *tree, cJSON *object, const char *key, int count, const double *value);
+void json_digit_rows(struct json_tree *tree, cJSON *object, const char *key, int rows, int columns, const double *value);
 
 /* ------------------------------------------------------------------------------------------------------------- judgement */
 
@@ -236,30 +222,19 @@ enum place_kind { PLACE_NUMBER, PLACE_TEXT, PLACE_FLAG, PLACE_LIST, PLACE_OBJECT
 /* What is wrong at this place: the text goes on behind the path. */
 void place_wrong(const struct json_place *at, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Whether the value is of the kind. If it is of another one that is told; null is let pass. */
-int place_is(const struct json_place *at, enum place_kind kind);
 /* Whether an object has the key at all. */
 int place_has(const struct json_place *above, const char *key);
 
-/* The value under a key of the object `above`, which stays alive as long as *at. 1, or 0 where it is not there: `find` takes a
- * missing key or null for that, `need` says that it is missing. A value of another kind is wrong for both. Of an object that is
- * not there nothing is there. */
-int place_find(const struct json_place *above, const char *key, enum place_kind kind, struct json_place *at);
+/* The value under a key of the object `above`, which stays alive as long as *at. 1, or 0 where it is not there or of another
+ * kind, which is told. Of an object that is not there nothing is there. */
 int place_need(const struct json_place *above, const char *key, enum place_kind kind, struct json_place *at);
 
 /* A key that has to be there. null is NaN of a number, "" of a text, 0 of a flag. Texts are copies in the pool. */
 double place_number(const struct json_place *above, const char *key);
 const char *place_string(const struct json_place *above, const char *key);
 
-/* The elements of a list: for (struct json_place item = place_first(&list, kind); item.json; item = place_next(&item, kind)).
- * Elements of another kind are wrong and passed over; null counts as one. */
+/* The first element of a list that is of the kind. Elements of another kind are wrong and passed over; null counts as one. */
 struct json_place place_first(const struct json_place *list, enum place_kind kind);
-struct json_place place_next(const struct json_place *item, enum place_kind kind);
-int place_count(const struct json_place *list);
-/* Rows of the same length as a column-major matrix (pool): 1, or 0 where it is not there or empty. expected: the rows and columns
- * there have to be, NULL: any number. */
-int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,
-                 double **value);
 
 /* --------------------------------------------------------------------------------------------------------------- records */
 
