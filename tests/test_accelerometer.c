@@ -158,9 +158,8 @@ static double away(const rotid_fit_result *fit, int p, double truth)
     return (fit->x[p] - truth) / ((fit->ci_upper[p] - fit->ci_lower[p]) / 2);
 }
 
-static void thirty_grams_on_six_kilograms_are_found(void **state)
+UNIT_TEST(thirty_grams_on_six_kilograms_are_found)
 {
-    (void)state;
     double worst[2] = {0, 0};
     int named = 0; /* something in the rotor: 1 of 20 seeds */
     for (unsigned long seed = 1; seed <= 6; seed++) {
@@ -212,9 +211,8 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
     assert_true(named <= 1);
 }
 
-static void without_a_mass_none_is_found_and_the_smallest_is_listed(void **state)
+UNIT_TEST(without_a_mass_none_is_found_and_the_smallest_is_listed)
 {
-    (void)state;
     for (unsigned long seed = 1; seed <= 3; seed++) {
         const struct simulation s = {.noise = 1e-4, .seed = 100 + seed};
         struct message_list notes;
@@ -231,9 +229,8 @@ static void without_a_mass_none_is_found_and_the_smallest_is_listed(void **state
     }
 }
 
-static void a_drift_is_a_drift(void **state)
+UNIT_TEST(a_drift_is_a_drift)
 {
-    (void)state;
     for (int both = 0; both < 2; both++) {
         const struct simulation s = {.mass = both ? 0.03 : 0, .drift = -2e-3, .noise = 1e-4, .seed = 31};
         struct message_list notes;
@@ -250,9 +247,8 @@ static void a_drift_is_a_drift(void **state)
     }
 }
 
-static void missing_and_bad_readings_do_no_harm(void **state)
+UNIT_TEST(missing_and_bad_readings_do_no_harm)
 {
-    (void)state;
     const struct simulation s = {.mass = 0.03, .noise = 1e-4, .missing = 1, .bad = 1, .seed = 41};
     struct message_list notes;
     struct diagnosis d;
@@ -271,9 +267,8 @@ static void missing_and_bad_readings_do_no_harm(void **state)
 }
 
 /* The mass that the deck suspects is weighed once, and a fault of a channel is found beside it and written with it. */
-static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
+UNIT_TEST(a_suspect_and_a_fault_of_a_channel_stand_beside_it)
 {
-    (void)state;
     const struct simulation s = {.mass = 0.03, .noise = 1e-4, .seed = 51};
     struct message_list notes;
     struct diagnosis d;
@@ -301,9 +296,8 @@ static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
 
 /* ------------------------------------------------------------------------------------------------ the paper's rotor */
 
-static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
+UNIT_TEST(on_a_ton_it_is_below_the_noise_and_listed)
 {
-    (void)state;
     static const double noise[] = {1e-4, 3e-4, 1e-3, 3e-3};
     struct random_stream stream = {61};
     struct message_list messages;
@@ -366,15 +360,4 @@ static int close_all(void **state)
     return folder_remove(state) || close_test_pool(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thirty_grams_on_six_kilograms_are_found),
-        cmocka_unit_test(without_a_mass_none_is_found_and_the_smallest_is_listed),
-        cmocka_unit_test(a_drift_is_a_drift),
-        cmocka_unit_test(missing_and_bad_readings_do_no_harm),
-        cmocka_unit_test(a_suspect_and_a_fault_of_a_channel_stand_beside_it),
-        cmocka_unit_test(on_a_ton_it_is_below_the_noise_and_listed),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
-}
+TEST_GROUP(open_all, close_all);

@@ -7,13 +7,13 @@
 
 #include "api_bench.h"
 #include "folder.h"
+#include "support.h"
 
 #define LAP ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
 
 /* The deck that a diagnosis hands over is the one that the program writes, and it is one. */
-static void the_extended_deck_is_that_of_the_program(void **state)
+UNIT_TEST(the_extended_deck_is_that_of_the_program)
 {
-    (void)state;
     char command[512], *text = calloc(1 << 20, 1);
     rotid_diagnosis *d;
     rotid_deck *deck = bench_deck(LAP);
@@ -57,9 +57,8 @@ static char *file_text(const char *path)
 
 /* The extended deck has every line of the user's but those that had to change, in its order, and is fitted as the diagnosis was:
  * a suspicion that was named; a mesh that is fine enough; noise that was assumed; measured data in a file. */
-static void the_extended_deck_keeps_the_words_of_the_user(void **state)
+UNIT_TEST(the_extended_deck_keeps_the_words_of_the_user)
 {
-    (void)state;
     static const struct {
         const char *deck, *gone[6]; /* beginnings of lines that change */
         int in_file;
@@ -156,9 +155,8 @@ static void a_diagnosis_agrees_with_its_fits(const rotid_diagnosis *d)
 }
 
 /* Data made by the library itself from a deck that says what is wrong, given to one that does not. */
-static void what_was_hidden_is_named(void **state)
+UNIT_TEST(what_was_hidden_is_named)
 {
-    (void)state;
     rotid_diagnosis *d;
     const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2, .seed = 4};
     bench_hidden_deck(folder_path("deck.inp"), 0.4, 3);
@@ -185,12 +183,4 @@ static int open_folder(void **state)
     return folder_make(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_extended_deck_is_that_of_the_program),
-        cmocka_unit_test(the_extended_deck_keeps_the_words_of_the_user),
-        cmocka_unit_test(what_was_hidden_is_named),
-    };
-    return cmocka_run_group_tests_name("api diagnosis", tests, open_folder, folder_remove);
-}
+TEST_GROUP(open_folder, folder_remove);

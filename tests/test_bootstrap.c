@@ -91,9 +91,8 @@ static void run(const struct scan *scan, int replicates, unsigned long seed, int
 
 /* Of one column the drop is chi2 with one degree of freedom, of a one-sided one half of the time zero. Without frequencies the
  * whole chi2 takes a third of the alarms; over many rows it has little to do with the column. */
-static void one_column_has_the_analytic_threshold(void **state)
+POOL_TEST(one_column_has_the_analytic_threshold)
 {
-    (void)state;
     const double expected = (FAMILY_WISE - BLOCK_LEVEL) / (1 - BLOCK_LEVEL);
     for (int side = -1; side <= 1; side++) {
         struct scan scan = random_scan(150, 0, 2, 1);
@@ -112,9 +111,8 @@ static void one_column_has_the_analytic_threshold(void **state)
 }
 
 /* Columns at right angles are independent: the largest of m has the tail 1 - (1 - p)^m. */
-static void many_orthogonal_columns(void **state)
+POOL_TEST(many_orthogonal_columns)
 {
-    (void)state;
     enum { columns = 25 };
     struct scan scan = random_scan(120, 0, 0, columns);
     struct bootstrap b;
@@ -155,9 +153,8 @@ static double tail(int n, const double *sorted, double value)
     return (count + 1.0) / (n + 1.0);
 }
 
-static void sound_data_alarm_as_often_as_stated(void **state)
+POOL_TEST(sound_data_alarm_as_often_as_stated)
 {
-    (void)state;
     enum { cases = 4000 };
     struct scan scan = random_scan(70, 6, 5, 40);
     struct random_stream stream = {2024};
@@ -185,9 +182,8 @@ static void sound_data_alarm_as_often_as_stated(void **state)
 }
 
 /* The three probabilities of a bootstrap are those of the scan that it was given. */
-static void probabilities_belong_to_the_scan(void **state)
+POOL_TEST(probabilities_belong_to_the_scan)
 {
-    (void)state;
     struct scan scan = random_scan(60, 5, 3, 20);
     struct random_stream stream = {77};
     struct bootstrap b;
@@ -200,9 +196,8 @@ static void probabilities_belong_to_the_scan(void **state)
     assert_close(bootstrap_p(&b, 0), 1, 0, 0);
 }
 
-static void the_same_numbers_for_any_number_of_threads(void **state)
+POOL_TEST(the_same_numbers_for_any_number_of_threads)
 {
-    (void)state;
     static const int threads[] = {2, 3, 8};
     struct scan scan = random_scan(90, 6, 4, 33);
     struct random_stream stream = {5};
@@ -222,9 +217,8 @@ static void the_same_numbers_for_any_number_of_threads(void **state)
     }
 }
 
-static void nothing_to_look_for(void **state)
+POOL_TEST(nothing_to_look_for)
 {
-    (void)state;
     struct scan scan = random_scan(30, 5, 2, 0);
     struct bootstrap b;
     run(&scan, 500, 1, 2, &b);
@@ -242,9 +236,8 @@ static int cancelled(void *context)
     return atomic_fetch_sub(&((struct host *)context)->left, 1) <= 0;
 }
 
-static void a_host_can_cancel(void **state)
+POOL_TEST(a_host_can_cancel)
 {
-    (void)state;
     struct scan scan = random_scan(40, 5, 2, 10);
     struct bootstrap b;
     for (int after = 0; after < 12; after += 5)
@@ -258,9 +251,8 @@ static void a_host_can_cancel(void **state)
     assert_status(bootstrap_run(&test_pool, &scan, 1000, 1, 2, &environment, &b), ROTID_OK);
 }
 
-static void memory_that_runs_out(void **state)
+POOL_TEST(memory_that_runs_out)
 {
-    (void)state;
     struct scan scan = random_scan(40, 5, 2, 10);
     int status = ROTID_ERROR_MEMORY, n = 0;
     while (status == ROTID_ERROR_MEMORY && n < 100) {
@@ -275,20 +267,4 @@ static void memory_that_runs_out(void **state)
     }
     assert_status(status, ROTID_OK);
     assert_true(n > 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(one_column_has_the_analytic_threshold),
-        TEST(many_orthogonal_columns),
-        TEST(sound_data_alarm_as_often_as_stated),
-        TEST(probabilities_belong_to_the_scan),
-        TEST(the_same_numbers_for_any_number_of_threads),
-        TEST(nothing_to_look_for),
-        TEST(a_host_can_cancel),
-        TEST(memory_that_runs_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include "diagnose/diagnose.h"
 #include "effect_bench.h"
 #include "modal/modal.h"
+#include "support.h"
 
 #define SENSORS 13
 #define MODES   5
@@ -124,9 +125,8 @@ static void check_own(const struct job *job)
     }
 }
 
-static void columns_of_own_parameters_are_the_jacobian(void **state)
+POOL_TEST(columns_of_own_parameters_are_the_jacobian)
 {
-    (void)state;
     struct job *job = open_job(BUNDLE_TUBE);
     check_own(job);
     bench.holdout[2] = 1; /* leaves rows out, not parameters */
@@ -140,9 +140,8 @@ static void columns_of_own_parameters_are_the_jacobian(void **state)
     check_own(job);
 }
 
-static void frequencies_alone_have_one_row_each(void **state)
+POOL_TEST(frequencies_alone_have_one_row_each)
 {
-    (void)state;
     struct job *job = open_job(BUNDLE_RODS);
     job->measurement.shape = NULL;
     check_own(job);
@@ -157,9 +156,8 @@ static void frequencies_alone_have_one_row_each(void **state)
         assert_int_equal(c.mode[m].sensors, 0);
 }
 
-static void columns_with_effects_in_the_model(void **state)
+POOL_TEST(columns_with_effects_in_the_model)
 {
-    (void)state;
     static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, both[4] = {0.3, 0.6, 0.09, 0.5}, cone[4] = {31},
                         joint[4] = {3e-10};
     struct job *job = open_job(BUNDLE_TUBE);
@@ -266,15 +264,13 @@ static int check_all_causes(const struct job *job)
     return checked;
 }
 
-static void columns_of_causes_are_derivatives_at_neutral(void **state)
+POOL_TEST(columns_of_causes_are_derivatives_at_neutral)
 {
-    (void)state;
     assert_true(check_all_causes(open_job(BUNDLE_TUBE)) >= 20);
 }
 
-static void columns_of_causes_beside_an_accepted_one(void **state)
+POOL_TEST(columns_of_causes_beside_an_accepted_one)
 {
-    (void)state;
     static const double cone[4] = {33}, mass[4] = {6, 1.7};
     struct job *job = open_job(BUNDLE_RODS);
     bench_add(&job->rotor, cause_step_stiffness.effect, -1, 0, cone);
@@ -287,9 +283,8 @@ static void columns_of_causes_beside_an_accepted_one(void **state)
 }
 
 /* The probe changes nothing of the model, and one after the other in the same place gives what each gives alone. */
-static void probes_leave_no_trace(void **state)
+POOL_TEST(probes_leave_no_trace)
 {
-    (void)state;
     static const struct effect none = {.kind = &nothing};
     struct job *job = open_job(BUNDLE_TUBE);
     struct effect joint = {.name = "j", .kind = cause_joint.effect, .target = 0},
@@ -311,15 +306,4 @@ static void probes_leave_no_trace(void **state)
     assert_true(relative_difference((size_t)in_turn.nrow, column, expected) < 1e-12);
     assert_status(columns_parameter(&in_turn, 0, column), ROTID_OK);
     assert_true(relative_difference((size_t)in_turn.nrow, column, own) < 1e-12);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(columns_of_own_parameters_are_the_jacobian), TEST(frequencies_alone_have_one_row_each),
-        TEST(columns_with_effects_in_the_model),          TEST(columns_of_causes_are_derivatives_at_neutral),
-        TEST(columns_of_causes_beside_an_accepted_one),   TEST(probes_leave_no_trace),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,10 +108,9 @@ static void diagnose_paper(const char *bounds, uint64_t seed, const char *truth,
 }
 
 /* What the corners take of the stiffness has to come out of E, which the bound does not allow. */
-static void a_modulus_at_a_tight_bound_gets_off_it_with_the_cause(void **state)
+UNIT_TEST(a_modulus_at_a_tight_bound_gets_off_it_with_the_cause)
 {
     static const char *const bounds[] = {"core.E, 9.7e10, 1e12, 1.2e11", "core.E, 9.9e10, 2.3e11, 1.2e11"};
-    (void)state;
     for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
         struct run r;
         diagnose_paper(bounds[b], 1, "core.E=1.05e11", "step_stiffness:angle=30", &r);
@@ -125,10 +124,9 @@ static void a_modulus_at_a_tight_bound_gets_off_it_with_the_cause(void **state)
 }
 
 /* Its flexibility takes more of E than the bound allows. */
-static void a_very_soft_joint_is_named_although_E_ends_at_a_bound(void **state)
+UNIT_TEST(a_very_soft_joint_is_named_although_E_ends_at_a_bound)
 {
     struct run r;
-    (void)state;
     diagnose_paper("core.E, 9e10, 1e12, 1.2e11", 1, "core.E=1.012e11", "joint:at=core.end,flexibility=1e-8", &r);
     assert_named(&r.d, "joint");
     assert_close(r.d.cause[0].effect.value[0], 1e-8, 0.03, 0);
@@ -136,10 +134,9 @@ static void a_very_soft_joint_is_named_although_E_ends_at_a_bound(void **state)
 }
 
 /* Nothing is wrong but the bound, and causes that would do some of the work are there. */
-static void a_bound_that_keeps_the_truth_out_is_no_cause(void **state)
+UNIT_TEST(a_bound_that_keeps_the_truth_out_is_no_cause)
 {
     struct run r;
-    (void)state;
     diagnose_paper("core.E, 1.1e11, 2.3e11, 1.5e11", 12, "core.E=1.0e11", NULL, &r);
     assert_true(r.d.result.verdict.kind == ROTID_AMBIGUOUS || r.d.result.verdict.kind == ROTID_UNEXPLAINED);
     assert_says(r.d.result.verdict.sentence,
@@ -147,12 +144,4 @@ static void a_bound_that_keeps_the_truth_out_is_no_cause(void **state)
     close_run(&r);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_modulus_at_a_tight_bound_gets_off_it_with_the_cause),
-        cmocka_unit_test(a_very_soft_joint_is_named_although_E_ends_at_a_bound),
-        cmocka_unit_test(a_bound_that_keeps_the_truth_out_is_no_cause),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -126,9 +126,8 @@ static void diagnose_as_beam(const char *file, struct run *r)
     assert_true(fit->ci_lower[1] < 0.47e11 && 0.47e11 < fit->ci_upper[1]);
 }
 
-static void a_solid_is_no_beam(void **state)
+UNIT_TEST(a_solid_is_no_beam)
 {
-    (void)state;
     struct run r;
     diagnose_as_beam("converged_rotor_uniform.uff", &r);
     const struct diagnosis *d = &r.d;
@@ -145,9 +144,8 @@ static void a_solid_is_no_beam(void **state)
 }
 
 /* Axial E and G of the core times 1 - 0.5 exp(-(z - 0.91)^2 / (2 0.03^2)). */
-static void a_solid_with_a_soft_zone_has_a_soft_zone(void **state)
+UNIT_TEST(a_solid_with_a_soft_zone_has_a_soft_zone)
 {
-    (void)state;
     struct run r;
     diagnose(&r, changed_deck(INPUT "converged_rotor.inp", "converged_rotor_uniform.uff", "converged_rotor_local.uff", ""));
     assert_kind(&r, ROTID_NAMED);
@@ -161,9 +159,8 @@ static void a_solid_with_a_soft_zone_has_a_soft_zone(void **state)
     close_run(&r);
 }
 
-static void steel_predicts_modes_it_has_not_seen(void **state)
+UNIT_TEST(steel_predicts_modes_it_has_not_seen)
 {
-    (void)state;
     struct run r;
     diagnose(&r, changed_deck(INPUT "solid_steel.inp", NULL, NULL,
                               "\n*NOISE, FREQUENCY=0.003, SHAPE=0.02\n*FIT, MODES=1-3, HOLDOUT=4-6\n"));
@@ -184,9 +181,8 @@ static const struct candidate *suspect(const struct diagnosis *d, const char *na
     return NULL;
 }
 
-static void a_bolted_lap_is_found(void **state)
+UNIT_TEST(a_bolted_lap_is_found)
 {
-    (void)state;
     struct run r;
     diagnose(&r, INPUT "brake_reuss_lap.inp");
     const struct diagnosis *d = &r.d;
@@ -203,9 +199,8 @@ static void a_bolted_lap_is_found(void **state)
 }
 
 /* The best monolithic beam is the mark that the lap has to beat. */
-static void the_monolithic_beam_leaves_what_it_is_measured_by(void **state)
+UNIT_TEST(the_monolithic_beam_leaves_what_it_is_measured_by)
 {
-    (void)state;
     struct run r;
     diagnose(&r, INPUT "brake_reuss_beam.inp");
     assert_close(r.d.result.gain.holdout_frequency_rms_percent.before, 14.3, 0, 0.3);
@@ -216,9 +211,8 @@ static void the_monolithic_beam_leaves_what_it_is_measured_by(void **state)
     close_run(&r);
 }
 
-static void supports_are_a_false_lead(void **state)
+UNIT_TEST(supports_are_a_false_lead)
 {
-    (void)state;
     struct run r;
     diagnose(&r, INPUT "foam_bar_supports.inp");
     const struct diagnosis *d = &r.d;
@@ -237,9 +231,8 @@ static void supports_are_a_false_lead(void **state)
     close_run(&r);
 }
 
-static void few_modes_of_a_slender_beam_leave_G_open(void **state)
+UNIT_TEST(few_modes_of_a_slender_beam_leave_G_open)
 {
-    (void)state;
     struct run r;
     diagnose(&r, INPUT "roving_hammer_beam.inp");
     assert_kind(&r, ROTID_ADEQUATE);
@@ -251,9 +244,8 @@ static void few_modes_of_a_slender_beam_leave_G_open(void **state)
     close_run(&r);
 }
 
-static void six_frequencies_of_the_paper_carry_no_name(void **state)
+UNIT_TEST(six_frequencies_of_the_paper_carry_no_name)
 {
-    (void)state;
     struct run r;
     diagnose(&r, INPUT "paper_rotor.inp");
     const struct diagnosis *d = &r.d;
@@ -275,9 +267,8 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
 
 /* Without its cause the model takes G to its bound, eight times what is true; from there every refit of the true cause ends in
  * another minimum, and beam theory, which has no size, took the name. */
-static void a_cause_is_refitted_from_the_deck_where_the_base_has_strayed(void **state)
+UNIT_TEST(a_cause_is_refitted_from_the_deck_where_the_base_has_strayed)
 {
-    (void)state;
     struct run r;
     diagnose(&r, ROTID_SOURCE_DIR "/tests/data/decks/strayed_base.inp");
     const struct diagnosis *d = &r.d;
@@ -293,9 +284,8 @@ static void a_cause_is_refitted_from_the_deck_where_the_base_has_strayed(void **
 
 /* Beside a disk of another inertia than stated the positions of all sensors "count from the other end" with a lower chi2 than the
  * sound ones: what leaves the data unexplained is no fault of the line. */
-static void a_line_of_sensors_is_not_blamed_beside_a_wrong_model(void **state)
+UNIT_TEST(a_line_of_sensors_is_not_blamed_beside_a_wrong_model)
 {
-    (void)state;
     struct run r;
     diagnose(&r, ROTID_SOURCE_DIR "/tests/data/decks/other_inertia.inp");
     assert_int_not_equal(r.d.result.verdict.kind, ROTID_ADEQUATE);
@@ -309,19 +299,4 @@ static int open_all(void **state)
     return folder_make(state) || symlink(INPUT "data", folder_path("data"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_solid_is_no_beam),
-        cmocka_unit_test(a_solid_with_a_soft_zone_has_a_soft_zone),
-        cmocka_unit_test(steel_predicts_modes_it_has_not_seen),
-        cmocka_unit_test(a_bolted_lap_is_found),
-        cmocka_unit_test(the_monolithic_beam_leaves_what_it_is_measured_by),
-        cmocka_unit_test(supports_are_a_false_lead),
-        cmocka_unit_test(few_modes_of_a_slender_beam_leave_G_open),
-        cmocka_unit_test(six_frequencies_of_the_paper_carry_no_name),
-        cmocka_unit_test(a_cause_is_refitted_from_the_deck_where_the_base_has_strayed),
-        cmocka_unit_test(a_line_of_sensors_is_not_blamed_beside_a_wrong_model),
-    };
-    return cmocka_run_group_tests(tests, open_all, folder_remove);
-}
+TEST_GROUP(open_all, folder_remove);

@@ -95,11 +95,10 @@ static const struct candidate *find(const struct diagnosis *d, const char *id)
     return NULL;
 }
 
-static void a_beam_that_is_a_solid_is_told_so(void **state)
+POOL_TEST(a_beam_that_is_a_solid_is_told_so)
 {
     struct diagnosis d;
     struct message_list messages;
-    (void)state;
     diagnose(NULL, 0, "*FIT, REDUCTION=NONE\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(d.ncause, 1);
@@ -124,10 +123,9 @@ static void a_beam_that_is_a_solid_is_told_so(void **state)
     diagnose_free(&d);
 }
 
-static void a_solid_that_explains_its_data_is_adequate(void **state)
+POOL_TEST(a_solid_that_explains_its_data_is_adequate)
 {
     struct diagnosis d;
-    (void)state;
     diagnose(NULL, 0, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_ADEQUATE);
     assert_close(d.base.fit->x[0], true_e, 0.015, 0);
@@ -135,11 +133,10 @@ static void a_solid_that_explains_its_data_is_adequate(void **state)
     diagnose_free(&d);
 }
 
-static void what_a_solid_lacks_is_named_and_sized(void **state)
+POOL_TEST(what_a_solid_lacks_is_named_and_sized)
 {
     struct diagnosis d;
     struct effect ring = {.name = "ring", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {1.5, 0.5}};
-    (void)state;
     diagnose(&ring, 0, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(d.ncause, 1);
@@ -156,10 +153,9 @@ static void what_a_solid_lacks_is_named_and_sized(void **state)
 }
 
 /* What is fitted is the measured shape less what the coarse mesh misses, another number at every sensor. */
-static void a_copied_channel_of_a_solid_is_told_by_its_digits(void **state)
+POOL_TEST(a_copied_channel_of_a_solid_is_told_by_its_digits)
 {
     struct diagnosis d;
-    (void)state;
     diagnose(NULL, 1, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.ndata_findings, 1);
     assert_string_equal(d.result.data_findings[0].id, "duplicate_channel");
@@ -170,13 +166,12 @@ static void a_copied_channel_of_a_solid_is_told_by_its_digits(void **state)
 
 /* The coarse mesh, on which a solid is fitted, has to leave nothing that could be taken for a cause: its shapes are off by more
  * than that beside the step. */
-static void a_fit_of_exact_data_leaves_nothing(void **state)
+POOL_TEST(a_fit_of_exact_data_leaves_nothing)
 {
     struct message_list messages;
     struct identification result;
     struct job job;
     char text[16384];
-    (void)state;
     strcpy(text, rotor_text);
     put_sensors(text);
     put_measured(NULL, 0, 0, text);
@@ -189,14 +184,4 @@ static void a_fit_of_exact_data_leaves_nothing(void **state)
     rotid_fit_free(result.fit);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_beam_that_is_a_solid_is_told_so, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_fit_of_exact_data_leaves_nothing, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_solid_that_explains_its_data_is_adequate, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_copied_channel_of_a_solid_is_told_by_its_digits, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_a_solid_lacks_is_named_and_sized, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

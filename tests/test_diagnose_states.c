@@ -60,9 +60,8 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
 }
 
 /* States of 1.05 m and of 0.5 m share a zone: it has to be a zone of both, so the shorter one limits width and place. */
-static void what_states_share_is_possible_in_each(void **state)
+POOL_TEST(what_states_share_is_possible_in_each)
 {
-    (void)state;
     static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=short\n*SET\nleft.length, 0.12\ncore.length, 0.3\n"
                                      "right.length, 0.08\n*MODES\n1, 900\n2, 2000\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n";
     rotid_deck *deck = read_handle(text, 0, NULL);
@@ -94,9 +93,8 @@ static rotid_diagnosis *diagnose_text(const char *text)
 }
 
 /* Two effects of which one or both are in one state: what one cause in one state leaves is more than noise. */
-static void two_causes_are_named_with_their_states(void **state)
+UNIT_TEST(two_causes_are_named_with_their_states)
 {
-    (void)state;
     static const char *const left[] = {"stiffness:group=left,factor=0.9"}, *const mass[] = {"added_mass:mass=0.8,z=0.9"},
                              *const both[] = {"density:group=right,factor=1.1", "stiffness:group=left,factor=0.9"};
     static const struct {
@@ -121,9 +119,8 @@ static void two_causes_are_named_with_their_states(void **state)
 }
 
 /* A deck with one *STATE is that deck without it. */
-static void one_state_is_a_deck_without_states(void **state)
+UNIT_TEST(one_state_is_a_deck_without_states)
 {
-    (void)state;
     const struct hide_request r = request(5, 10, 7);
     const struct hidden_state only[] = {{"only", "", 1, zone}};
     char message[300], *text = hidden_states_deck(&r, 1, only, NULL, message, sizeof message), *card = strstr(text, "*STATE");
@@ -191,9 +188,8 @@ static void assert_extended(const rotid_diagnosis *d)
     rotid_deck_free(deck);
 }
 
-static void a_cause_of_both_is_surer_than_of_one_alone(void **state)
+UNIT_TEST(a_cause_of_both_is_surer_than_of_one_alone)
 {
-    (void)state;
     static const struct hidden_state states[] = {{"bare", "", 1, zone}, {"disc", DISC, 1, zone}};
     static const char *const sets[] = {"FIT.STATE=bare", "FIT.STATE=disc"};
     const struct hide_request r = request(6, 0, 700);
@@ -215,9 +211,8 @@ static void a_cause_of_both_is_surer_than_of_one_alone(void **state)
     rotid_diagnosis_free(both);
 }
 
-static void a_cause_in_one_state_is_named_with_it(void **state)
+UNIT_TEST(a_cause_in_one_state_is_named_with_it)
 {
-    (void)state;
     static const char *const mass[] = {"added_mass:mass=1.5,z=0.7"}, *const soft[] = {
                                                                          "stiffness_local:depth=0.4,z=0.5,width=0.03"};
     static const struct hidden_state second[] = {{"bare", "", 0, NULL}, {"disc", DISC, 1, mass}},
@@ -232,9 +227,8 @@ static void a_cause_in_one_state_is_named_with_it(void **state)
     rotid_diagnosis_free(d);
 }
 
-static void nothing_hidden_is_adequate(void **state)
+UNIT_TEST(nothing_hidden_is_adequate)
 {
-    (void)state;
     static const struct hidden_state states[] = {{"bare", "", 0, NULL}, {"disc", DISC, 0, NULL}};
     const struct hide_request r = request(4, 7, 300);
     rotid_diagnosis *d = diagnose(&r, states, NULL, NULL, NULL);
@@ -246,9 +240,8 @@ static void nothing_hidden_is_adequate(void **state)
 }
 
 /* A wrong gain in one state is found there, and the cause of both states beside it. */
-static void a_fault_of_a_channel_goes_with_its_state(void **state)
+UNIT_TEST(a_fault_of_a_channel_goes_with_its_state)
 {
-    (void)state;
     static const char *const fault[] = {"density:group=right,factor=1.15", "sensor_gain:sensor=6,gain=1.4"};
     static const struct hidden_state states[] = {{"bare", "", 1, fault}, {"disc", DISC, 2, fault}};
     const struct hide_request r = request(4, 11, 500);
@@ -262,9 +255,8 @@ static void a_fault_of_a_channel_goes_with_its_state(void **state)
 }
 
 /* A state that is held out is predicted, and no cause is looked for in it. */
-static void a_state_held_out_is_evidence(void **state)
+UNIT_TEST(a_state_held_out_is_evidence)
 {
-    (void)state;
     static const char *const dense[] = {"density:group=right,factor=1.15"};
     static const struct hidden_state states[] = {{"disc", DISC, 1, dense}, {"bare", "", 1, dense}};
     const struct hide_request r = request(4, 7, 600);
@@ -278,9 +270,8 @@ static void a_state_held_out_is_evidence(void **state)
 }
 
 /* An error that stays is not what changed. */
-static void what_changed_is_named_and_what_stays_is_not(void **state)
+UNIT_TEST(what_changed_is_named_and_what_stays_is_not)
 {
-    (void)state;
     static const char *const soft = "stiffness_local:depth=0.4,z=0.4,width=0.03", *const dense = "density:group=left,factor=1.1";
     static const struct {
         const char *effect[2]; /* that stays, that comes */
@@ -309,9 +300,8 @@ static void what_changed_is_named_and_what_stays_is_not(void **state)
 }
 
 /* The data of the second state by the equations of changed.h, beside the modes of the model that is held. */
-static void data_are_corrected_by_what_the_first_state_shows(void **state)
+POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
 {
-    (void)state;
     enum { MODES = 4, SENSORS = 7 };
     static const char *const dense[] = {"density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
@@ -349,9 +339,8 @@ static void data_are_corrected_by_what_the_first_state_shows(void **state)
 }
 
 /* What is missed counts as noise by how much the mode has moved, d^2 = (2 ln f_a/f_b)^2 without shapes. */
-static void what_a_mode_has_moved_widens_its_noise(void **state)
+POOL_TEST(what_a_mode_has_moved_widens_its_noise)
 {
-    (void)state;
     enum { MODES = 4 };
     static const char *const dense[] = {"density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", DISC, 1, dense}};
@@ -381,9 +370,8 @@ static void what_a_mode_has_moved_widens_its_noise(void **state)
 
 /* Every fitted residual is one of a frequency or of a sensor, and those of modes that are held out are none: their squares sum up
  * to chi2. */
-static void residuals_of_sensors_and_frequencies_are_all_of_chi2(void **state)
+UNIT_TEST(residuals_of_sensors_and_frequencies_are_all_of_chi2)
 {
-    (void)state;
     static const struct hidden_state states[] = {{"one", "", 0, NULL}, {"two", DISC, 0, NULL}};
     const struct hide_request r = request(4, 7, 1500);
     rotid_diagnosis *d = diagnose(&r, states, "FIT.HOLDOUT=2", NULL, NULL);
@@ -404,9 +392,8 @@ static void residuals_of_sensors_and_frequencies_are_all_of_chi2(void **state)
 }
 
 /* What a disc adds that the deck states is no change. */
-static void what_the_deck_states_is_no_change(void **state)
+UNIT_TEST(what_the_deck_states_is_no_change)
 {
-    (void)state;
     static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 0, NULL}};
     const struct hide_request r = request(4, 7, 900);
     rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
@@ -414,9 +401,8 @@ static void what_the_deck_states_is_no_change(void **state)
     rotid_diagnosis_free(d);
 }
 
-static void wrong_states_are_refused(void **state)
+UNIT_TEST(wrong_states_are_refused)
 {
-    (void)state;
     static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 0, NULL}};
     static const struct {
         const char *before, *after, *text;
@@ -440,9 +426,8 @@ static void wrong_states_are_refused(void **state)
 }
 
 /* Both questions, with one allocation failing, ever later. */
-static void failing_allocations_are_survived(void **state)
+UNIT_TEST(failing_allocations_are_survived)
 {
-    (void)state;
     static const char *const mass[] = {"added_mass:mass=0.5,z=0.7"};
     static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 1, mass}};
     const struct hide_request r = request(5, 0, 900);
@@ -470,26 +455,4 @@ static void failing_allocations_are_survived(void **state)
         rotid_deck_free(deck);
     }
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cause_of_both_is_surer_than_of_one_alone),
-        cmocka_unit_test(a_cause_in_one_state_is_named_with_it),
-        cmocka_unit_test(nothing_hidden_is_adequate),
-        cmocka_unit_test(two_causes_are_named_with_their_states),
-        cmocka_unit_test(one_state_is_a_deck_without_states),
-        cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
-        cmocka_unit_test(a_state_held_out_is_evidence),
-        cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
-        cmocka_unit_test_setup_teardown(what_states_share_is_possible_in_each, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_a_mode_has_moved_widens_its_noise, open_test_pool, close_test_pool),
-        cmocka_unit_test(residuals_of_sensors_and_frequencies_are_all_of_chi2),
-        cmocka_unit_test(what_the_deck_states_is_no_change),
-        cmocka_unit_test(wrong_states_are_refused),
-        cmocka_unit_test(failing_allocations_are_survived),
-    };
-    return cmocka_run_group_tests_name("diagnose_states", tests, NULL, NULL);
 }

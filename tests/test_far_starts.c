@@ -5,6 +5,7 @@
 #include "deck/deck.h"
 #include "diagnose/far_starts.c" /* the cost is its own */
 #include "effect_bench.h"
+#include "support.h"
 
 static const char bar[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
                           "0.5, 0.05, 0, 10\n0.5, 0.07, 0, 10\n*MODES\n1, 100\n2, 200\n3, 300\n4, 400\n"
@@ -22,9 +23,8 @@ static double cost_with(const struct job *job)
     return cost;
 }
 
-static void a_common_factor_costs_nothing(void **state)
+POOL_TEST(a_common_factor_costs_nothing)
 {
-    (void)state;
     const struct deck_memory memory = {"deck", sizeof bar - 1, bar, NULL};
     struct message_list messages;
     struct job job;
@@ -43,12 +43,4 @@ static void a_common_factor_costs_nothing(void **state)
     assert_close(cost_with(&job), 0, 0, 1e-9);
     job.measurement.frequency_hz[2] *= 1.01; /* one of four: the mean takes a quarter of it */
     assert_close(cost_with(&job), 0.75 * pow(log(1.01) / OFF_HZ, 2), 1e-3, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_common_factor_costs_nothing, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("far_starts", tests, NULL, NULL);
 }

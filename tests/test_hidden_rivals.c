@@ -126,9 +126,8 @@ static int run_all(void **state)
     return status;
 }
 
-static void the_effect_is_named_and_what_is_sound_not_accused(void **state)
+UNIT_TEST(the_effect_is_named_and_what_is_sound_not_accused)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++) {
         print_message("%s: named '%s', found '%s' of %d\n", table[i].effect[0], seen[i].named, seen[i].found, seen[i].sensor);
         if (table[i].named) {
@@ -141,10 +140,4 @@ static void the_effect_is_named_and_what_is_sound_not_accused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_effect_is_named_and_what_is_sound_not_accused),
-    };
-    return cmocka_run_group_tests(tests, run_all, NULL);
-}
+TEST_GROUP(run_all, NULL);

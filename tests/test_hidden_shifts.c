@@ -161,37 +161,22 @@ static void look(const struct rotor_case *c, int least)
     rotid_diagnosis_free(d);
 }
 
-static void of_a_beam(void **state)
+UNIT_TEST(of_a_beam)
 {
-    (void)state;
     look(&beam, 2);
 }
 
-static void of_layers(void **state)
+UNIT_TEST(of_layers)
 {
-    (void)state;
     look(&layers, 2);
 }
 
-static void of_a_solid(void **state)
+UNIT_TEST(of_a_solid)
 {
-    (void)state;
     look(&solid, 2);
 }
 
-static void of_two_states(void **state)
+UNIT_TEST(of_two_states)
 {
-    (void)state;
     look(&states, 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_a_beam),
-        cmocka_unit_test(of_layers),
-        cmocka_unit_test(of_a_solid),
-        cmocka_unit_test(of_two_states),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

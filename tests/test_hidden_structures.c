@@ -71,9 +71,8 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
     }
 }
 
-static void causes_of_small_structures_are_found(void **state)
+UNIT_TEST(causes_of_small_structures_are_found)
 {
-    (void)state;
     int bad = 0;
     assert_non_null(mkdtemp(directory));
     for (int i = 0; i < (int)(sizeof table / sizeof *table); i++) {
@@ -99,10 +98,4 @@ static void causes_of_small_structures_are_found(void **state)
     }
     rmdir(directory);
     assert_int_equal(bad, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(causes_of_small_structures_are_found)};
-    return cmocka_run_group_tests_name("hidden structures", tests, NULL, NULL);
 }

@@ -79,9 +79,8 @@ static void says_pair(const char *html, const cJSON *pair)
               digits(number_of(pair, "after"), 2));
 }
 
-static void a_named_cause_is_told_with_its_evidence_and_its_worth(void **state)
+POOL_TEST(a_named_cause_is_told_with_its_evidence_and_its_worth)
 {
-    (void)state;
     diagnose(RINGED, "mass.json");
     cJSON *json = page_json("mass.json");
     const cJSON *verdict = get(json, "verdict"), *gain = get(json, "gain");
@@ -107,9 +106,8 @@ static void a_named_cause_is_told_with_its_evidence_and_its_worth(void **state)
 }
 
 /* The answer, its tiles and the table are those of the explanations. */
-static void what_cannot_be_told_apart_has_shares(void **state)
+UNIT_TEST(what_cannot_be_told_apart_has_shares)
 {
-    (void)state;
     diagnose(PAPER, "paper.json");
     cJSON *json = page_json("paper.json");
     const cJSON *verdict = get(json, "verdict"), *e, *averaged = element(json, "parameters", 0);
@@ -131,9 +129,8 @@ static void what_cannot_be_told_apart_has_shares(void **state)
     cJSON_Delete(json);
 }
 
-static void what_nothing_explains_says_so(void **state)
+POOL_TEST(what_nothing_explains_says_so)
 {
-    (void)state;
     diagnose(BEAM, "beam.json");
     cJSON *json = page_json("beam.json");
     const char *html = page_made("beam.json");
@@ -145,9 +142,8 @@ static void what_nothing_explains_says_so(void **state)
 }
 
 /* The extended deck of a diagnosis, with two sensors exchanged by a card that would put an exchange right. */
-static void an_adequate_model_and_a_fault_of_the_data_are_told_apart(void **state)
+UNIT_TEST(an_adequate_model_and_a_fault_of_the_data_are_told_apart)
 {
-    (void)state;
     assert_int_equal(
         page_run("cd %s; %s diagnose %s --replicates 200 --quiet --extended better.inp", page_path(""), ROTID_PROGRAM, RINGED),
         0);
@@ -196,9 +192,8 @@ static void an_adequate_model_and_a_fault_of_the_data_are_told_apart(void **stat
     page_says(html, "At the test: follow the cables of both channels");
 }
 
-static void an_interrupted_diagnosis_says_so_and_shows_what_is_there(void **state)
+UNIT_TEST(an_interrupted_diagnosis_says_so_and_shows_what_is_there)
 {
-    (void)state;
     diagnose(RINGED, "mass.json");
     cJSON *json = page_json("mass.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
     static const char *const nulls[] = {"kind", "sentence", "next_measurement"};
@@ -235,9 +230,8 @@ static void an_interrupted_diagnosis_says_so_and_shows_what_is_there(void **stat
         (void)page_made("cut.json");
 }
 
-static void a_result_that_lacks_something_says_what(void **state)
+UNIT_TEST(a_result_that_lacks_something_says_what)
 {
-    (void)state;
     diagnose(RINGED, "mass.json");
     cJSON *json = page_json("mass.json");
     cJSON_DeleteItemFromObject(json, "geometry");
@@ -266,9 +260,8 @@ static void a_result_that_lacks_something_says_what(void **state)
     cJSON_Delete(json);
 }
 
-static void places_are_found_on_the_rotor(void **state)
+UNIT_TEST(places_are_found_on_the_rotor)
 {
-    (void)state;
     rotid_group group[] = {{.name = "left", .from_m = 0, .to_m = 0.5}, {.name = "core", .from_m = 0.5, .to_m = 1.2}};
     rotid_spring spring[] = {{.name = "sling", .z_m = 0.1}, {.name = NULL, .z_m = 1.1}};
     rotid_tierods ties[] = {{.name = NULL, .from_m = 0, .to_m = 1}, {.name = "ties", .from_m = 0.4, .to_m = 1.3}};
@@ -297,16 +290,4 @@ static void places_are_found_on_the_rotor(void **state)
     assert_false(cause_place(NULL, &ring, &place));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_named_cause_is_told_with_its_evidence_and_its_worth, open_test_pool, close_test_pool),
-        cmocka_unit_test(what_cannot_be_told_apart_has_shares),
-        cmocka_unit_test_setup_teardown(what_nothing_explains_says_so, open_test_pool, close_test_pool),
-        cmocka_unit_test(an_adequate_model_and_a_fault_of_the_data_are_told_apart),
-        cmocka_unit_test(an_interrupted_diagnosis_says_so_and_shows_what_is_there),
-        cmocka_unit_test(a_result_that_lacks_something_says_what),
-        cmocka_unit_test(places_are_found_on_the_rotor),
-    };
-    return cmocka_run_group_tests(tests, open_bench, page_bench_close);
-}
+TEST_GROUP(open_bench, page_bench_close);

@@ -79,7 +79,7 @@ static void read_rotor(struct pool *pool, const char *deck, struct job *job)
     remove(name);
 }
 
-static void drawn_rotors_cover_the_range(void **state)
+UNIT_TEST(drawn_rotors_cover_the_range)
 {
     enum {
         HOLLOW,
@@ -101,7 +101,6 @@ static void drawn_rotors_cover_the_range(void **state)
     int seen[TYPES] = {0};
     const struct value_range none = {INFINITY, -INFINITY};
     struct value_range sections = none, sensors = none, slenderness = none, modes = none, frequency = none, shape = none;
-    (void)state;
     for (int i = 0; i < 400; i++) {
         struct pool pool;
         struct job job;
@@ -150,12 +149,11 @@ static void drawn_rotors_cover_the_range(void **state)
             fail_msg("%d of 400 rotors of type %d", seen[t], t);
 }
 
-static void random_rotors_end_without_an_error_or_a_wrong_name(void **state)
+UNIT_TEST(random_rotors_end_without_an_error_or_a_wrong_name)
 {
     struct power_result result[CASES] = {{0}};
     struct power_options options = {.cases = CASES, .seed = SEED, .log = path};
     int code, large = 0, found = 0;
-    (void)state;
     free(run(CASES, SEED, &code));
     fclose(power_log(&options, result));
     for (int i = 0; i < CASES; i++) {
@@ -178,7 +176,7 @@ static void random_rotors_end_without_an_error_or_a_wrong_name(void **state)
  * that predicts the same; a wave of the stiffness was named a support where three causes could not do without each other; the
  * interval of a place was linear where the place, or the width of its zone, ended at a bound; what an accelerometer does to
  * the shapes while it moves was a mass at the end. */
-static void what_went_wrong_once_is_right(void **state)
+UNIT_TEST(what_went_wrong_once_is_right)
 {
     static const struct {
         uint64_t seed;
@@ -205,7 +203,6 @@ static void what_went_wrong_once_is_right(void **state)
                  {8001, 154, {"outside:kind=sine,group=core,amplitude=0.0568106,waves=2.76404"}, 1 << HIDDEN_UNEXPLAINED},
                  {8001, 305, {"outside:kind=sine,group=core,amplitude=-0.30407,waves=1.37644"}, 1 << HIDDEN_UNEXPLAINED}};
     struct power_options options = {.cases = 1};
-    (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct power_case c;
         struct hidden_score score;
@@ -223,12 +220,11 @@ static void what_went_wrong_once_is_right(void **state)
 }
 
 /* The log of the test before holds all cases: cut to some, and to half of another line, it gives the same report again. */
-static void a_run_goes_on_from_its_log(void **state)
+UNIT_TEST(a_run_goes_on_from_its_log)
 {
     int code, again, length = 0;
     char *whole = run(CASES, SEED, &code), line[100];
     FILE *file = fopen(path, "rb");
-    (void)state;
     assert_non_null(strstr(whole, "0 cases in 0 s, 16 of the log"));
     for (int i = 0; i < CASES - 2;) {
         assert_non_null(fgets(line, sizeof line, file));
@@ -253,7 +249,7 @@ static void a_run_goes_on_from_its_log(void **state)
 }
 
 /* 100 cases of a class with a drop, of which the first `count` ended in one way and the others in another. */
-static void requirements_are_judged_as_stated(void **state)
+UNIT_TEST(requirements_are_judged_as_stated)
 {
     static const struct {
         enum hidden_class class;
@@ -279,7 +275,6 @@ static void requirements_are_judged_as_stated(void **state)
         {HIDDEN_NOTHING, 1, HIDDEN_FAILED, HIDDEN_SILENT, 1, 0, 1},
     };
     FILE *out = fopen("/dev/null", "wb");
-    (void)state;
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
         struct power_result result[100] = {{0}};
         for (int i = 0; i < 100; i++) {
@@ -297,11 +292,10 @@ static void requirements_are_judged_as_stated(void **state)
 }
 
 /* 90 % of 200 intervals are too few, 95 right, 100 too many: they would be too wide. */
-static void too_wide_intervals_are_a_fault_as_too_narrow_ones_are(void **state)
+UNIT_TEST(too_wide_intervals_are_a_fault_as_too_narrow_ones_are)
 {
     static const int holding[] = {90, 95, 100}, missed[] = {1, 0, 1};
     FILE *out = fopen("/dev/null", "wb");
-    (void)state;
     for (int t = 0; t < 3; t++) {
         struct power_result result[100] = {{0}};
         for (int i = 0; i < 100; i++) {
@@ -318,15 +312,4 @@ static void too_wide_intervals_are_a_fault_as_too_narrow_ones_are(void **state)
     fclose(out);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drawn_rotors_cover_the_range),
-        cmocka_unit_test(random_rotors_end_without_an_error_or_a_wrong_name),
-        cmocka_unit_test(a_run_goes_on_from_its_log),
-        cmocka_unit_test(what_went_wrong_once_is_right),
-        cmocka_unit_test(requirements_are_judged_as_stated),
-        cmocka_unit_test(too_wide_intervals_are_a_fault_as_too_narrow_ones_are),
-    };
-    return cmocka_run_group_tests(tests, open_directory, close_directory);
-}
+TEST_GROUP(open_directory, close_directory);

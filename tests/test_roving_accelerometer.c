@@ -55,9 +55,8 @@ static struct roving_accelerometer run(const struct table *t, int modes)
     return out;
 }
 
-static void a_mass_comes_back_and_lies_within_its_interval(void **state)
+UNIT_TEST(a_mass_comes_back_and_lies_within_its_interval)
 {
-    (void)state;
     struct random_stream stream = {3};
     struct table t;
     fill_table(&t);
@@ -90,9 +89,8 @@ static void a_mass_comes_back_and_lies_within_its_interval(void **state)
 }
 
 /* Of tests without a mass 0.5 % may pass, with the noise as stated, half and a third of what it is, with a drift, in one mode. */
-static void no_mass_is_found_where_there_is_none(void **state)
+UNIT_TEST(no_mass_is_found_where_there_is_none)
 {
-    (void)state;
     static const struct {
         const char *name;
         double understated, drift;
@@ -122,9 +120,8 @@ static void no_mass_is_found_where_there_is_none(void **state)
     }
 }
 
-static void the_size_said_to_show_does_nine_times_in_ten(void **state)
+UNIT_TEST(the_size_said_to_show_does_nine_times_in_ten)
 {
-    (void)state;
     struct random_stream stream = {7};
     struct table t;
     fill_table(&t);
@@ -139,9 +136,8 @@ static void the_size_said_to_show_does_nine_times_in_ten(void **state)
     assert_true(found >= 860 && found <= 950);
 }
 
-static void a_negative_mass_is_none(void **state)
+UNIT_TEST(a_negative_mass_is_none)
 {
-    (void)state;
     struct random_stream stream = {11};
     struct table t;
     fill_table(&t);
@@ -154,9 +150,8 @@ static void a_negative_mass_is_none(void **state)
 }
 
 /* One wrong reading, and one point that is wrong in every mode: a sensor that sat on a thread. */
-static void one_bad_point_makes_no_mass_and_hides_none(void **state)
+UNIT_TEST(one_bad_point_makes_no_mass_and_hides_none)
 {
-    (void)state;
     static const double off[] = {3e-4, 1e-3, 1e-2};
     struct random_stream stream = {13};
     struct table t;
@@ -182,9 +177,8 @@ static void one_bad_point_makes_no_mass_and_hides_none(void **state)
     assert_true(found <= 9 && lost == 0 && worst < 4);
 }
 
-static void too_little_says_nothing(void **state)
+UNIT_TEST(too_little_says_nothing)
 {
-    (void)state;
     struct random_stream stream = {17};
     struct table t;
     fill_table(&t);
@@ -212,9 +206,8 @@ static void too_little_says_nothing(void **state)
     assert_true(m.found && fabs(m.mass - 0.03) < 4 * m.std);
 }
 
-static void without_memory_there_is_an_error_and_no_leak(void **state)
+UNIT_TEST(without_memory_there_is_an_error_and_no_leak)
 {
-    (void)state;
     struct random_stream stream = {19};
     struct table t;
     int status;
@@ -237,13 +230,4 @@ static void without_memory_there_is_an_error_and_no_leak(void **state)
     assert_true(fail_at > 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mass_comes_back_and_lies_within_its_interval), cmocka_unit_test(no_mass_is_found_where_there_is_none),
-        cmocka_unit_test(the_size_said_to_show_does_nine_times_in_ten),   cmocka_unit_test(a_negative_mass_is_none),
-        cmocka_unit_test(one_bad_point_makes_no_mass_and_hides_none),     cmocka_unit_test(too_little_says_nothing),
-        cmocka_unit_test(without_memory_there_is_an_error_and_no_leak),
-    };
-    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
-}
+TEST_GROUP(open_test_pool, close_test_pool);

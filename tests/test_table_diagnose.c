@@ -511,9 +511,8 @@ static void assert_order(const char *first, const char *second)
     assert_true(strstr(screen, first) < strstr(screen, second));
 }
 
-static void a_named_cause_is_read_from_top_to_bottom(void **state)
+UNIT_TEST(a_named_cause_is_read_from_top_to_bottom)
 {
-    (void)state;
     static const char *const parts[] = {"A rotor of three groups",
                                         "VERDICT  NAMED",
                                         "PARAMETERS  extended model, 95 % intervals",
@@ -548,9 +547,8 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
 
 /* Every candidate that stays has its parameters, best first, the rest with --verbose, then what the dispute is worth; what a
  * cause below its limit would move is said of a model that explains the data alone. */
-static void the_parameters_stand_at_the_top(void **state)
+UNIT_TEST(the_parameters_stand_at_the_top)
 {
-    (void)state;
     static rotid_hidden hidden[2] = {{"core.E", -2.3e9, "Pa", "added_mass", "", "mass", 0.28, "kg", 0.61, NAN, 0},
                                      {"core.G", 4e10, "Pa", "tie_shear", "ties", "presence", 1, "1", NAN, NAN, 1}};
     fill_named();
@@ -590,9 +588,8 @@ static void the_parameters_stand_at_the_top(void **state)
     assert_silent("more with --verbose");
 }
 
-static void what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause(void **state)
+UNIT_TEST(what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause)
 {
-    (void)state;
     fill_named();
     show(0, 100);
     const char *sensors = strstr(screen, "\n  sensors"), *acts = strstr(screen, "\n  force resid. "),
@@ -607,9 +604,8 @@ static void what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause(
     assert_in_range(strchr(sensors, '4') - sensors - 1, column - 3, column + 3);
 }
 
-static void every_case_stays_within_its_columns(void **state)
+UNIT_TEST(every_case_stays_within_its_columns)
 {
-    (void)state;
     for (size_t i = 0; i < CASES; i++)
         for (int width = 100; width <= 120; width += 10)
             for (int verbose = 0; verbose < 2; verbose++) {
@@ -621,9 +617,8 @@ static void every_case_stays_within_its_columns(void **state)
             }
 }
 
-static void each_verdict_says_its_own(void **state)
+UNIT_TEST(each_verdict_says_its_own)
 {
-    (void)state;
     fill_adequate();
     show(0, 100);
     assert_says("VERDICT  ADEQUATE");
@@ -645,9 +640,8 @@ static void each_verdict_says_its_own(void **state)
     assert_silent("\n*  ");
 }
 
-static void what_is_absent_is_left_away(void **state)
+UNIT_TEST(what_is_absent_is_left_away)
 {
-    (void)state;
     without_shapes();
     show(0, 100);
     assert_says("frequencies 0.1 % (the deck states none: assumed)");
@@ -670,9 +664,8 @@ static void what_is_absent_is_left_away(void **state)
     assert_silent("EVIDENCE");
 }
 
-static void verbose_shows_all_candidates_and_the_time(void **state)
+UNIT_TEST(verbose_shows_all_candidates_and_the_time)
 {
-    (void)state;
     fill_named();
     show(1, 100);
     assert_says("added_mass ");
@@ -707,9 +700,8 @@ static cJSON *json_of(void)
     return json;
 }
 
-static void json_of_every_case_has_the_keys_of_the_interface(void **state)
+UNIT_TEST(json_of_every_case_has_the_keys_of_the_interface)
 {
-    (void)state;
     static const char keys[] =
         "schema command deck interrupted verdict/kind verdict/adequate_after verdict/p_value verdict/causes verdict/alternatives "
         "verdict/next_measurement verdict/sentence data_findings numerical_findings candidates rounds "
@@ -728,9 +720,8 @@ static void json_of_every_case_has_the_keys_of_the_interface(void **state)
     }
 }
 
-static void json_holds_what_the_structs_hold(void **state)
+UNIT_TEST(json_holds_what_the_structs_hold)
 {
-    (void)state;
     fill_named();
     cJSON *json = json_of();
     assert_string_equal(get(json, "verdict/kind")->valuestring, "named");
@@ -779,9 +770,8 @@ static void release(void *block)
     free(block);
 }
 
-static void json_is_whole_or_not_there(void **state)
+UNIT_TEST(json_is_whole_or_not_there)
 {
-    (void)state;
     cJSON_Hooks hooks = {scarce, release};
     cJSON_InitHooks(&hooks);
     fill_named();
@@ -817,9 +807,8 @@ static int run(const char *arguments)
     return status < 0 ? -1 : status / 256;
 }
 
-static void no_option_lets_a_file_of_the_user_be_lost(void **state)
+UNIT_TEST(no_option_lets_a_file_of_the_user_be_lost)
 {
-    (void)state;
 #define DECK ROTID_SOURCE_DIR "/input/solid_steel.inp"
     static const char *const wrong[][2] = {
         {"diagnose " DECK " --extended " DECK, "--extended " DECK " is the file that is read"},
@@ -838,20 +827,4 @@ static void no_option_lets_a_file_of_the_user_be_lost(void **state)
     assert_says("--extended FILE");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_named_cause_is_read_from_top_to_bottom),
-        cmocka_unit_test(the_parameters_stand_at_the_top),
-        cmocka_unit_test(what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause),
-        cmocka_unit_test(every_case_stays_within_its_columns),
-        cmocka_unit_test(each_verdict_says_its_own),
-        cmocka_unit_test(what_is_absent_is_left_away),
-        cmocka_unit_test(verbose_shows_all_candidates_and_the_time),
-        cmocka_unit_test(json_of_every_case_has_the_keys_of_the_interface),
-        cmocka_unit_test(json_holds_what_the_structs_hold),
-        cmocka_unit_test(json_is_whole_or_not_there),
-        cmocka_unit_test(no_option_lets_a_file_of_the_user_be_lost),
-    };
-    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
-}
+TEST_GROUP(open_test_pool, close_test_pool);

@@ -64,9 +64,8 @@ static void check_block(const char *block, size_t size)
     assert_true(printed);
 }
 
-static void what_is_printed_is_what_the_program_prints(void **state)
+POOL_TEST(what_is_printed_is_what_the_program_prints)
 {
-    (void)state;
     const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/diagnosis_reference.md"), *at = strstr(text, FIRST),
                *last = strstr(text, LAST);
     int blocks = 0;
@@ -82,10 +81,4 @@ static void what_is_printed_is_what_the_program_prints(void **state)
     assert_int_equal(blocks, 6);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_is_printed_is_what_the_program_prints, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests_name("worked", tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

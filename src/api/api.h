@@ -15,7 +15,7 @@
  *   diagnosis.c       rotid_diagnose; result_diagnosis.c: candidates, verdict, rounds, gain
  *   suggestion.c      rotid_suggest: tests to do next
  *   result_geometry.c the model as it is drawn and meshed
- *   call.c, keep.c    the frame of a call; the copy
+ *   call.c            the frame of a call; the copy
  *
  * Hosts and src/cli call rotid.h; src/cli takes deck_job_of and deck_states_of besides. Models and fits of a host (rotid_model,
  * rotid_fit) belong to src/modal and src/fit. The room prints nothing and keeps nothing between calls. */
@@ -42,9 +42,10 @@ struct call {
     int entered;
 };
 
-/* `result`: what the call is to set; `name`: of that argument. ROTID_OK, with exceptions masked and the locale "C" until
- * call_close; ROTID_ERROR_ARGUMENT where it is NULL or the environment is none, ROTID_ERROR_MEMORY. To be closed in any case. */
-int call_open(struct call *call, const rotid_environment *given, char *failure, const void *result, const char *name);
+/* `result`: address of the pointer that the call is to set, NULL from now on; `name`: of that argument. ROTID_OK, with exceptions
+ * masked and the locale "C" until call_close; ROTID_ERROR_ARGUMENT where it is NULL or the environment is none,
+ * ROTID_ERROR_MEMORY. To be closed in any case. */
+int call_open(struct call *call, const rotid_environment *given, char *failure, void *result, const char *name);
 
 /* Leaves in the `failure` of the host the errors among the notes, joined and cut off, where nothing was said before. Returns
  * status. */
@@ -68,6 +69,10 @@ const struct job *deck_job_of(const rotid_deck *deck);
 /* A copy of the struct `made`, which `record` describes: it leans on nothing, and its member `memory`, of which the address in
  * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
 void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
+/* The same with the notes of the call as its messages. */
+#define CALL_KEEP(call, record, made)                                                                                            \
+    ((made)->nmessage = (int)(call)->notes.count, (made)->message = (call)->notes.item,                                          \
+     call_keep((call), (record), (made), &(made)->memory))
 
 /* --------------------------------------------------------------------------------------------------------------- machine */
 

@@ -1,6 +1,7 @@
 #include "api/api.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static int cancelled(void *context)
 {
@@ -18,7 +19,7 @@ static void progress(void *context, const char *stage, int step)
         call->entry.environment.progress(call->entry.environment.context, stage, step);
 }
 
-int call_open(struct call *call, const rotid_environment *given, char *failure, const void *result, const char *name)
+int call_open(struct call *call, const rotid_environment *given, char *failure, void *result, const char *name)
 {
     int status = entry_open(&call->entry, given, failure);
     const rotid_environment *taken = &call->entry.environment;
@@ -29,6 +30,8 @@ int call_open(struct call *call, const rotid_environment *given, char *failure, 
                                             .progress = taken->progress ? progress : NULL,
                                             .context = call};
     message_open(&call->notes, &call->entry.scratch);
+    if (result)
+        memset(result, 0, sizeof(void *)); /* of whatever type it is */
     call->job = NULL;
     if (!status && !result)
         status = refuse(failure, "%s is NULL, expected the address of a pointer", name);
@@ -65,4 +68,14 @@ int call_close(struct call *call, int status)
     if (call->entered)
         host_leave_locale(&call->locale);
     return entry_close(&call->entry, status);
+}
+
+void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory)
+{
+    struct pool *pool = call->entry.scratch.out_of_memory ? NULL : pool_new(call->environment.allocator);
+    *memory = pool;
+    void *kept = pool ? record_copy(pool, record, made) : NULL;
+    if (!kept)
+        pool_free(pool);
+    return kept;
 }

@@ -36,9 +36,6 @@ int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environmen
     struct call call;
     struct spectrum found;
     int status = call_open(&call, environment, failure, check, "check");
-    if (!check)
-        return call_close(&call, status);
-    *check = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
         status = job ? spectrum_compute(&call.entry.scratch, job->models, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found)

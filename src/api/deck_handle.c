@@ -168,9 +168,6 @@ int rotid_deck_read(const char *path, int noverride, const char *const *override
 {
     struct call call;
     int status = call_open(&call, environment, failure, deck, "deck");
-    if (!deck)
-        return call_close(&call, status);
-    *deck = NULL;
     if (!status && !path)
         status = refuse(failure, "path is NULL, expected that of a deck");
     if (!status)
@@ -184,9 +181,6 @@ int rotid_deck_read_text(size_t length, const char *text, const char *name, cons
     struct call call;
     const struct deck_memory memory = {name ? name : "deck", length, text, directory};
     int status = call_open(&call, environment, failure, deck, "deck");
-    if (!deck)
-        return call_close(&call, status);
-    *deck = NULL;
     if (!status && length && !text)
         status = refuse(failure, "text is NULL, expected %zu characters", length);
     if (!status)

@@ -18,9 +18,7 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
     }
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
-    made->nmessage = (int)call->notes.count;
-    made->message = call->notes.item;
-    return call_keep(call, &diagnosis_whole_record, made, &made->memory);
+    return CALL_KEEP(call, &diagnosis_whole_record, made);
 }
 
 /* 0 takes the default. */
@@ -76,9 +74,6 @@ int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (!result)
-        return call_close(&call, status);
-    *result = NULL;
     if (!status)
         status = diagnose(&call, deck, options, result);
     return call_close(&call, status);

@@ -7,9 +7,7 @@ static rotid_identification *keep(struct call *call, rotid_identification *made)
 {
     if (!made)
         return NULL;
-    made->nmessage = (int)call->notes.count;
-    made->message = call->notes.item;
-    return call_keep(call, &identification_whole_record, made, &made->memory);
+    return CALL_KEEP(call, &identification_whole_record, made);
 }
 
 /* What may hide in the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
@@ -120,9 +118,6 @@ int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (!result)
-        return call_close(&call, status);
-    *result = NULL;
     if (!status)
         status = identify_deck(&call, deck, baseline, result);
     return call_close(&call, status);

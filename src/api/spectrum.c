@@ -42,9 +42,7 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
                         .geometry = result_geometry(pool, &job->rotor, s->model),
                         .meridian = meridian_mesh(pool, s->model),
                         .beside = beside,
-                        .master_mass = s->mass,
-                        .nmessage = (int)call->notes.count,
-                        .message = call->notes.item};
+                        .master_mass = s->mass};
     r.nmodes = POOL_LIST(pool, r.modes, s->count);
     for (int j = 0; j < r.nmodes; j++) {
         rotid_model_mode *mode = &r.modes[j];
@@ -61,7 +59,7 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
             if (compared->number[k] == j + 1 && (mode->measured = POOL_NEW(pool, rotid_compared_mode)))
                 *mode->measured = result_compared_mode(job, compared, k, s->full_hz[j]);
     }
-    return call_keep(call, &spectrum_whole_record, &r, &r.memory);
+    return CALL_KEEP(call, &spectrum_whole_record, &r);
 }
 
 #define AS_STATED INT_MIN /* type of the modes: that of the deck */
@@ -108,9 +106,6 @@ static int open_and_run(const rotid_deck *deck, int type, const double *x, int n
 {
     struct call call;
     int status = call_open(&call, environment, failure, spectrum, "spectrum");
-    if (!spectrum)
-        return call_close(&call, status);
-    *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
         status = job ? run(&call, job, type, x, nmode, with_other, spectrum) : ROTID_ERROR_ARGUMENT;

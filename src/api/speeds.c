@@ -87,9 +87,7 @@ static int compute(struct call *call, const struct states *states, const rotid_f
                    : ROTID_ERROR_MEMORY;
     if (status < 0)
         return status;
-    made.nmessage = (int)call->notes.count;
-    made.message = call->notes.item;
-    *result = call_keep(call, &speeds_whole_record, &made, &made.memory);
+    *result = CALL_KEEP(call, &speeds_whole_record, &made);
     return *result ? status : ROTID_ERROR_MEMORY;
 }
 
@@ -114,9 +112,6 @@ int rotid_speeds_compute(const rotid_deck *deck, const rotid_speeds_options *opt
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (!result)
-        return call_close(&call, status);
-    *result = NULL;
     if (!status)
         status = speeds(&call, deck, options, result);
     return call_close(&call, status);

@@ -55,9 +55,7 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
         (void)deck_write_test(pool, &s->rivals.rival[s->rivals.n - 1].job, &s->test[i], &cards);
         made->tests[i].cards = cards;
     }
-    made->nmessage = (int)call->notes.count;
-    made->message = call->notes.item;
-    return call_keep(call, &suggestion_whole_record, made, &made->memory);
+    return CALL_KEEP(call, &suggestion_whole_record, made);
 }
 
 /* Noise of the frequencies of a test: as stated, else that of the deck, else what its residuals show, else a usual one. */
@@ -116,9 +114,7 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
     status = worth_run(pool, states->machine, job, x, *fit ? &own : NULL, &options, &call->notes, &made);
     if (status)
         return status;
-    made.nmessage = (int)call->notes.count;
-    made.message = call->notes.item;
-    *result = call_keep(call, &suggestion_whole_record, &made, &made.memory);
+    *result = CALL_KEEP(call, &suggestion_whole_record, &made);
     return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -150,9 +146,6 @@ int rotid_suggest(const rotid_deck *deck, const rotid_suggest_options *options, 
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (!result)
-        return call_close(&call, status);
-    *result = NULL;
     if (!status)
         status = suggest(&call, deck, options, result);
     return call_close(&call, status);

@@ -114,18 +114,13 @@ struct result page_result_of_state(struct pool *pool, const struct result *resul
 {
     struct result own = *result;
     int first = 0;
+    if (!result->identify)
+        return result_of_state(result, s);
+    for (int t = 0; t < s; t++)
+        first += result->identify->states[t].nmodes;
     own.nstates = 0;
     own.states = NULL;
-    if (result->identify) {
-        for (int t = 0; t < s; t++)
-            first += result->identify->states[t].nmodes;
-        take_references(pool, &own.head, first);
-        own.identify = identification_of_state(pool, result->identify, s, first);
-        return own;
-    }
-    own.check = result->states[s].check;
-    own.modes = result->states[s].modes;
-    own.sensitivity = result->states[s].sensitivity;
-    own.frf = result->states[s].frf;
+    take_references(pool, &own.head, first);
+    own.identify = identification_of_state(pool, result->identify, s, first);
     return own;
 }

@@ -7,6 +7,19 @@
 #include "rotor/rotor.h"
 #include "run/run.h"
 
+/* What a command found, of several states one after the other; job: of each, or NULL. */
+static void print_states(const struct screen *to, const struct result *result, const struct job *const *job,
+                         void (*print)(const struct screen *to, const struct result *result, const struct job *job))
+{
+    if (!result->nstates)
+        print(to, result, job ? job[0] : NULL);
+    for (int s = 0; s < result->nstates; s++) {
+        const struct result own = result_of_state(result, s);
+        screen_state(to, s, result->states[s].name);
+        print(to, &own, job ? job[s] : NULL);
+    }
+}
+
 /* ---- check */
 
 /* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
@@ -84,8 +97,9 @@ static struct table *table_of_groups(struct pool *pool, const rotid_geometry *ge
     return table;
 }
 
-static void print_check(const struct screen *to, const rotid_check *check, const struct job *job)
+static void print_check(const struct screen *to, const struct result *result, const struct job *job)
 {
+    const rotid_check *check = result->check;
     FILE *out = to->out;
     (void)fprintf(out, "length          %12.6f m\n", check->length_m);
     (void)fprintf(out, "mass            %12.4f kg\n", check->mass_kg);
@@ -121,12 +135,7 @@ static void print_check(const struct screen *to, const rotid_check *check, const
 void screen_check(const struct screen *to, const struct result *result, const struct job *const *job)
 {
     screen_heading(to, &result->head);
-    if (!result->nstates)
-        print_check(to, result->check, job[0]);
-    for (int s = 0; s < result->nstates; s++) {
-        screen_state(to, s, result->states[s].name);
-        print_check(to, result->states[s].check, job[s]);
-    }
+    print_states(to, result, job, print_check);
 }
 
 /* ---- modes */
@@ -204,8 +213,10 @@ static struct table *table_of_shapes(struct pool *pool, const struct rotor *roto
     return table;
 }
 
-static void print_modes(const struct screen *to, const rotid_spectrum *s)
+static void print_modes(const struct screen *to, const struct result *result, const struct job *job)
 {
+    const rotid_spectrum *s = result->modes;
+    (void)job;
     for (int i = 0; i < s->nrigid_hz; i++)
         (void)fprintf(to->out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
     screen_table(to, table_of_model_modes(to->pool, s));
@@ -222,12 +233,7 @@ static void print_modes(const struct screen *to, const rotid_spectrum *s)
 void screen_modes(const struct screen *to, const struct result *result)
 {
     screen_heading(to, &result->head);
-    if (!result->nstates)
-        print_modes(to, result->modes);
-    for (int s = 0; s < result->nstates; s++) {
-        screen_state(to, s, result->states[s].name);
-        print_modes(to, result->states[s].modes);
-    }
+    print_states(to, result, NULL, print_modes);
 }
 
 static int write_modes(FILE *out, struct pool *pool, const void *from)
@@ -293,9 +299,11 @@ static struct table *table_of_curves(struct pool *pool, const struct sensitivity
     return table;
 }
 
-static void print_sensitivity(const struct screen *to, const struct result_head *head, const struct sensitivity *s)
+static void print_sensitivity(const struct screen *to, const struct result *result, const struct job *job)
 {
+    const struct sensitivity *s = result->sensitivity;
     struct pool *pool = to->pool;
+    (void)job;
     (void)fprintf(to->out, "reduction %s", s->reduction);
     for (int p = 0; p < s->nparameters; p++)
         (void)fprintf(to->out, ", %s at %.6g%s%s", s->parameters[p].name, s->parameters[p].reference,
@@ -303,7 +311,7 @@ static void print_sensitivity(const struct screen *to, const struct result_head 
     (void)fputc('\n', to->out);
     screen_table(to, table_of_sensitivity(pool, s));
     for (int p = 0; p < s->nparameters; p++) {
-        screen_table(to, table_of_quotients(pool, head, s, &s->parameters[p]));
+        screen_table(to, table_of_quotients(pool, &result->head, s, &s->parameters[p]));
         screen_table(to, table_of_curves(pool, s, &s->parameters[p]));
     }
 }
@@ -311,10 +319,5 @@ static void print_sensitivity(const struct screen *to, const struct result_head 
 void screen_sensitivity(const struct screen *to, const struct result *result)
 {
     screen_heading(to, &result->head);
-    if (!result->nstates)
-        print_sensitivity(to, &result->head, result->sensitivity);
-    for (int s = 0; s < result->nstates; s++) {
-        screen_state(to, s, result->states[s].name);
-        print_sensitivity(to, &result->head, result->states[s].sensitivity);
-    }
+    print_states(to, result, NULL, print_sensitivity);
 }

@@ -87,6 +87,18 @@ char *result_json(const struct result *result)
     return json_close(&tree);
 }
 
+struct result result_of_state(const struct result *result, int s)
+{
+    struct result own = *result;
+    own.check = result->states[s].check;
+    own.modes = result->states[s].modes;
+    own.sensitivity = result->states[s].sensitivity;
+    own.frf = result->states[s].frf;
+    own.nstates = 0;
+    own.states = NULL;
+    return own;
+}
+
 const rotid_geometry *geometry_of_result(const struct result *result)
 {
     return result->identify   ? result->identify->geometry

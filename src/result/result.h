@@ -323,6 +323,9 @@ char *result_json(const struct result *result);
 int result_read(struct pool *pool, const char *file, struct message_list *messages, result_lines_reader *read_lines,
                 struct result *result);
 
+/* What a command found of one of the states, as if it stood alone; not of identifications, whose states stand in theirs. */
+struct result result_of_state(const struct result *result, int s);
+
 /* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data; NULL
  * where it has none. */
 const rotid_geometry *geometry_of_result(const struct result *result);

@@ -130,12 +130,7 @@ static void result_check(const struct json_place *root, const struct result *res
 static void check_each_state(const struct json_place *root, const struct result *result)
 {
     for (int s = 0; s < result->nstates; s++) {
-        struct result own = *result;
-        own.nstates = 0;
-        own.check = result->states[s].check;
-        own.modes = result->states[s].modes;
-        own.sensitivity = result->states[s].sensitivity;
-        own.frf = result->states[s].frf;
+        const struct result own = result_of_state(result, s);
         result_check(root, &own);
     }
 }

@@ -49,23 +49,6 @@ struct sums {
     int failed; /* memory was out */
 };
 
-static int equal_texts(const char *a, const char *b)
-{
-    return a == b || (a && b && !strcmp(a, b));
-}
-
-static int equal_numbers(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
-int summary_same_cell(const struct study_axes *a, const struct study_axes *b)
-{
-    return equal_texts(a->deck, b->deck) && equal_texts(a->variant, b->variant) && equal_texts(a->modes, b->modes) &&
-           equal_texts(a->sensors, b->sensors) && equal_texts(a->hide, b->hide) &&
-           equal_numbers(a->noise_frequency, b->noise_frequency) && equal_numbers(a->noise_shape, b->noise_shape);
-}
-
 int summary_is_scored(const struct study_cell_result *cell)
 {
     return cell->diagnoses && cell->diagnoses->scores[0] != ROTID_NONE;

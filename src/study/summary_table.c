@@ -43,15 +43,26 @@ static double number_at(const struct axis *axis, const struct study_axes *cell)
     return *(const double *)((const char *)cell + axis->offset);
 }
 
+static int differ(const struct axis *axis, const struct study_axes *a, const struct study_axes *b)
+{
+    return axis->is_number ? !equal_numbers(number_at(axis, a), number_at(axis, b))
+                           : !equal_texts(text_at(axis, a), text_at(axis, b));
+}
+
+int summary_same_cell(const struct study_axes *a, const struct study_axes *b)
+{
+    int same = 1;
+    for (const struct axis *axis = axes; axis < axes + AXES; axis++)
+        same &= !differ(axis, a, b);
+    return same;
+}
+
 static int cells_differ(const struct axis *axis, const struct study_result *s)
 {
-    int differ = 0;
-    for (int c = 1; c < s->ncells; c++) {
-        const struct study_axes *a = &s->cells[0].cell, *b = &s->cells[c].cell;
-        differ |= axis->is_number ? !equal_numbers(number_at(axis, a), number_at(axis, b))
-                                  : !equal_texts(text_at(axis, a), text_at(axis, b));
-    }
-    return differ;
+    int any = 0;
+    for (int c = 1; c < s->ncells; c++)
+        any |= differ(axis, &s->cells[0].cell, &s->cells[c].cell);
+    return any;
 }
 
 /* An axis on which cells do not differ is in CSV alone. */
