@@ -87,24 +87,19 @@ struct card {
     const char *name; /* upper case, without the asterisk */
     struct place place;
     int noption, nline;
-    size_t option_room, line_room;
     struct card_option *option;
     struct data_line *line;
 };
 
 struct deck_text {
     int ncard;
-    size_t card_room;
     struct card *card;
     struct place end;
     int nfile; /* the deck, what it includes, and measured data that its cards name */
-    size_t file_room;
     const char **file;
     int ntable;
-    size_t table_room;
     struct table_text **table; /* read so far: a table may serve several cards */
     int nsource;               /* the deck and what it includes, as they were read */
-    size_t source_room;
     struct deck_file *source;
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
@@ -422,6 +417,9 @@ void deck_put_holdout(struct deck_writer *w);
 /* A line of text that a deck takes for text. */
 void deck_put_text(struct deck_writer *w, const char *text);
 
+/* The data as they were read, before the faults in them were taken out. */
+struct job_raw deck_data_as_read(const struct job *job);
+
 /* Of all modes, as they were read: NaN where they differ or one has none, of the frequencies where there are readings of single
  * sensors too. */
 void deck_noise_of_all(const struct job *job, double *frequency, double *shape);
@@ -583,7 +581,6 @@ struct table_text {
     const char *path;
     int bad; /* an error has been reported: of the caller */
     int nrow;
-    size_t row_room;
     struct data_line *row; /* rows that hold something; a place counts rows and columns from 1, text is NULL */
     double *number;        /* [nrow] of the cells of a column, NaN where there is none; of the caller */
 };

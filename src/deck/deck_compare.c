@@ -100,15 +100,6 @@ static int are_near_where(ptrdiff_t count, const double *there, const double *a,
     return same;
 }
 
-/* The data as they were read: the faults in them are compared with the causes. */
-static struct job_raw as_read(const struct job *job)
-{
-    const struct job_measurement *m = &job->measurement;
-    return m->raw ? *m->raw
-                  : (struct job_raw){job->rotor.nsensor,    job->rotor.sensor,     m->shape, m->shape_std, m->frequency_std,
-                                     m->point_frequency_hz, m->point_frequency_std};
-}
-
 static void compare_faults(struct comparing *c, const struct job_measurement *a, const struct job_measurement *b)
 {
     require(c, a->ncorrection == b->ncorrection, "CAUSE");
@@ -129,7 +120,7 @@ static void compare_faults(struct comparing *c, const struct job_measurement *a,
 static void compare_data(struct comparing *c, const struct job *meant, const struct job *read)
 {
     const struct job_measurement *a = &meant->measurement, *b = &read->measurement;
-    const struct job_raw p = as_read(meant), q = as_read(read);
+    const struct job_raw p = deck_data_as_read(meant), q = deck_data_as_read(read);
     ptrdiff_t count = (ptrdiff_t)p.nsensor * a->nmode;
     int sensors = p.nsensor == q.nsensor;
     for (int s = 0; s < p.nsensor && sensors; s++)

@@ -147,30 +147,12 @@ void deck_put_text(struct deck_writer *w, const char *text)
 
 /* ------------------------------------------------------------------------------------------------ measured data */
 
-/* As they were read. */
-struct data {
-    int nsensor;
-    const struct sensor *sensor;
-    const double *shape, *shape_std, *frequency_std, *point_hz, *point_std;
-};
-
-static struct data data_of(const struct job *job)
+struct job_raw deck_data_as_read(const struct job *job)
 {
-    const struct job_raw *raw = job->measurement.raw;
-    return raw ? (struct data){.nsensor = raw->nsensor,
-                               .sensor = raw->sensor,
-                               .shape = raw->shape,
-                               .shape_std = raw->shape_std,
-                               .frequency_std = raw->frequency_std,
-                               .point_hz = raw->point_frequency_hz,
-                               .point_std = raw->point_frequency_std}
-               : (struct data){.nsensor = job->rotor.nsensor,
-                               .sensor = job->rotor.sensor,
-                               .shape = job->measurement.shape,
-                               .shape_std = job->measurement.shape_std,
-                               .frequency_std = job->measurement.frequency_std,
-                               .point_hz = job->measurement.point_frequency_hz,
-                               .point_std = job->measurement.point_frequency_std};
+    const struct job_measurement *m = &job->measurement;
+    return m->raw ? *m->raw
+                  : (struct job_raw){job->rotor.nsensor,    job->rotor.sensor,     m->shape, m->shape_std, m->frequency_std,
+                                     m->point_frequency_hz, m->point_frequency_std};
 }
 
 /* The one value of all components that are there (of `there`, or all), NaN where they differ or one has none. */
@@ -188,7 +170,7 @@ static double uniform(ptrdiff_t count, const double *there, const double *std)
     return value;
 }
 
-static void write_sensors(struct deck_writer *w, const struct data *data)
+static void write_sensors(struct deck_writer *w, const struct job_raw *data)
 {
     for (int s = 0; s < data->nsensor; s++) {
         if (s % DECK_MOST_LINES == 0)
@@ -211,7 +193,7 @@ static double std_hz(double std, double hz)
     return product;
 }
 
-static void write_modes(struct deck_writer *w, const struct data *data, int with_std)
+static void write_modes(struct deck_writer *w, const struct job_raw *data, int with_std)
 {
     const struct job *job = w->job;
     double last = 0;
@@ -240,50 +222,37 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
     }
 }
 
-static void write_shape(struct deck_writer *w, const struct data *data, int k, int with_std)
+/* The card of mode k with what was measured at each sensor and, where wanted, its deviation. Of frequencies the mean in *MODES
+ * stays: it may have been found by better means. */
+static void write_at_sensors(struct deck_writer *w, const struct job_raw *data, int k, const char *card, const double *value,
+                             const double *std, const char *unit)
 {
-    const double *shape = data->shape + (ptrdiff_t)k * data->nsensor, *std = data->shape_std + (ptrdiff_t)k * data->nsensor;
+    ptrdiff_t first = (ptrdiff_t)k * data->nsensor;
     for (int s = 0, lines = 0; s < data->nsensor; s++) {
-        if (!isfinite(shape[s]))
+        if (!isfinite(value[first + s]))
             continue;
         if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*SHAPE, MODE=%d\n", w->job->measurement.number[k]);
+            deck_put(w, "*%s, MODE=%d%s\n", card, w->job->measurement.number[k], *unit ? ", MEAN=NO" : "");
         deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", shape[s], "");
-        if (with_std && isfinite(std[s]))
-            deck_put_number(w, ", ", std[s], "");
-        deck_put(w, "\n");
-    }
-}
-
-/* With their deviations as they were settled, and without another mean: that in *MODES may have been found by better means. */
-static void write_frequencies(struct deck_writer *w, const struct data *data, int k)
-{
-    const double *hz = data->point_hz + (ptrdiff_t)k * data->nsensor, *std = data->point_std + (ptrdiff_t)k * data->nsensor;
-    for (int s = 0, lines = 0; s < data->nsensor; s++) {
-        if (!isfinite(hz[s]))
-            continue;
-        if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*FREQUENCIES, MODE=%d, MEAN=NO\n", w->job->measurement.number[k]);
-        deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", hz[s], "Hz");
-        if (isfinite(std[s]))
-            deck_put_number(w, ", ", std[s], "Hz");
+        deck_put_number(w, ", ", value[first + s], unit);
+        if (std && isfinite(std[first + s]))
+            deck_put_number(w, ", ", std[first + s], unit);
         deck_put(w, "\n");
     }
 }
 
 void deck_noise_of_all(const struct job *job, double *frequency, double *shape)
 {
-    const struct data data = data_of(job);
+    const struct job_raw data = deck_data_as_read(job);
     int nmode = job->measurement.nmode;
-    *frequency = data.point_hz ? NAN : uniform(nmode, NULL, data.frequency_std); /* *MODES states it: it is not settled anew */
+    *frequency =
+        data.point_frequency_hz ? NAN : uniform(nmode, NULL, data.frequency_std); /* *MODES states it: it is not settled anew */
     *shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
 }
 
 void deck_put_measured(struct deck_writer *w, int with_sensors)
 {
-    const struct data data = data_of(w->job);
+    const struct job_raw data = deck_data_as_read(w->job);
     int nmode = w->job->measurement.nmode;
     double frequency, shape;
     deck_noise_of_all(w->job, &frequency, &shape);
@@ -299,9 +268,9 @@ void deck_put_measured(struct deck_writer *w, int with_sensors)
         deck_put(w, "\n");
     }
     for (int k = 0; k < nmode && data.shape; k++)
-        write_shape(w, &data, k, !isfinite(shape));
-    for (int k = 0; k < nmode && data.point_hz; k++)
-        write_frequencies(w, &data, k);
+        write_at_sensors(w, &data, k, "SHAPE", data.shape, isfinite(shape) ? NULL : data.shape_std, "");
+    for (int k = 0; k < nmode && data.point_frequency_hz; k++)
+        write_at_sensors(w, &data, k, "FREQUENCIES", data.point_frequency_hz, data.point_frequency_std, "Hz");
 }
 
 /* ------------------------------------------------------------------------------------------------ causes */

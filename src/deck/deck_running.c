@@ -647,7 +647,6 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
     reader->out_of_memory |= own.out_of_memory;
     reader->text.nfile = own.text.nfile;
     reader->text.file = own.text.file;
-    reader->text.file_room = own.text.file_room;
     reader->text.ntable = own.text.ntable;
     reader->text.table = own.text.table;
     if (reader->out_of_memory)

@@ -144,7 +144,6 @@ static void read_one(struct deck_reader *reader, const struct division *d, int s
     reader->out_of_memory |= own.out_of_memory || messages->out_of_memory;
     reader->text.nfile = own.text.nfile; /* they go on where this one ends */
     reader->text.file = own.text.file;
-    reader->text.file_room = own.text.file_room;
     to->job.nfile = own.text.nfile;
     to->job.file = own.text.file;
     to->unknown = POOL_ARRAY(reader->pool, int, to->job.unknowns.nparameter);

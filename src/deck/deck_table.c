@@ -281,18 +281,15 @@ struct table_text *deck_open_table(struct deck_reader *reader, const struct card
         deck_error(reader, file->value_place, "the deck reads more than %d tables, expected fewer", TABLE_MOST_TABLES);
         return NULL;
     }
-    struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL,
-                      **grown = pool_grow(reader->pool, text->table, (size_t)text->ntable, &text->table_room, sizeof *grown);
-    if (!grown || !table || deck_text_add_file(reader->pool, text, path)) {
+    struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL;
+    if (!table || deck_text_add_file(reader->pool, text, path)) {
         reader->out_of_memory |= path != NULL || reader->messages->errors == errors;
         return NULL;
     }
-    text->table = grown;
     int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
     reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
     table->bad = status != ROTID_OK;
-    grown[text->ntable++] = table;
-    return table;
+    return DECK_ADD(reader, text->table, text->ntable, &table) ? NULL : table;
 }
 
 static struct card *new_card(struct taking *t, struct place place)
@@ -315,16 +312,14 @@ static void add_option(struct taking *t, struct card *card, const char *name, co
 /* 0, or 1 where memory is out. */
 static int add_line(struct taking *t, struct card *card, struct place row, int count, const struct field *field)
 {
-    struct data_line *grown = pool_grow(t->reader->pool, card->line, (size_t)card->nline, &card->line_room, sizeof *grown);
     struct field *copy = POOL_ARRAY(t->reader->pool, struct field, count);
-    t->reader->out_of_memory |= !grown || !copy;
-    if (!grown || !copy)
+    t->reader->out_of_memory |= !copy;
+    if (!copy)
         return 1;
     memcpy(copy, field, (size_t)count * sizeof *field);
-    card->line = grown;
-    grown[card->nline++] = (struct data_line){
+    const struct data_line line = {
         .place = row, .end = {row.file, row.line, field[count - 1].place.column + 1}, .text = "", .count = count, .field = copy};
-    return 0;
+    return DECK_ADD(t->reader, card->line, card->nline, &line);
 }
 
 /* The cell of a column, -1: none, in a row, blank where there is none. */
@@ -626,7 +621,6 @@ int deck_read_tables(struct deck_reader *reader, int *nread)
     if (!none) {
         text->card = to.card;
         text->ncard = to.ncard;
-        text->card_room = to.card_room;
     }
     return reader->messages->errors > before;
 }

@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -105,6 +106,17 @@ static char *copy_span(struct reader *reader, const char *begin, const char *end
     return copy;
 }
 
+static void text_error(struct reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void text_error(struct reader *reader, struct place place, const char *format, ...)
+{
+    char text[2 * DECK_LINE_LENGTH];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    message_add(reader->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
+}
+
 static void trim(const char **begin, const char **end)
 {
     while (*begin < *end && isspace((unsigned char)**begin))
@@ -115,21 +127,20 @@ static void trim(const char **begin, const char **end)
 
 struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
 {
-    struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
-    if (!grown)
-        return NULL;
-    text->card = grown;
-    grown[text->ncard] = (struct card){.name = name, .place = place};
-    return &grown[text->ncard++];
+    const struct card card = {.name = name, .place = place};
+    return POOL_ADD(pool, text->card, text->ncard, &card) ? NULL : &text->card[text->ncard - 1];
 }
 
+/* In a copy: the options that it has may be those of another card. */
 int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option)
 {
-    struct card_option *grown = pool_grow(pool, card->option, (size_t)card->noption, &card->option_room, sizeof *grown);
-    if (!grown)
+    struct card_option *longer = POOL_ARRAY(pool, struct card_option, card->noption + 1);
+    if (!longer)
         return 1;
-    card->option = grown;
-    card->option[card->noption++] = option;
+    if (card->noption)
+        memcpy(longer, card->option, (size_t)card->noption * sizeof *longer);
+    longer[card->noption++] = option;
+    card->option = longer;
     return 0;
 }
 
@@ -175,8 +186,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     if (!option.name || !option.value)
         return;
     if (card_option(card, option.name))
-        message_add(reader->messages, SEVERITY_ERROR, option.place.file, line, option.place.column,
-                    "option %s is given twice on *%s, expected once", option.name, card->name);
+        text_error(reader, option.place, "option %s is given twice on *%s, expected once", option.name, card->name);
     reader->out_of_memory |= deck_text_add_option(reader->pool, card, option);
 }
 
@@ -213,12 +223,7 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
 
 int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path)
 {
-    const char **grown = pool_grow(pool, text->file, (size_t)text->nfile, &text->file_room, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    text->file = grown;
-    text->file[text->nfile++] = path;
-    return ROTID_OK;
+    return POOL_ADD(pool, text->file, text->nfile, &path) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int read_file(struct reader *reader, const char *path, struct place from);
@@ -227,14 +232,12 @@ static void include(struct reader *reader, struct card card)
 {
     const struct card_option *file = card_option(&card, "FILE");
     if (!file || !*file->value) {
-        message_add(reader->messages, SEVERITY_ERROR, card.place.file, card.place.line, card.place.column,
-                    "*INCLUDE names no file, expected FILE=path");
+        text_error(reader, card.place, "*INCLUDE names no file, expected FILE=path");
         return;
     }
     for (int i = 0; i < card.noption; i++)
         if (!same_text(card.option[i].name, "FILE"))
-            message_add(reader->messages, SEVERITY_ERROR, card.option[i].place.file, card.option[i].place.line,
-                        card.option[i].place.column, "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
+            text_error(reader, card.option[i].place, "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
     int errors = reader->messages->errors;
     const char *path = deck_text_path(reader->pool, reader->text, &card, file, reader->messages);
     if (!path) {
@@ -244,18 +247,15 @@ static void include(struct reader *reader, struct card card)
     struct stat information; /* the same file may have several paths */
     for (int i = 0; i <= reader->depth && !stat(path, &information); i++)
         if (information.st_dev == reader->open_stat[i].st_dev && information.st_ino == reader->open_stat[i].st_ino) {
-            message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line,
-                        file->value_place.column, "%s includes itself, expected a file that is not already open", path);
+            text_error(reader, file->value_place, "%s includes itself, expected a file that is not already open", path);
             return;
         }
     if (reader->depth >= DECK_MOST_INCLUDES) {
-        message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
-                    "files are included more than %d deep, expected fewer", DECK_MOST_INCLUDES);
+        text_error(reader, file->value_place, "files are included more than %d deep, expected fewer", DECK_MOST_INCLUDES);
         return;
     }
     if (reader->text->nfile > DECK_MOST_FILES) {
-        message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
-                    "the deck includes more than %d files, expected fewer", DECK_MOST_FILES);
+        text_error(reader, file->value_place, "the deck includes more than %d files, expected fewer", DECK_MOST_FILES);
         reader->over = 1;
         return;
     }
@@ -287,19 +287,18 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     if (first == last)
         return;
     if (!text->ncard) {
-        message_add(reader->messages, SEVERITY_ERROR, reader->open_file[reader->depth], line, (int)(first - begin) + 1,
-                    "a data line stands before the first card, expected a line that begins with *");
+        text_error(reader, at(reader, begin, first, line),
+                   "a data line stands before the first card, expected a line that begins with *");
         return;
     }
     struct card *card = &text->card[text->ncard - 1];
-    struct data_line *grown = pool_grow(reader->pool, card->line, (size_t)card->nline, &card->line_room, sizeof *grown);
     int count = 1;
     for (const char *c = begin; c < end; c++)
         count += *c == ',';
     struct data_line data = {
         .place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
     data.field = POOL_ARRAY(reader->pool, struct field, count);
-    if (!grown || !data.field || !data.text) {
+    if (!data.field || !data.text) {
         reader->out_of_memory = 1;
         return;
     }
@@ -313,8 +312,7 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     }
     if (data.count > 1 && !*data.field[data.count - 1].text) /* a comma at the end of the line */
         data.count--;
-    card->line = grown;
-    card->line[card->nline++] = data;
+    reader->out_of_memory |= POOL_ADD(reader->pool, card->line, card->nline, &data);
 }
 
 /* Overwrites the text behind the line. Returns 1 where the file is not text, which ends the reading. */
@@ -322,18 +320,18 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
 {
     const char *line_text = whole;
     whole[length] = 0;
-    const char *file = reader->open_file[reader->depth], *end = line_text + length;
+    const char *end = line_text + length;
     for (const char *c = line_text; c < end; c++)
         if ((unsigned char)*c < ' ' && *c != '\t') {
-            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
-                        "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
+            text_error(reader, at(reader, line_text, c, line),
+                       "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
             return 1;
         }
     for (const char *c = line_text; c < end; c++) { /* what makes a line look like another one, in comments as well */
         unsigned code;
         if (*c != '\t' && text_is_control(c, &code)) {
-            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
-                        "character U+%04X does not stand for itself, expected text without control characters", code);
+            text_error(reader, at(reader, line_text, c, line),
+                       "character U+%04X does not stand for itself, expected text without control characters", code);
             break;
         }
     }
@@ -351,8 +349,8 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
         return 0;
     if (*first == '*') { /* also behind a comma that nothing follows */
         if (reader->text->ncard == DECK_MOST_CARDS) {
-            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(first - line_text) + 1,
-                        "the deck has more than %d cards, expected those of a rotor", DECK_MOST_CARDS);
+            text_error(reader, at(reader, line_text, first, line), "the deck has more than %d cards, expected those of a rotor",
+                       DECK_MOST_CARDS);
             reader->over = 1;
             return 1;
         }
@@ -372,8 +370,8 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
 static void too_large(struct reader *reader, const char *path)
 {
     reader->over = 1;
-    message_add(reader->messages, SEVERITY_ERROR, path, 1, 1, "the deck is larger than %ld MiB, expected cards of a rotor",
-                DECK_MOST_BYTES >> 20);
+    text_error(reader, (struct place){path, 1, 1}, "the deck is larger than %ld MiB, expected cards of a rotor",
+               DECK_MOST_BYTES >> 20);
 }
 
 /* `path`: the file of the places in it. */
@@ -406,8 +404,8 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
             line_text[length++] = (char)c;
             if (length == sizeof line_text || (length == DECK_LINE_LENGTH + 1 && c != '\r')) {
                 length = sizeof line_text;
-                message_add(reader->messages, SEVERITY_ERROR, path, line, DECK_LINE_LENGTH + 1,
-                            "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
+                text_error(reader, (struct place){path, line, DECK_LINE_LENGTH + 1},
+                           "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
                 stop = memchr(line_text, 0, DECK_LINE_LENGTH + 1) != NULL;
             }
         }
@@ -417,15 +415,10 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
     if (length)
         reader->text->end = (struct place){path, line, (int)length + 1};
     int failed = deck_source_close(source);
-    struct deck_text *text = reader->text;
-    struct deck_file *grown = pool_grow(reader->pool, text->source, (size_t)text->nsource, &text->source_room, sizeof *grown);
-    reader->out_of_memory |= !grown;
-    if (grown) {
-        text->source = grown;
-        text->source[text->nsource++] = (struct deck_file){path, source->kept ? source->kept : ""};
-    }
+    const struct deck_file read = {path, source->kept ? source->kept : ""};
+    reader->out_of_memory |= POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
     if (failed)
-        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", host_error_text(failed, why));
+        text_error(reader, (struct place){path, line, 1}, "reading failed: %s", host_error_text(failed, why));
     reader->continues = 0;
     return ROTID_OK;
 }
@@ -436,8 +429,8 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     char why[HOST_ERROR_TEXT];
     int failed = deck_source_open(&source, path, !from.file);
     if (failed) {
-        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
-                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
+        text_error(reader, (struct place){from.file ? from.file : path, from.line, from.column},
+                   "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
         return ROTID_ERROR_IO;
     }
     reader->out_of_memory |= deck_text_add_file(reader->pool, reader->text, path) != ROTID_OK;

@@ -18,7 +18,6 @@ struct splitter {
     char separator;
     int row, column; /* of the cell at hand, from 1 */
     int cells;
-    size_t field_room;
     struct data_line line; /* the row at hand */
     int holds;             /* it has a cell that is not blank */
     int out_of_memory;
@@ -177,11 +176,9 @@ static int take_cell(struct splitter *s)
         return refuse_table(s, s->row, s->column, "the table has more than %d cells, expected fewer", TABLE_MOST_CELLS);
     if (s->column > TABLE_MOST_COLUMNS)
         return refuse_table(s, s->row, s->column, "the row has more than %d cells, expected fewer", TABLE_MOST_COLUMNS);
-    struct field *grown = pool_grow(s->pool, s->line.field, (size_t)s->line.count, &s->field_room, sizeof *grown);
-    if (!grown)
+    const struct field cell = {text, {s->table->path, s->row, s->column}, 0};
+    if (POOL_ADD(s->pool, s->line.field, s->line.count, &cell))
         return s->out_of_memory = 1;
-    s->line.field = grown;
-    grown[s->line.count++] = (struct field){text, {s->table->path, s->row, s->column}, 0};
     s->holds |= end > text;
     s->cell_end = end;
     return 0;
@@ -190,7 +187,6 @@ static int take_cell(struct splitter *s)
 static int take_row(struct splitter *s)
 {
     s->line = (struct data_line){.place = {s->table->path, s->row, 1}};
-    s->field_room = 0;
     s->holds = 0;
     s->column = 1;
     for (int more = 1; more; s->column++) {
@@ -204,12 +200,7 @@ static int take_row(struct splitter *s)
     s->line.end = (struct place){s->table->path, s->row, s->line.count + 1};
     if (!s->holds)
         return 0;
-    struct data_line *grown = pool_grow(s->pool, s->table->row, (size_t)s->table->nrow, &s->table->row_room, sizeof *grown);
-    if (!grown)
-        return s->out_of_memory = 1;
-    s->table->row = grown;
-    grown[s->table->nrow++] = s->line;
-    return 0;
+    return s->out_of_memory = POOL_ADD(s->pool, s->table->row, s->table->nrow, &s->line);
 }
 
 /* 1,5 with one comma and digits around it */
