@@ -99,8 +99,9 @@ static const struct states *of(const struct job *job)
 static rotid_fit_result *fit_job(const struct job *job, const int *held)
 {
     rotid_fit_result *fit;
-    struct job copy = *job;
-    assert_status(identify_fit(&test_pool, &copy, number, held, &job->options.fit, NULL, NULL, &fit), ROTID_OK);
+    struct state state;
+    const struct states states = states_of(job, &state);
+    assert_status(identify_fit_states(&test_pool, &states, number, held, &job->options.fit, NULL, &fit), ROTID_OK);
     assert_true(fit->converged);
     return fit;
 }

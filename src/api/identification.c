@@ -66,10 +66,11 @@ static int identify(struct call *call, const struct states *given, const struct 
     rotid_fit_result *fit = NULL;
     int one = states->nstate == 1, status = ROTID_ERROR_MEMORY;
     if (found && one && !states->more) {
-        status = identify_run(pool, &states->state[0].job, baseline, &call->environment, &call->notes, found);
+        status =
+            identify_run(pool, &states->state[0].job, baseline ? IDENTIFY_BASELINE : 0, &call->environment, &call->notes, found);
         fit = found->fit;
     } else if (found) {
-        status = identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit);
+        status = identify_states(pool, states, baseline ? IDENTIFY_BASELINE : 0, &call->environment, &call->notes, found, &fit);
     }
     if (status)
         return status;

@@ -126,9 +126,8 @@ struct listing {
     int *node_line;            /* line of the set of a node */
     struct uff_header *header; /* NULL where there is none */
     struct uff_units *units;   /* the last one, NULL where there is none */
-    size_t doubt_count;
+    int doubt_count;
     struct listing_doubt *doubt;
-    size_t set_room, function_room, shape_room, node_room, line_room, doubt_room;
 };
 
 struct listing_options {

@@ -137,21 +137,14 @@ static void add(struct search *search, const char *kind, int line, const char *f
     va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
     va_end(values);
-    for (size_t i = 0; i < listing->doubt_count; ++i)
+    for (int i = 0; i < listing->doubt_count; ++i)
         same += !strcmp(listing->doubt[i].kind, kind);
     if (same > DOUBTS_OF_A_KIND)
         return;
     if (same == DOUBTS_OF_A_KIND)
         (void)snprintf(text, sizeof text, "... and more of that kind");
-    struct listing_doubt *grown =
-        pool_grow(search->pool, listing->doubt, listing->doubt_count, &listing->doubt_room, sizeof *grown);
-    char *copy = pool_copy_text(search->pool, text);
-    if (!grown || !copy) {
-        search->out_of_memory = 1;
-        return;
-    }
-    listing->doubt = grown;
-    grown[listing->doubt_count++] = (struct listing_doubt){kind, copy, line};
+    const struct listing_doubt doubt = {kind, pool_copy_text(search->pool, text), line};
+    search->out_of_memory |= !doubt.text || POOL_ADD(search->pool, listing->doubt, listing->doubt_count, &doubt);
 }
 
 static void check_sets(struct search *search)
@@ -369,15 +362,10 @@ static int read_nodes(struct listing_work *job, struct listing_set *set)
     if (status)
         return status;
     for (int i = 0; i < count; ++i) {
-        struct uff_node *grown =
-            pool_grow(job->pool, listing->node, (size_t)listing->node_count, &listing->node_room, sizeof *grown);
-        int *line = pool_grow(job->pool, listing->node_line, (size_t)listing->node_count, &listing->line_room, sizeof *line);
-        if (!grown || !line)
+        int lines = listing->node_count;
+        if (POOL_ADD(job->pool, listing->node_line, lines, &set->set.line) ||
+            POOL_ADD(job->pool, listing->node, listing->node_count, &node[i]))
             return ROTID_ERROR_MEMORY;
-        listing->node = grown;
-        listing->node_line = line;
-        line[listing->node_count] = set->set.line;
-        grown[listing->node_count++] = node[i];
     }
     set->size = count;
     return ROTID_OK;
@@ -405,15 +393,9 @@ static int read_shape(struct listing_work *job, struct listing_set *set)
         shape->node = NULL;
         shape->real = shape->imag = NULL;
     }
-    struct listing_shape *grown =
-        pool_grow(job->pool, listing->shape, (size_t)listing->shape_count, &listing->shape_room, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    listing->shape = grown;
     set->size = shape->node_count;
     set->item = listing->shape_count;
-    grown[listing->shape_count++] = entry;
-    return ROTID_OK;
+    return POOL_ADD(job->pool, listing->shape, listing->shape_count, &entry) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int read_function(struct listing_work *job, struct listing_set *set)
@@ -435,15 +417,9 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     if (status)
         return status;
     values_close(&entry.values);
-    struct listing_function *grown =
-        pool_grow(job->pool, listing->function, (size_t)listing->function_count, &listing->function_room, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    listing->function = grown;
     set->size = function->count;
     set->item = listing->function_count;
-    grown[listing->function_count++] = entry;
-    return ROTID_OK;
+    return POOL_ADD(job->pool, listing->function, listing->function_count, &entry) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int read_header(struct listing_work *job)
@@ -504,12 +480,8 @@ static int read_sets(struct listing_work *job)
         entry.is_read = !status;
         entry.is_faulty = status == ROTID_ERROR_SYNTAX;
         listing->faulty_count += entry.is_faulty;
-        struct listing_set *grown =
-            pool_grow(job->pool, listing->set, (size_t)listing->set_count, &listing->set_room, sizeof *grown);
-        if (!grown)
+        if (POOL_ADD(job->pool, listing->set, listing->set_count, &entry))
             return ROTID_ERROR_MEMORY;
-        listing->set = grown;
-        grown[listing->set_count++] = entry;
     }
 }
 

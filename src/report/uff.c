@@ -146,7 +146,7 @@ void screen_uff(const struct screen *to, const char *path, const struct listing 
             to, "from and step in s or Hz; min and max of the modulus where values are complex; values in the unit of the file");
     if (listing->doubt_count)
         (void)fprintf(out, "\ndoubtful places\n");
-    for (size_t i = 0; i < listing->doubt_count; ++i) {
+    for (int i = 0; i < listing->doubt_count; ++i) {
         const struct listing_doubt *doubt = &listing->doubt[i];
         char head[32] = "  ";
         if (doubt->line)

@@ -235,7 +235,7 @@ static int fit_beam(struct pool *pool, const struct job *job, const struct both 
         fitted.measurement.shape = NULL;
     status = fitted.measurement.nmode < fitted.unknowns.nparameter
                  ? ROTID_ERROR_RANK
-                 : identify_run_bare(pool, &fitted, 0, environment, &quiet, &found);
+                 : identify_run(pool, &fitted, IDENTIFY_BARE, environment, &quiet, &found);
     if (status == ROTID_ERROR_MEMORY)
         return status;
     /* the frequencies have no noise: intervals, which the misfit widens, and what they call undetermined, say nothing here */

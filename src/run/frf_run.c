@@ -31,24 +31,18 @@ static double sign_of(const struct frf *frf)
 struct chooser {
     struct pool *pool;
     struct frf_result *out;
-    size_t room;
     int out_of_memory;
 };
 
 static void take(struct chooser *chooser, int response, int reference, const struct frf *frf)
 {
     struct frf_result *out = chooser->out;
-    struct frf_row *rows = pool_grow(chooser->pool, out->row, (size_t)out->nrow, &chooser->room, sizeof *rows);
-    if (!rows) {
-        chooser->out_of_memory = 1;
-        return;
-    }
-    out->row = rows;
-    out->row[out->nrow++] = (struct frf_row){.response = response,
-                                             .reference = reference,
-                                             .measured = frf,
-                                             .sign = frf ? sign_of(frf) : 1,
-                                             .is_reciprocal = frf && frf->response_node != response};
+    const struct frf_row row = {.response = response,
+                                .reference = reference,
+                                .measured = frf,
+                                .sign = frf ? sign_of(frf) : 1,
+                                .is_reciprocal = frf && frf->response_node != response};
+    chooser->out_of_memory |= POOL_ADD(chooser->pool, out->row, out->nrow, &row);
 }
 
 /* The functions of a pair, those measured with force and response exchanged only where there is none the right way round. How

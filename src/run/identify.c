@@ -173,16 +173,6 @@ static int fit_states(struct pool *pool, const struct states *states, const roti
     return status;
 }
 
-int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
-                 const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
-                 rotid_fit_result **fit)
-{
-    struct state state;
-    const struct states states = states_of(job, &state);
-    const struct paired paired = {number, holdout, mass};
-    return fit_states(pool, &states, states.bounds, &paired, options, environment, fit);
-}
-
 int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                         const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
 {
@@ -443,7 +433,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
     return ROTID_OK;
 }
 
-static int identify(struct pool *pool, const struct states *given, int baseline, int bare, const rotid_environment *environment,
+int identify_states(struct pool *pool, const struct states *given, int how, const rotid_environment *environment,
                     struct message_list *notes, struct identification *out, rotid_fit_result **fit)
 {
     int count = given->nstate, status = ROTID_OK, begun = 0;
@@ -465,7 +455,7 @@ static int identify(struct pool *pool, const struct states *given, int baseline,
         run[begun].out = &out[begun];
     }
     if (!status)
-        status = with_models(pool, &states, baseline, bare, environment, notes, run, fit);
+        status = with_models(pool, &states, how & IDENTIFY_BASELINE, how & IDENTIFY_BARE, environment, notes, run, fit);
     for (int s = 0; s < begun; s++)
         if (states.state[s].job.models)
             models_end_run(pool, states.state[s].job.models, given->state[s].job.models);
@@ -508,37 +498,13 @@ int identify_own_unknowns(struct pool *pool, const struct state *state, struct i
     return ROTID_OK;
 }
 
-static int identify_one(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                        struct message_list *notes, struct identification *out)
+int identify_run(struct pool *pool, const struct job *job, int how, const rotid_environment *environment,
+                 struct message_list *notes, struct identification *out)
 {
     struct state state;
     const struct states states = states_of(job, &state);
     rotid_fit_result *fit;
-    return identify(pool, &states, baseline, bare, environment, notes, out, &fit);
-}
-
-int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
-                    struct message_list *notes, struct identification *out, rotid_fit_result **fit)
-{
-    return identify(pool, states, baseline, 0, environment, notes, out, fit);
-}
-
-int identify_states_bare(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
-                         struct message_list *notes, struct identification *out, rotid_fit_result **fit)
-{
-    return identify(pool, states, baseline, 1, environment, notes, out, fit);
-}
-
-int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
-                 struct message_list *notes, struct identification *out)
-{
-    return identify_one(pool, job, baseline, 0, environment, notes, out);
-}
-
-int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
-                      struct message_list *notes, struct identification *out)
-{
-    return identify_one(pool, job, baseline, 1, environment, notes, out);
+    return identify_states(pool, &states, how, environment, notes, out, &fit);
 }
 
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,

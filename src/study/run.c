@@ -361,7 +361,8 @@ static char *identify(struct pool *pool, const struct study *study, const struct
     if (!*status && !study->plan->from_model)
         *status = runup_join(pool, states, notes, &joined, &runup);
     if (!*status)
-        *status = identify_states_bare(pool, &joined, study->plan->baseline, environment, notes, fitted.found, &fitted.fit);
+        *status = identify_states(pool, &joined, IDENTIFY_BARE | (study->plan->baseline ? IDENTIFY_BASELINE : 0), environment,
+                                  notes, fitted.found, &fitted.fit);
     if (runup_close(runup))
         *status = ROTID_ERROR_MEMORY;
     if (!*status && fitted.fit->status != ROTID_STOP_CANCELLED && study->plan->command == PLAN_SPEEDS)

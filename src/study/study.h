@@ -10,7 +10,7 @@
  *   experiment.c      experiment_make: data of the truth at drawn parameters (SOURCE=MODEL), or as measured; noise, sensors and
  *                     starts drawn by name (draw_stream: seed, purpose, replicate, mode, sensor), so order and machine do not
  *                     matter
- *   run.c             study_run: identify_states_bare or diagnose_states on that, one thread; the line of it as JSON;
+ *   run.c             study_run: identify_states or diagnose_states on that, one thread; the line of it as JSON;
  *                     score_make: the verdict beside the hidden effect
  *   record.c          record_open, record_append: the file while it grows, locked; record_finish: lines in order of the runs
  *   workers.c         workers_run: processes of this machine, a run each; a process that dies costs its run

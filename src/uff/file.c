@@ -283,7 +283,7 @@ struct skip { /* sets of one type that were not read */
 
 struct shape_list {
     struct uff_shape *item;
-    size_t count, capacity;
+    int count;
 };
 
 /* One reading. */
@@ -373,13 +373,7 @@ static int read_shape(struct uff_run *job)
     if (status != ROTID_OK)
         return status;
     struct shape_list *list = is_extra ? &job->extras : &job->shapes;
-    struct uff_shape *grown =
-        list->count < INT_MAX ? pool_grow(&job->scratch, list->item, list->count, &list->capacity, sizeof *grown) : NULL;
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    list->item = grown;
-    list->item[list->count++] = shape;
-    return ROTID_OK;
+    return list->count == INT_MAX || POOL_ADD(&job->scratch, list->item, list->count, &shape) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int read_nodes(struct uff_run *job, const struct uff_set *set)
@@ -421,8 +415,8 @@ static int keep_shapes(struct pool *pool, const struct shape_list *list, int *co
     if (!*out)
         return ROTID_ERROR_MEMORY;
     if (list->count)
-        memcpy(*out, list->item, list->count * sizeof *list->item);
-    *count = (int)list->count;
+        memcpy(*out, list->item, (size_t)list->count * sizeof *list->item);
+    *count = list->count;
     return ROTID_OK;
 }
 

@@ -263,9 +263,11 @@ static double fitted_chi2(struct pool *pool, const struct diagnosis *d, const st
 {
     rotid_fit_result *fit = NULL;
     double chi2 = NAN;
+    struct state state;
+    const struct states states = states_of(job, &state);
     int all = d->base.compared.nmode == job->measurement.nmode; /* or the diagnosis has left one out */
-    if (!identify_fit(pool, job, all ? d->base.compared.number : job->measurement.number, job->measurement.holdout,
-                      &job->options.fit, NULL, NULL, &fit))
+    if (!identify_fit_states(pool, &states, all ? d->base.compared.number : job->measurement.number, job->measurement.holdout,
+                             &job->options.fit, NULL, &fit))
         chi2 = fit->chi2;
     rotid_fit_free(fit);
     return chi2;
