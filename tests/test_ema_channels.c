@@ -104,7 +104,7 @@ POOL_TEST(bad_channels_are_named)
     assert_true(ema.channel[3].quality_flags & EMA_NOT_FINITE);
     assert_true(ema.channel[5].quality_flags & EMA_NOISY);
     assert_true(ema.channel[8].quality_flags & EMA_DUPLICATE);
-    assert_int_equal(ema.channel[8].twin, 7);
+    assert_int_equal(ema.channel[8].duplicate_of, 7);
     for (int c = 0; c < 10; c++)
         if (c != 2 && c != 3 && c != 5 && c != 8)
             assert_int_equal(ema.channel[c].quality_flags, 0);

@@ -135,7 +135,7 @@ POOL_TEST(a_listing_counts_what_is_there)
     assert_int_equal(listing.node_count, 20);
     assert_int_equal(listing.shape_count, 20);
     assert_int_equal(listing.group_count, 1);
-    assert_int_equal(listing.doubt_count, 2);                 /* node 99 twice */
+    assert_int_equal(listing.finding_count, 2);               /* node 99 twice */
     assert_close(listing.function[0].si_factor, 1, 1e-15, 0); /* mm/s2 over mN */
     assert_close(listing.shape[7].shape.real[0], 1, 0, 0);
     assert_int_equal(count, 3);

@@ -191,7 +191,7 @@ UNIT_TEST(right_decks_get_no_warning_of_units)
         assert_status(spectrum_compute_parts(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN,
                                              comparison_candidates(&job), 0, &spectrum),
                       ROTID_OK);
-        assert_true(doubt_units(&job, &spectrum, 0, &messages) == 0);
+        assert_true(check_units(&job, &spectrum, 0, &messages) == 0);
     }
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         const char *field[FIELDS];
@@ -428,7 +428,7 @@ UNIT_TEST(a_common_factor_of_all_frequencies_is_named)
             for (int k = 0; k < 2; k++) /* 12 % between the modes: wrong moduli */
                 job.measurement.frequency_hz[k] = spectrum.full_hz[k] * cases[i].factor * (spread && k ? 1.12 : 1);
             message_open(&messages, &test_pool);
-            assert_close(doubt_units(&job, &spectrum, 0, &messages), cases[i].says ? cases[i].factor : 0, 1e-6, 0);
+            assert_close(check_units(&job, &spectrum, 0, &messages), cases[i].says ? cases[i].factor : 0, 1e-6, 0);
             if (cases[i].says)
                 assert_non_null(find_message(&messages, cases[i].says));
         }

@@ -62,7 +62,7 @@ int call_close(struct call *call, int status)
 {
     char *failure = call->entry.failure;
     if (call->job && status < 0)
-        doubt_sections(call->job, status, &call->notes);
+        check_sections(call->job, status, &call->notes);
     if (failure && !*failure && status < 0)
         explain(call, failure);
     if (call->entered)

@@ -87,14 +87,14 @@ static int run(struct call *call, const struct job *stated, int type, const doub
     int paired;
     if (status)
         return status;
-    (void)doubt_units(job, &found, 0, &call->notes);
+    (void)check_units(job, &found, 0, &call->notes);
     paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;
     if (!paired)
         comparison_warn_of_mesh(job, &found, &compared, &call->notes);
     if (with_other)
-        status = beside_make(&call->entry.scratch, job, at, nmode, &call->environment, &call->notes, &beside);
+        status = beam_vs_solid_make(&call->entry.scratch, job, at, nmode, &call->environment, &call->notes, &beside);
     if (status)
         return status;
     *result = make_result(call, job, &found, paired ? NULL : &compared, beside);

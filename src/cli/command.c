@@ -43,7 +43,7 @@ int command_fail(struct command *command, int status)
         return EXIT_DOUBTFUL;
     }
     if (command->job)
-        doubt_sections(command->job, status, &command->messages);
+        check_sections(command->job, status, &command->messages);
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));

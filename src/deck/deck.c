@@ -9,6 +9,15 @@
 #include "rotid.h"
 #include "run/run.h"
 
+/* Beside the whole rotor; ten times and more from where solutions fail. */
+#define SHORTEST 1e-7
+#define THINNEST 1e-4 /* of the largest diameter: EI falls by its fourth power */
+#define STIFFEST 1e13 /* times EI/L^3 */
+#define HEAVIEST 1e7
+#define SOFTEST  1e6 /* between the moduli of two materials */
+
+static const double pi = 3.14159265358979323846;
+
 #define LAST_PHASE 8
 
 /* The card that a misspelt name is closest to, or NULL. */
@@ -114,7 +123,7 @@ static int tie_groups(struct deck_reader *reader, const struct parameter *young,
 }
 
 /* G of its own where it is identified, G = E/2(1+nu) where TIE asks for it. */
-static void settle_moduli(struct deck_reader *reader)
+static void tie_moduli(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     for (int p = 0; p < job->unknowns.nparameter && reader->tie; p++) {
@@ -253,6 +262,84 @@ static void choose_mesh(struct deck_reader *reader)
                   c.is_noise_known ? ", a tenth of the smallest noise" : "");
 }
 
+/* Numbers of a rotor so far apart that the sixteen digits of K and M lose the smaller ones: refused here, where each has a place,
+ * in place of an eigenvalue problem that has no solution. A support is rigid, a mass at rest, long before. */
+static void refuse_contrast(struct deck_reader *reader, struct place place, double mass, double length)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    double bending = 0, thickest = 0;
+    int soft = -1, hard = -1;
+    for (int s = 0; s < rotor->nsegment; s++)
+        thickest = fmax(thickest, rotor->segment[s].rectangular ? rotor->segment[s].height : rotor->segment[s].outer);
+    for (int s = 0; s < rotor->nsegment; s++) {
+        const struct segment *g = &rotor->segment[s];
+        double e = rotor->group[g->group].material.e, d = g->outer, b = g->inner;
+        bending = fmax(bending, g->rectangular ? e * g->width * pow(g->height, 3) / 12 : e * pi / 64 * (pow(d, 4) - pow(b, 4)));
+        if (g->length < SHORTEST * length)
+            deck_error(reader, reader->place[GROUP_PLACES][g->group],
+                       "a section of %s is %.3g m long in a rotor of %.4g m, expected at least %.1g of the length",
+                       rotor->group[g->group].name, g->length, length, SHORTEST);
+        if ((g->rectangular ? g->height : g->outer) < THINNEST * thickest)
+            deck_error(
+                reader, reader->place[GROUP_PLACES][g->group],
+                "a section of %s is %.3g m thick in a rotor of up to %.4g m, expected at least %.1g of that: a diameter in "
+                "another unit?",
+                rotor->group[g->group].name, g->rectangular ? g->height : g->outer, thickest, THINNEST);
+    }
+    bending /= length * length * length;
+    for (int i = 0; i < rotor->nspring; i++) {
+        const struct spring *spring = &rotor->spring[i];
+        double share = fmax(spring->lateral, spring->rotational / (length * length)) / bending;
+        if (share > STIFFEST)
+            deck_error(
+                reader, place,
+                "the spring at %.4g m is %.1g times as stiff as the shaft, whose EI/L^3 is %.3g N/m, expected at most %.1g "
+                "times, which is rigid: stiffness, E or diameters in another unit?",
+                spring->position, share, bending, STIFFEST);
+    }
+    for (int i = 0; i < rotor->ndisk; i++) {
+        const struct disk *disk = &rotor->disk[i];
+        double share = fmax(disk->mass, disk->diametral / (length * length)) / mass;
+        if (share > HEAVIEST)
+            deck_error(
+                reader, place,
+                "the disk at %.4g m is %.1g times as heavy as the shaft of %.4g kg, expected at most %.1g times, which is at "
+                "rest: mass or density in another unit?",
+                disk->position, share, mass, HEAVIEST);
+    }
+    for (int m = 0; m < reader->nmaterial; m++) {
+        double e = reader->material[m].e;
+        soft = e > 0 && (soft < 0 || e < reader->material[soft].e) ? m : soft;
+        hard = e > 0 && (hard < 0 || e > reader->material[hard].e) ? m : hard;
+    }
+    if (soft >= 0 && reader->material[hard].e > SOFTEST * reader->material[soft].e)
+        deck_error(
+            reader, reader->place[MATERIAL_PLACES][soft],
+            "Young's modulus of %s is %.4g Pa beside %.4g Pa of %s, expected at most a factor of %.1g between two materials: "
+            "one of them in another unit?",
+            reader->material[soft].name, reader->material[soft].e, reader->material[hard].e, reader->material[hard].name,
+            SOFTEST);
+}
+
+static void check_magnitudes(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    double mass = 0, length = rotor_length(rotor);
+    for (int s = 0; s < rotor->nsegment; s++) {
+        const struct segment *g = &rotor->segment[s];
+        double area = g->rectangular ? g->height * g->width : pi / 4 * (g->outer * g->outer - g->inner * g->inner);
+        mass += area * g->length * rotor->group[g->group].material.rho;
+    }
+    struct place place = rotor->ngroup ? reader->place[GROUP_PLACES][0] : reader->text.end;
+    if (mass > 0 && length > 0)
+        refuse_contrast(reader, place, mass, length);
+    if (!reader->warned && (length > 30 || length < 0.01))
+        deck_note(reader, place, "the rotor is %.4g m long, expected 0.01 to 30 m: lengths in another unit?", length);
+    if (!reader->warned && (mass > 3e5 || mass < 1e-3))
+        deck_note(reader, place, "the shaft weighs %.4g kg, expected 0.001 to 300,000 kg: density or lengths in another unit?",
+                  mass);
+}
+
 /* What a model takes for granted where the deck says nothing of it. */
 static void note_assumptions(struct deck_reader *reader)
 {
@@ -334,6 +421,10 @@ void deck_read_cards(struct deck_reader *reader)
     struct job *job = reader->job;
     for (int c = 0; c < reader->text.ncard; c++)
         deck_check_names(reader, &reader->text.card[c]);
+    /* 1. The cards by the phases of card_table.c, whatever their order in the text: units (0), materials (1), sections along the
+     * axis (2); *SET may change lengths before anything lies at a position; layers (3), what is attached, sensors (4), modes (5),
+     * values at sensors (6), causes (7); last what is searched, held out, set. An error leaves the card and goes on with the next
+     * one. */
     for (int phase = 0; phase <= LAST_PHASE && !reader->out_of_memory; phase++) {
         if (phase == 3) {
             deck_set_lengths(reader);
@@ -356,16 +447,20 @@ void deck_read_cards(struct deck_reader *reader)
     }
     if (reader->out_of_memory)
         return;
+    /* 2. What only all cards together can tell. */
     check_materials(reader);
     deck_check_unique(reader, reader->text.ncard, reader->text.card, 0);
     check_elements(reader);
     if (reader->messages->errors)
         return;
-    settle_moduli(reader);
-    deck_settle_noise(reader);
+    /* 3. What they leave open: which moduli follow from others, the noise of each value, the data without the faults that are
+     * stated. */
+    tie_moduli(reader);
+    deck_complete_noise(reader);
     deck_apply_corrections(reader);
     if (reader->messages->errors || reader->out_of_memory)
         return;
+    /* 4. How it is fitted, on which mesh; is the rotor one that can be computed? */
     choose_functional(reader);
     check_masters(reader);
     choose_mesh(reader);
@@ -373,7 +468,7 @@ void deck_read_cards(struct deck_reader *reader)
         check_model(reader);
     if (!reader->messages->errors && !reader->out_of_memory)
         count_modes(reader);
-    deck_doubt_rotor(reader);
+    check_magnitudes(reader);
     note_assumptions(reader);
 }
 
@@ -404,6 +499,7 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
             deck_error(&reader, reader.text.end, "the deck is empty, expected cards such as *SHAFT");
         return status ? status : ROTID_ERROR_SYNTAX;
     }
+    /* The text with what the caller replaces and adds; tables become data lines of their cards. */
     int nread = reader.text.ncard;
     struct deck_origin *origin = POOL_NEW(pool, struct deck_origin);
     if (!origin)
@@ -422,6 +518,7 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
+    /* Each state by itself, then the machine, which is made of the first one. */
     if (!bad_tables && !reader.out_of_memory) {
         deck_split_running(&reader, &nread);
         deck_read_all_states(&reader, nread, states);

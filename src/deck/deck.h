@@ -11,7 +11,7 @@
  *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
  *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, lists of rotor or machine
  *   deck_fields.c        one number, option or position with range and unit; a row of them: read, written, compared
- *   deck_units.c         factors to SI, numbers that no rotor has
+ *   deck_units.c         factors to SI
  *   deck_model.c         materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
  *   deck_measured.c      sensors, modes, shapes, noise; *MEASURED, FILE
  *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *FRF; deck_state.c: *SET, what a state has of its own
@@ -208,7 +208,7 @@ struct deck_reader {
     struct card *running;
     struct place margin_place; /* of *OPERATION */
     struct machine *machine;   /* that they make */
-    unsigned doubted;          /* kinds of numbers that a warning was given for */
+    unsigned warned;           /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -237,12 +237,14 @@ double deck_in_si(const struct deck_reader *reader, const char *what);
 /* The factors of all quantities, into the job; and of one of them, of a job whose deck has been read. */
 void deck_keep_units(struct deck_reader *reader);
 double deck_unit_of(const struct job_units *units, const char *what);
+/* Which quantity of *UNITS it is, -1: none; the option that states its unit, the unit that it has inside. */
+int deck_quantity(const char *what, const char **option, const char **si);
+/* The unit in which *value would be from `least` to `most`, nearest to what is typical, and the value in SI then; NULL: none. */
+const char *deck_likely_unit(const char *what, double least, double most, double typical, double *value);
 /* The deck's own unit of it, for messages. */
 const char *deck_unit_name(const struct deck_reader *reader, const char *what);
 /* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
-void deck_doubt(struct deck_reader *reader, struct place place, const char *what, const char *text, double value);
-/* Warns of an absurd mass or length of the whole. */
-void deck_doubt_rotor(struct deck_reader *reader);
+void deck_check_magnitude(struct deck_reader *reader, struct place place, const char *what, const char *text, double value);
 
 /* Number i of a data line within the range; `what` names it in the error, and its unit ("outer diameter [m]"): the value
  * is SI whatever *UNITS says. 0, or 1 after an error. */
@@ -350,7 +352,7 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
 
 /* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
  * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */
-void deck_settle_noise(struct deck_reader *reader);
+void deck_complete_noise(struct deck_reader *reader);
 
 /* -------------------------------------------------------------------------------------------------- deck state, deck uff */
 

@@ -117,9 +117,10 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         bounds.upper *= si;
         bounds.start *= si;
         if (parameter.kind == PARAMETER_E || parameter.kind == PARAMETER_G)
-            deck_doubt(reader, line->field[3].place,
-                       parameter.kind == PARAMETER_E ? "start of a Young's modulus [Pa]" : "start of a shear modulus [Pa]",
-                       line->field[3].text, bounds.start);
+            deck_check_magnitude(reader, line->field[3].place,
+                                 parameter.kind == PARAMETER_E ? "start of a Young's modulus [Pa]"
+                                                               : "start of a shear modulus [Pa]",
+                                 line->field[3].text, bounds.start);
         if (bounds.lower >= bounds.upper)
             deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected the lower one first", bounds.name,
                        line->field[1].text, line->field[2].text);

@@ -287,7 +287,7 @@ void deck_noise(struct deck_reader *reader, const struct card *card)
 /* ------------------------------------------------------------------------------------------------ noise */
 
 /* The mode's frequency and deviation from its readings, where they say one. */
-static void settle_mode(struct deck_reader *reader, int k)
+static void average_readings(struct deck_reader *reader, int k)
 {
     struct job *job = reader->job;
     int nsensor = job->rotor.nsensor;
@@ -347,7 +347,7 @@ static void take_usual_floor(struct deck_reader *reader)
               100 * USUAL_FLOOR_FREQUENCY, 100 * USUAL_FLOOR_SHAPE);
 }
 
-void deck_settle_noise(struct deck_reader *reader)
+void deck_complete_noise(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     ptrdiff_t components = job->measurement.shape ? (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode : 0;
@@ -356,7 +356,7 @@ void deck_settle_noise(struct deck_reader *reader)
     job->measurement.stated_frequency_noise = reader->noise_frequency > 0 ? reader->noise_frequency : 0;
     job->measurement.stated_shape_noise = reader->noise_shape > 0 ? reader->noise_shape : 0;
     for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz && !reader->out_of_memory; k++)
-        settle_mode(reader, k);
+        average_readings(reader, k);
     for (int k = 0; k < job->measurement.nmode; k++)
         if (isfinite(job->measurement.frequency_std[k]))
             job->measurement.frequency_std[k] = hypot(job->measurement.frequency_std[k], reader->floor_frequency);

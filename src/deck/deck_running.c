@@ -138,7 +138,7 @@ void deck_running(struct deck_reader *reader, const struct card *card)
 
 /* ---- bearings */
 
-static void doubt_bearing(struct deck_reader *reader, struct place place, const struct bearing *b)
+static void check_bearing(struct deck_reader *reader, struct place place, const struct bearing *b)
 {
     double turn = 0, size = 0;
     int negative = 0;
@@ -338,7 +338,7 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         turn_to_load(b.film.c + 4 * (ptrdiff_t)i);
     }
     if (!bad && !DECK_ADD(reader, machine->bearing, machine->nbearing, &b))
-        doubt_bearing(reader, card->place, &b);
+        check_bearing(reader, card->place, &b);
 }
 
 /* Of a measured dynamic stiffness k - m w^2 + i w c the mass takes its share: at the frequency of the spin, where critical speeds
@@ -387,7 +387,7 @@ void deck_pedestal(struct deck_reader *reader, const struct card *card)
 /* ---- losses, pull, change */
 
 /* What the damping ratios of the test say, in the kind of the card; both kinds are told. */
-static int settle_loss(struct deck_reader *reader, struct place place, struct loss *loss)
+static int loss_from_test(struct deck_reader *reader, struct place place, struct loss *loss)
 {
     struct loss_of_test found;
     const char *name = reader->job->rotor.group[loss->group].name;
@@ -416,7 +416,7 @@ int deck_check_loss(struct deck_reader *reader, const struct card *card, const s
     struct loss *loss = item;
     loss->from_test = card_option(card, "TEST") != NULL;
     if (loss->from_test)
-        return deck_count(reader, line, 1, "group alone with TEST") || settle_loss(reader, line->place, loss);
+        return deck_count(reader, line, 1, "group alone with TEST") || loss_from_test(reader, line->place, loss);
     return deck_has(line, 1) ? 0 : deck_number(reader, line, 1, "loss", NOT_NEGATIVE, &loss->value);
 }
 
@@ -546,7 +546,7 @@ int deck_check_unknown(struct deck_reader *reader, const struct card *card, cons
 }
 
 /* U = G m/W of ISO 21940-11: m of the machine, W its highest running speed. */
-static void settle_unbalances(struct deck_reader *reader, const struct place running)
+static void scale_unbalances(struct deck_reader *reader, const struct place running)
 {
     struct machine *machine = reader->machine;
     const struct rotor *rotor = &reader->job->rotor;
@@ -603,7 +603,7 @@ static void check_runup(struct deck_reader *reader, const struct place running)
 }
 
 /* Disks without polar inertia turn without gyroscopic moments: said once. */
-static void doubt_disks(struct deck_reader *reader, struct place place)
+static void check_disks(struct deck_reader *reader, struct place place)
 {
     const struct rotor *rotor = &reader->job->rotor;
     int count = 0;
@@ -656,13 +656,13 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                    "the machine has no *BEARING: a free rotor has no critical speed, expected at "
                    "least one");
     if (!reader->messages->errors)
-        settle_unbalances(&own, reader->running[0].place);
+        scale_unbalances(&own, reader->running[0].place);
     reader->out_of_memory |= own.out_of_memory;
     if (own.machine->api617 && (!own.machine->nunbalance || !own.machine->nprobe))
         deck_error(reader, own.margin_place,
                    "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");
     check_runup(&own, reader->running[0].place);
-    doubt_disks(&own, reader->running[0].place);
+    check_disks(&own, reader->running[0].place);
     for (int s = 0; s < states->nstate; s++) {
         states->state[s].job.nfile = own.text.nfile;
         states->state[s].job.file = own.text.file;

@@ -169,7 +169,7 @@ static int are_in_another_unit(struct engine *engine)
                                         ROTID_REDUCTION_NONE, comparison_highest(job), job->options.solid ? SPECTRUM_COARSE : 0,
                                         &spectrum);
     if (!status)
-        factor = doubt_units(job, &spectrum, 1, &said);
+        factor = check_units(job, &spectrum, 1, &said);
     for (size_t i = 0; i < said.count && factor > 0; i++)
         message_add(engine->notes, said.item[i].severity, job->deck, 1, 1, "%s", said.item[i].text);
     pool_close(&scratch);

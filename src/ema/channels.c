@@ -44,8 +44,8 @@ static double largest(const struct frf *frf, int first, int last, double *power,
 }
 
 /* power: sum |H|^2 of each */
-static int is_twin(const struct frf *a, const struct frf *b, int first, int last, const double power[2], double noise_a,
-                   double noise_b, double most)
+static int is_duplicate(const struct frf *a, const struct frf *b, int first, int last, const double power[2], double noise_a,
+                        double noise_b, double most)
 {
     double apart = 0, aa = 0, bb = 0, re = 0, im = 0, share = TWIN_SHARE * most * (TWIN_SHARE * most);
     int separate = !(noise_a > TWIN_NOISE && noise_b > TWIN_NOISE && noise_a < 2 * noise_b && noise_b < 2 * noise_a);
@@ -104,7 +104,7 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
     size_t known = 0;
     for (int c = 0; c < set->nfrf; c++) {
         double coherence;
-        channel[c] = (struct ema_channel){.twin = -1, .fit = NAN, .noise = NAN};
+        channel[c] = (struct ema_channel){.duplicate_of = -1, .fit = NAN, .noise = NAN};
         usable[c] = is_finite(&set->frf[c], first, last);
         if (!usable[c]) {
             channel[c].quality_flags = EMA_NOT_FINITE;
@@ -132,10 +132,10 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
             continue;
         if (is_noisy(&set->frf[c], first, last, channel[c].noise, usual))
             channel[c].quality_flags |= EMA_NOISY;
-        for (int d = 0; d < c && channel[c].twin < 0; d++)
-            if (usable[d] && is_twin(&set->frf[d], &set->frf[c], first, last, (double[]){power[d], power[c]}, channel[d].noise,
-                                     channel[c].noise, fmax(most[c], most[d]))) {
-                channel[c].twin = d;
+        for (int d = 0; d < c && channel[c].duplicate_of < 0; d++)
+            if (usable[d] && is_duplicate(&set->frf[d], &set->frf[c], first, last, (double[]){power[d], power[c]},
+                                          channel[d].noise, channel[c].noise, fmax(most[c], most[d]))) {
+                channel[c].duplicate_of = d;
                 channel[c].quality_flags |= EMA_DUPLICATE;
             }
     }

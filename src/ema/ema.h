@@ -135,9 +135,9 @@ enum ema_channel_quality_flag {
 };
 
 struct ema_channel {
-    int quality_flags, twin; /* twin: the channel that it duplicates, or -1 */
-    double fit;              /* |sum conj(H) H^|^2/(sum |H|^2 sum |H^|^2) over the band (FRAC of measured and synthesised) */
-    double noise;            /* rms of sqrt(variance) over rms of |H|; NaN without variance */
+    int quality_flags, duplicate_of; /* another channel, or -1 */
+    double fit;   /* |sum conj(H) H^|^2/(sum |H|^2 sum |H^|^2) over the band (FRAC of measured and synthesised) */
+    double noise; /* rms of sqrt(variance) over rms of |H|; NaN without variance */
 };
 
 struct ema { /* everything on the pool */
@@ -180,8 +180,8 @@ void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int
 
 /* Flags of channel [nfrf] from the lines first ... last - 1: NOT_FINITE, DEAD, DUPLICATE (the same to 1e-6 of the largest, or
  * FRAC above 0.99999 where the stated noise of both, above half a percent, forbids that of separate measurements), NOISY,
- * LOW_COHERENCE (mean weighted by |H|^2 below 0.8); twin, noise. usable [nfrf] := neither of the first two. Duplicates stay in:
- * what they add is a point of the shape. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * LOW_COHERENCE (mean weighted by |H|^2 below 0.8); duplicate_of, noise. usable [nfrf] := neither of the first two. Duplicates
+ * stay in: what they add is a point of the shape. ROTID_OK or ROTID_ERROR_MEMORY. */
 int channels_check(struct pool *pool, const struct frf_set *set, int first, int last, struct ema_channel *channel, int *usable);
 
 /* fit and MISFIT of the usable channels over the same lines, from the modes in out. ROTID_OK or ROTID_ERROR_MEMORY. */

@@ -17,7 +17,7 @@
 #define NOISE_WIDTHS   3
 #define ITERATIONS     6
 #define CLOSE          4 /* half-power bandwidths: neighbours that may spoil each other */
-#define CLOSE_WEAK     1 /* of one that is weak: only twins take all strength from each other */
+#define CLOSE_WEAK     1 /* of one that is weak: only two of one mode take all strength from each other */
 #define SCREEN         0.2
 
 int selection_lines(const struct ema_band *band, int nmode, double products)
@@ -136,7 +136,7 @@ static double alike(const struct modal_fit *fit, int r, int s)
 
 /* Two poles within half a half-power bandwidth of each other with one shape are one mode and its misfit; within a fifth the
  * shapes cannot be told apart. */
-static void drop_twins(const struct modal_fit *fit, int count, const double *strength, double *bad)
+static void drop_close(const struct modal_fit *fit, int count, const double *strength, double *bad)
 {
     for (int r = 0; r < count; r++)
         for (int s = r + 1; s < count; s++) {
@@ -194,7 +194,7 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     for (int r = 0; r < count && round == SCREENING; r++)
         bad[r] = strength[r] < SCREEN * limit(band->nchannel);
     if (round != SCREENING)
-        drop_twins(&fit, count, strength, bad);
+        drop_close(&fit, count, strength, bad);
     if (round == REFINED)
         drop_attachments(&fit, count, peak, sorted, residue, bad);
     *dropped = 0;

@@ -111,7 +111,7 @@ struct listing_set {
 };
 
 /* A doubtful place: what it is, as a word for programs, and a sentence. */
-struct listing_doubt {
+struct listing_finding {
     const char *kind, *text;
     int line; /* of the set it concerns, 0 for the file */
 };
@@ -126,8 +126,8 @@ struct listing {
     int *node_line;            /* line of the set of a node */
     struct uff_header *header; /* NULL where there is none */
     struct uff_units *units;   /* the last one, NULL where there is none */
-    int doubt_count;
-    struct listing_doubt *doubt;
+    int finding_count;
+    struct listing_finding *doubt;
 };
 
 struct listing_options {

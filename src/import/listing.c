@@ -116,9 +116,9 @@ int values_are_same(const struct values *a, const struct values *b)
 /* ---- doubtful places of a file */
 
 /* A thousand equal sentences help nobody: past this many of a kind they are counted. */
-#define DOUBTS_OF_A_KIND 12
-#define COHERENCE_MOST   1.000001 /* single precision and six digits go a little beyond 1 */
-#define STEP_TOLERANCE   1e-4     /* of the mean step: abscissae have six digits, 64000 lines need five for themselves */
+#define FINDINGS_OF_A_KIND 12
+#define COHERENCE_MOST     1.000001 /* single precision and six digits go a little beyond 1 */
+#define STEP_TOLERANCE     1e-4     /* of the mean step: abscissae have six digits, 64000 lines need five for themselves */
 
 struct search {
     struct pool *pool;
@@ -137,14 +137,14 @@ static void add(struct search *search, const char *kind, int line, const char *f
     va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
     va_end(values);
-    for (int i = 0; i < listing->doubt_count; ++i)
+    for (int i = 0; i < listing->finding_count; ++i)
         same += !strcmp(listing->doubt[i].kind, kind);
-    if (same > DOUBTS_OF_A_KIND)
+    if (same > FINDINGS_OF_A_KIND)
         return;
-    if (same == DOUBTS_OF_A_KIND)
+    if (same == FINDINGS_OF_A_KIND)
         (void)snprintf(text, sizeof text, "... and more of that kind");
-    const struct listing_doubt doubt = {kind, pool_copy_text(search->pool, text), line};
-    search->out_of_memory |= !doubt.text || POOL_ADD(search->pool, listing->doubt, listing->doubt_count, &doubt);
+    const struct listing_finding doubt = {kind, pool_copy_text(search->pool, text), line};
+    search->out_of_memory |= !doubt.text || POOL_ADD(search->pool, listing->doubt, listing->finding_count, &doubt);
 }
 
 static void check_sets(struct search *search)

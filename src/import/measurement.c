@@ -128,7 +128,7 @@ static double rounding_of(long long count, const double *x)
 
 /* Many writers put down every abscissa although the lines are even, with so few digits that it looks uneven: the straight line
  * through all of them is what was meant, where none is off by more than its own rounding. */
-static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct content *item)
+static int take_abscissa(struct growing *g, struct uff_reader *reader, struct content *item)
 {
     struct uff_function *f = &item->function;
     struct pool scratch;
@@ -191,7 +191,7 @@ static int read_function(struct growing *g, struct uff_reader *reader, const str
     *item = (struct content){.set = *set};
     int status = uff_read_function(reader, &item->function);
     if (!status && !item->function.is_even)
-        status = settle_abscissa(g, reader, item);
+        status = take_abscissa(g, reader, item);
     c->count += !status;
     return status;
 }

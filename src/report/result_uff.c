@@ -141,9 +141,9 @@ static int add_nodes(struct pool *pool, const struct listing *listing, int all, 
 
 static int add_doubts(struct pool *pool, const struct listing *listing, struct uff_result *out)
 {
-    out->doubtful = POOL_ARRAY(pool, struct listed_doubt, listing->doubt_count);
-    for (int i = 0; i < listing->doubt_count && out->doubtful; ++i) {
-        const struct listing_doubt *doubt = &listing->doubt[i];
+    out->doubtful = POOL_ARRAY(pool, struct listed_doubt, listing->finding_count);
+    for (int i = 0; i < listing->finding_count && out->doubtful; ++i) {
+        const struct listing_finding *doubt = &listing->doubt[i];
         out->doubtful[out->ndoubtful++] =
             (struct listed_doubt){doubt->kind, doubt->line > 0 ? doubt->line : ROTID_NONE, doubt->text};
     }

@@ -144,10 +144,10 @@ void screen_uff(const struct screen *to, const char *path, const struct listing 
     if (listing->function_count)
         screen_say(
             to, "from and step in s or Hz; min and max of the modulus where values are complex; values in the unit of the file");
-    if (listing->doubt_count)
+    if (listing->finding_count)
         (void)fprintf(out, "\ndoubtful places\n");
-    for (int i = 0; i < listing->doubt_count; ++i) {
-        const struct listing_doubt *doubt = &listing->doubt[i];
+    for (int i = 0; i < listing->finding_count; ++i) {
+        const struct listing_finding *doubt = &listing->doubt[i];
         char head[32] = "  ";
         if (doubt->line)
             (void)snprintf(head, sizeof head, "  line %d: ", doubt->line);

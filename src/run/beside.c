@@ -247,8 +247,8 @@ static int fit_beam(struct pool *pool, const struct job *job, const struct both 
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
-int beside_make(struct pool *pool, const struct job *job, const double *x, int nmode, const rotid_environment *environment,
-                struct message_list *notes, rotid_beam_beside_solid **beside)
+int beam_vs_solid_make(struct pool *pool, const struct job *job, const double *x, int nmode, const rotid_environment *environment,
+                       struct message_list *notes, rotid_beam_beside_solid **beside)
 {
     struct both *both = POOL_NEW(pool, struct both);
     rotid_beam_beside_solid *out = *beside = POOL_NEW(pool, rotid_beam_beside_solid);

@@ -288,7 +288,7 @@ static int pair_at_start(struct pool *pool, const struct states *states, struct 
         const struct spectrum *spectrum = &run[s].out->spectrum;
         status = pair_state(pool, &run[s], start, run[s].held ? SPECTRUM_COARSE : 0, &run[s].before);
         if (!status || status == ROTID_ERROR_UNPAIRED)
-            (void)doubt_units(&run[s].state->job, spectrum, 0, notes);
+            (void)check_units(&run[s].state->job, spectrum, 0, notes);
         if (!status && run[s].held)
             status = mesh_hold_as_it_is(pool, &run[s].state->job, spectrum->count);
         if (status) {
@@ -328,7 +328,7 @@ static int share_fit(struct pool *pool, const rotid_fit_result *fit, int functio
 }
 
 /* After a fit: the spectrum and the pairs of a state there; *moved: another fit is wanted, as these differ from those it had. */
-static int look_again(struct pool *pool, struct running *run, const double *x, int bare, int *moved)
+static int pair_after_fit(struct pool *pool, struct running *run, const double *x, int bare, int *moved)
 {
     double ratio = 0;
     int status = pair_state(pool, run, x, (bare ? 0 : SPECTRUM_MESH | SPECTRUM_REDUCED) | (run->held ? SPECTRUM_MESH : 0),
@@ -342,8 +342,8 @@ static int look_again(struct pool *pool, struct running *run, const double *x, i
 
 /* A fit to data that the mesh which counts has moved by little begins where the one before ended, at `bounds`. Not with NLopt
  * beside it, which begins at the start as well, and not from a bound. */
-static int begin_anew(const struct states *states, const struct running *run, int baseline, const rotid_fit_result *fit,
-                      rotid_parameter *bounds)
+static int restart_from(const struct states *states, const struct running *run, int baseline, const rotid_fit_result *fit,
+                        rotid_parameter *bounds)
 {
     int near = fit && run[0].held && !baseline && fit->converged && !fit->any_at_bound;
     for (int p = 0; p < states->nparameter; p++) {
@@ -395,7 +395,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
     for (int round = 1;; round++) {
         options.baseline = baseline && (!run[0].held || round > 1); /* not before the coarse mesh is held */
         rotid_fit_result *last = *fit;
-        int goes_on = begin_anew(states, run, options.baseline, last, bounds);
+        int goes_on = restart_from(states, run, options.baseline, last, bounds);
         *fit = NULL;
         for (int s = 0; s < count; s++)
             paired[s] = (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
@@ -405,7 +405,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
         rotid_fit_free(last);
         moved = options.baseline != baseline;
         for (int s = 0; s < count && !status; s++)
-            status = look_again(pool, &run[s], (*fit)->x, bare, &moved);
+            status = pair_after_fit(pool, &run[s], (*fit)->x, bare, &moved);
         if (status || round == ROUNDS || !moved || is_cancelled(*fit, environment))
             break;
         for (int s = 0; s < count; s++)

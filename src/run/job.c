@@ -139,7 +139,7 @@ static const struct {
      "a density in kg/dm3? The deck is in SI units, or says *UNITS, DENSITY=KG/DM3"},
 };
 
-double doubt_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes)
+double check_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes)
 {
     double least = INFINITY, most = 0, sum = 0;
     int count = 0;
@@ -184,7 +184,7 @@ const char *doubt_steps(struct pool *pool, const struct job *job)
 }
 
 /* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other */
-void doubt_sections(const struct job *job, int status, struct message_list *notes)
+void check_sections(const struct job *job, int status, struct message_list *notes)
 {
     const struct rotor *rotor = &job->rotor;
     double least = INFINITY, most = 0;

@@ -16,7 +16,8 @@
  *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']
  *                    of the modes and of those left out; frf_agreement.c: FRAC, scale, level
  *   sensitivity      sensitivity.c (sensitivity_run): E_k over steps (29), d ln f/d ln x; growth_run: growth of the functionals
- *   pictures, checks mode_shapes.c; beside.c (beside_make): beam beside solid; job.c (doubt_units): frequencies in a wrong unit
+ *   pictures, checks mode_shapes.c; beside.c (beam_vs_solid_make): beam beside solid; job.c (check_units): frequencies in a wrong
+ * unit
  *
  * Callers: deck (fills jobs), diagnose, suggest, api, cli, study; result, report, page, export read the structs. The room must
  * not read files, nor know the text of decks, the catalogue of causes (a cause is an effect of the rotor here) or printing. */
@@ -184,8 +185,8 @@ int job_fits_shapes(const struct job *job);
  * would take its moduli for. At the values x [nparameter] of the parameters of the job; nmode modes as far as both have them.
  * Without sensors the shapes are compared at nodes of the beam. ROTID_OK; ROTID_ERROR_SECTION with an error in the list where a
  * part of the rotor has no meaning in one of the two; statuses of spectrum_compute, comparison_make and rotid_fit. */
-int beside_make(struct pool *pool, const struct job *job, const double *x, int nmode, const rotid_environment *environment,
-                struct message_list *notes, rotid_beam_beside_solid **beside);
+int beam_vs_solid_make(struct pool *pool, const struct job *job, const double *x, int nmode, const rotid_environment *environment,
+                       struct message_list *notes, rotid_beam_beside_solid **beside);
 
 /* -------------------------------------------------------------------------------------------------------------- spectrum */
 
@@ -278,7 +279,7 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
  * that number is one of a mistaken unit: 2 pi, 1000, the root of 1000, or one over these. Returns it, 0 where
  * there is none. What is said of it goes to notes, as an error at the deck's first line where it is `refused`, else as a warning.
  */
-double doubt_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes);
+double check_units(const struct job *job, const struct spectrum *spectrum, int refused, struct message_list *notes);
 
 /* What a beam gets wrong at the steps of the diameter, where it is 1 % of a frequency or more and the job, a beam, has no effect
  * on its sections that repairs it; else NULL, as without memory. */
@@ -286,7 +287,7 @@ const char *doubt_steps(struct pool *pool, const struct job *job);
 
 /* Where the eigenvalue problem of the job failed (ROTID_ERROR_EIGEN, _STIFFNESS, _MASS, _SLAVE) and no error says why: an error
  * with the place of the softest section, and the stiffest element where the two are far apart. Nothing for other statuses. */
-void doubt_sections(const struct job *job, int status, struct message_list *notes);
+void check_sections(const struct job *job, int status, struct message_list *notes);
 
 /* --------------------------------------------------------------------------------------------------------- frf agreement */
 

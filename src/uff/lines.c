@@ -330,7 +330,7 @@ int uff_seek(struct uff_lines *lines, long long offset, int line)
     return ROTID_OK;
 }
 
-int uff_look_for_end(struct uff_lines *lines, long long count, int *found)
+int uff_find_end(struct uff_lines *lines, long long count, int *found)
 {
     char text[16] = {0};
     long long here = lines->base + (long long)lines->at, left = lines->size - here - count;

@@ -78,7 +78,7 @@ static int uff_close_values(struct uff_lines *lines, long long left_over)
 /* Whether an end stands behind so many bytes, which the file must have. */
 static int try_length(struct uff_lines *lines, long long length, long long *bytes, int *found)
 {
-    int status = uff_look_for_end(lines, length, found);
+    int status = uff_find_end(lines, length, found);
     if (status == ROTID_OK && *found)
         *bytes = length;
     return status;

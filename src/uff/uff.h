@@ -317,7 +317,7 @@ int uff_seek(struct uff_lines *lines, long long offset, int line);
 
 /* Whether a '-1' that ends a set stands behind `count` bytes from here, at once or in a line of its own; 0 also where there is no
  * seeking. ROTID_OK or ROTID_ERROR_IO. */
-int uff_look_for_end(struct uff_lines *lines, long long count, int *found);
+int uff_find_end(struct uff_lines *lines, long long count, int *found);
 
 /* The columns of a line: so many integers of that width, then so many reals of that width. */
 struct uff_form {
