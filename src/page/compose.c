@@ -5,19 +5,22 @@
 
 /* What a result is, in words, and how much the answer of a page rests on it: of several results that with the least rank gives
  * the page its title, wherever it was given. */
-static const struct {
+typedef void page_part(struct document *document, const struct result *result);
+static const struct kind {
     const char *command, *words;
-    int judged; /* it says how far it can be relied on */
-} kinds[] = {{"diagnose", "Diagnosis", 1},
-             {"identify", "Identification", 1},
-             {"study", "Study", 1},
-             {"ema", "Modal analysis", 1},
-             {"suggest", "Next measurement", 0},
-             {"modes", "Modes", 0},
-             {"speeds", "Critical speeds", 0},
-             {"frf", "Transfer functions", 0},
-             {"sensitivity", "Sensitivity", 0},
-             {"check", "Check", 0}};
+    int judged;                     /* it says how far it can be relied on */
+    page_part *answer, *body, *end; /* NULL: none; end: behind the parts of the states */
+    page_part *state;               /* what each state has, or a deck that is one */
+} kinds[] = {{"diagnose", "Diagnosis", 1, answer_diagnose, section_diagnose, NULL, NULL},
+             {"identify", "Identification", 1, answer_identify, NULL, section_identify, section_agreement},
+             {"study", "Study", 1, answer_study, section_study, NULL, NULL},
+             {"ema", "Modal analysis", 1, answer_ema, section_ema, NULL, NULL},
+             {"suggest", "Next measurement", 0, answer_plain, section_suggest, NULL, NULL},
+             {"modes", "Modes", 0, answer_plain, NULL, NULL, section_modes},
+             {"speeds", "Critical speeds", 0, answer_plain, section_speeds, NULL, NULL},
+             {"frf", "Transfer functions", 0, answer_plain, NULL, NULL, section_transfer},
+             {"sensitivity", "Sensitivity", 0, answer_plain, NULL, NULL, section_sensitivity},
+             {"check", "Check", 0, answer_plain, NULL, NULL, NULL}};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
 
 static int rank_of(const struct result *result)
@@ -77,18 +80,10 @@ static int several_decks(int count, const struct result *result)
     return 0;
 }
 
-static void answer(struct document *document, const struct result *result)
+static void add(struct document *document, page_part *part, const struct result *result)
 {
-    if (result->identify)
-        answer_identify(document, result);
-    else if (result->diagnose)
-        answer_diagnose(document, result);
-    else if (result->study)
-        answer_study(document, result);
-    else if (result->ema)
-        answer_ema(document, result);
-    else
-        answer_plain(document, result);
+    if (part)
+        part(document, result);
 }
 
 /* The answers of the results that judge; of a page without one those of all. */
@@ -99,7 +94,7 @@ static void answer_all(struct document *document, int count, const struct result
         if (judged && !kinds[rank_of(by_rank[i])].judged)
             continue;
         document->of = decks ? page_source(by_rank[i]) : NULL;
-        answer(document, by_rank[i]);
+        add(document, kinds[rank_of(by_rank[i])].answer, by_rank[i]);
         document_answer(document, count > 1 ? words_of(document->pool, by_rank[i]) : NULL);
     }
     document->of = NULL;
@@ -109,19 +104,6 @@ static void compose_rotor(struct document *document)
 {
     document_section(document, "model", "The rotor");
     document_figures(document, "rotor");
-}
-
-/* The sections of a result that each state has. */
-static void compose_state(struct document *document, const struct result *result)
-{
-    if (result->identify)
-        section_agreement(document, result);
-    if (result->modes)
-        section_modes(document, result);
-    if (result->sensitivity)
-        section_sensitivity(document, result);
-    if (result->frf)
-        section_transfer(document, result);
 }
 
 /* of: the deck where it is not that of the page, or NULL; drawn: the rotors are on the page already */
@@ -134,7 +116,7 @@ static void compose_states(struct document *document, const struct result *resul
         document->state = s;
         if (!drawn && !result->identify && !result->modes && geometry_of_result(&own))
             compose_rotor(document);
-        compose_state(document, &own);
+        add(document, kinds[rank_of(result)].state, &own);
     }
     document->of = of;
     document->state = -1;
@@ -163,22 +145,13 @@ static const struct result **sorted(struct pool *pool, int count, const struct r
 
 static void compose_result(struct document *document, const struct result *result, int drawn)
 {
-    if (result->diagnose)
-        section_diagnose(document, result);
-    if (result->ema)
-        section_ema(document, result);
-    if (result->suggest)
-        section_suggest(document, result);
-    if (result->speeds)
-        section_speeds(document, result);
-    if (result->study)
-        section_study(document, result);
+    const struct kind *kind = &kinds[rank_of(result)];
+    add(document, kind->body, result);
     if (page_state_count(result))
         compose_states(document, result, document->of, drawn);
     else
-        compose_state(document, result);
-    if (result->identify)
-        section_identify(document, result);
+        add(document, kind->state, result);
+    add(document, kind->end, result);
 }
 
 void page_compose(struct document *document, int count, const struct result *given)

@@ -10,7 +10,6 @@
 #include "report/report.h"
 
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
-#define MOST_REASONS   16
 
 /* "in fewer than 1 of 1,000": how often chance does it; "" where p is not known. */
 static const char *words_chance(struct pool *pool, double p)
@@ -27,18 +26,6 @@ static const char *words_chance(struct pool *pool, double p)
 static const char *sentence_of(struct pool *pool, const char *text)
 {
     return or_nothing(pool_format(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : ""));
-}
-
-struct reasons {
-    struct pool *pool;
-    int count;
-    const char *text[MOST_REASONS];
-};
-
-static void say(struct reasons *reasons, const char *text)
-{
-    if (reasons->count < MOST_REASONS && text && *text)
-        reasons->text[reasons->count++] = text;
 }
 
 /* "step_stiffness and added_mass" */
@@ -101,19 +88,21 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
     const rotid_round *round = d->nrounds ? d->rounds : NULL;
     int assumed = d->noise.frequency_assumed || d->noise.shape_assumed;
     if (round && isfinite(d->verdict.p_value))
-        say(reasons, pool_format(pool,
-                                 "A model that is right misses the measurement so far or further %s tests: the "
-                                 "misfit \xcf\x87\xc2\xb2 is %s, where a right model has about %d.",
-                                 words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool,
+                                "A model that is right misses the measurement so far or further %s tests: the "
+                                "misfit \xcf\x87\xc2\xb2 is %s, where a right model has about %d.",
+                                words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
     if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
-        say(reasons,
-            pool_format(pool,
-                        "No cause of the catalogue promises to lower it by more than %s; chance alone reaches %s in 3 of "
-                        "100 tests.",
-                        human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool,
+                                "No cause of the catalogue promises to lower it by more than %s; chance alone reaches %s in 3 of "
+                                "100 tests.",
+                                human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
     if (assumed)
-        say(reasons, "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
-                     "verdict, so no cause is named: state *NOISE.");
+        reasons_add(reasons, TONE_NONE,
+                    "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
+                    "verdict, so no cause is named: state *NOISE.");
 }
 
 /* The likeliest causes and what is left to the rest. */
@@ -125,15 +114,18 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
     for (int i = 0; i < d->ncandidates; i++)
         tried += d->candidates[i].refitted;
     for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
-        say(reasons, pool_format(pool, "%s%s%s is there with %s %%.", plain_cause(pool, v->marginals[i].id),
-                                 *v->marginals[i].target ? " of " : "", v->marginals[i].target,
-                                 human_digits(pool, 100 * v->marginals[i].probability, 3)));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool, "%s%s%s is there with %s %%.", plain_cause(pool, v->marginals[i].id),
+                                *v->marginals[i].target ? " of " : "", v->marginals[i].target,
+                                human_digits(pool, 100 * v->marginals[i].probability, 3)));
     if (v->nexplanations && v->something_else > 0.01)
-        say(reasons, pool_format(pool, "Something outside of the catalogue is there with %s %%.",
-                                 human_digits(pool, 100 * v->something_else, 2)));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool, "Something outside of the catalogue is there with %s %%.",
+                                human_digits(pool, 100 * v->something_else, 2)));
     if (tried && v->kind != ROTID_ADEQUATE)
-        say(reasons, pool_format(pool, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
-                                 human_plural(tried, "cause was", "causes were")));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
+                                human_plural(tried, "cause was", "causes were")));
 }
 
 static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
@@ -148,13 +140,15 @@ static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
                                 human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
     if (count && moved && d->verdict.kind != -1)
-        say(reasons, pool_format(pool, "The missing cause had biased the parameters; the extended model moves %s.", moved));
+        reasons_add(reasons, TONE_NONE,
+                    pool_format(pool, "The missing cause had biased the parameters; the extended model moves %s.", moved));
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameters; p++)
         if (!fit->parameters[p].identifiable)
-            say(reasons, pool_format(pool, "%s %s.", fit->parameters[p].name,
-                                     fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
-                                                                 : "is not determined by these data"));
+            reasons_add(reasons, TONE_NONE,
+                        pool_format(pool, "%s %s.", fit->parameters[p].name,
+                                    fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
+                                                                : "is not determined by these data"));
 }
 
 /* What the FIT of the deck makes of the parameters beside the full model. */
@@ -176,7 +170,8 @@ static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
                                human_signed(pool, percent, 1));
         }
     if (count && text)
-        say(reasons,
+        reasons_add(
+            reasons, TONE_NONE,
             pool_format(pool,
                         "The fit as the deck states it (%s, reduction %s) gives %s against the %s here, which is the full "
                         "model judged by the likelihood.",

@@ -6,22 +6,14 @@
 #include "page/page.h"
 #include "report/report.h"
 
-#define MOST_REASONS      12
 #define NAMED             3    /* parameters that the answer names; the table has the others */
 #define POOR_PERCENT      2.0  /* error of a fitted frequency that a beam need not leave */
 #define CONDENSED_PERCENT 0.5  /* as `rotid frf` warns */
 #define SAME_POINT        1e-6 /* relative difference of objectives */
 
-struct reasons {
-    struct pool *pool;
-    int count;
-    enum tone tone;
-    const char *text[MOST_REASONS];
-};
-
-static void say(struct reasons *reasons, enum tone tone, const char *text)
+void reasons_add(struct reasons *reasons, enum tone tone, const char *text)
 {
-    if (reasons->count < MOST_REASONS && text)
+    if (reasons->count < REASONS_MOST && text && *text)
         reasons->text[reasons->count++] = text;
     reasons->tone = tone > reasons->tone ? tone : reasons->tone;
 }
@@ -44,14 +36,14 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
 {
     struct pool *pool = reasons->pool;
     if (!strcmp(fit->status, "converged"))
-        say(reasons, TONE_GOOD,
-            pool_format(pool, "The fit converged in %s %s: %s.", human_count(pool, fit->iterations),
-                        human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason));
+        reasons_add(reasons, TONE_GOOD,
+                    pool_format(pool, "The fit converged in %s %s: %s.", human_count(pool, fit->iterations),
+                                human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason));
     else if (!strcmp(fit->status, "at_bound"))
-        say(reasons, TONE_BAD,
-            "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
+        reasons_add(reasons, TONE_BAD,
+                    "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
     else
-        say(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
+        reasons_add(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
     const char *held = "", *loose = "";
     for (int p = 0; p < fit->nparameters && held && loose; p++) {
         const char **list = fit->parameters[p].at_bound ? &held : &loose;
@@ -59,9 +51,9 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
             *list = pool_format(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameters[p].name);
     }
     if (held && *held)
-        say(reasons, TONE_BAD, pool_format(pool, "At a bound: %s.", held));
+        reasons_add(reasons, TONE_BAD, pool_format(pool, "At a bound: %s.", held));
     if (loose && *loose)
-        say(reasons, TONE_BAD, pool_format(pool, "Not determined by these data, alone or in a combination: %s.", loose));
+        reasons_add(reasons, TONE_BAD, pool_format(pool, "Not determined by these data, alone or in a combination: %s.", loose));
 }
 
 static void on_baseline(struct reasons *reasons, const rotid_identification *fit)
@@ -80,16 +72,18 @@ static void on_baseline(struct reasons *reasons, const rotid_identification *fit
     if (!usable || !names)
         return;
     if (best < fit->objective * (1 - SAME_POINT))
-        say(reasons, TONE_BAD,
-            pool_format(pool, "NLopt (%s) found a point where the functional is lower: %s against %s.", names,
-                        human_digits(pool, best, 6), human_digits(pool, fit->objective, 6)));
+        reasons_add(reasons, TONE_BAD,
+                    pool_format(pool, "NLopt (%s) found a point where the functional is lower: %s against %s.", names,
+                                human_digits(pool, best, 6), human_digits(pool, fit->objective, 6)));
     else if (furthest <= SAME_POINT)
-        say(reasons, TONE_GOOD,
+        reasons_add(
+            reasons, TONE_GOOD,
             pool_format(pool,
                         "NLopt (%s), started at the same point, ends at the same minimum; the functionals differ by %s at most.",
                         names, human_digits(pool, furthest, 1)));
     else
-        say(reasons, TONE_GOOD, pool_format(pool, "Not all of NLopt's minimisers (%s) got as far; none got further.", names));
+        reasons_add(reasons, TONE_GOOD,
+                    pool_format(pool, "Not all of NLopt's minimisers (%s) got as far; none got further.", names));
 }
 
 static void on_misfit(struct reasons *reasons, const rotid_identification *fit, const char *deck)
@@ -99,7 +93,8 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
     double rms = fit_rms_percent(fit, 0), held = fit_rms_percent(fit, 1);
     const char *state = fit_state_of_mode(fit, worst < 0 ? 0 : worst);
     if (worst >= 0)
-        say(reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
             pool_format(pool,
                         "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% "
                         "in mode %d%s%s.",
@@ -107,21 +102,23 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
                         human_signed(pool, fit->modes[worst].error_percent, fabs(fit->modes[worst].error_percent) < 0.01 ? 5 : 2),
                         fit->modes[worst].mode, state ? " of state " : "", state ? state : ""));
     if (isfinite(held))
-        say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
     if (!noisy)
         return;
     if (fit_is_inadequate(fit))
-        say(reasons, TONE_BAD,
+        reasons_add(
+            reasons, TONE_BAD,
             pool_format(
                 pool,
                 "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
                 "model lacks something, and its parameters have absorbed it. rotid diagnose %s looks for the cause.",
                 human_digits(pool, sqrt(fit->chi2_per_dof), 2), human_digits(pool, fit->chi2, 3), fit->dof, deck));
     else
-        say(reasons, TONE_GOOD,
-            pool_format(pool, "The stated noise explains the misfit: \xcf\x87\xc2\xb2 = %s with %d degrees of freedom.",
-                        human_digits(pool, fit->chi2, 3), fit->dof));
+        reasons_add(reasons, TONE_GOOD,
+                    pool_format(pool, "The stated noise explains the misfit: \xcf\x87\xc2\xb2 = %s with %d degrees of freedom.",
+                                human_digits(pool, fit->chi2, 3), fit->dof));
 }
 
 static void on_intervals(struct reasons *reasons, const rotid_identification *fit)
@@ -141,9 +138,10 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
                            human_digits(pool, half, 2));
     }
     if (none == fit->nparameters)
-        say(reasons, TONE_CARE, "No interval can be stated for any parameter.");
+        reasons_add(reasons, TONE_CARE, "No interval can be stated for any parameter.");
     else
-        say(reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "The 95\xc2\xa0%% intervals: %s%s.%s", wide ? wide : "", none ? ", none for the others" : "",
                         isfinite(fit->chi2) ? fit->intervals_widened_by > 1
                                                   ? " They are widened because the misfit exceeds the stated noise."
@@ -161,7 +159,8 @@ static void on_condensation(struct reasons *reasons, const rotid_identification 
             mode = fit->modes[k].mode;
         }
     if (strcmp(fit->reduction, "NONE") != 0 && fabs(worst) > CONDENSED_PERCENT)
-        say(reasons, TONE_CARE,
+        reasons_add(
+            reasons, TONE_CARE,
             pool_format(
                 reasons->pool,
                 "Condensation (REDUCTION=%s) alone moves the frequency of mode %d by %s\xc2\xa0%%; the parameters absorb that. "
@@ -202,7 +201,8 @@ static struct reasons reasons_of(struct pool *pool, const struct result *result)
     on_condensation(&reasons, fit);
     on_baseline(&reasons, fit);
     if (*hidden_in_words(pool, fit, fit->nhidden, fit->hidden, 0))
-        say(&reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            &reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
             pool_format(
                 pool,
                 "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose "

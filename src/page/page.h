@@ -99,7 +99,6 @@ void document_figures(struct document *document, const char *group);
 
 /* ---- words: texts never NULL, "" where memory is out */
 
-const char *or_nothing(const char *text);
 const char *plain_cause(struct pool *pool, const char *id);  /* "soft zone" of stiffness_local */
 const char *plain_text(struct pool *pool, const char *text); /* ids of causes in words, absolute paths without folders */
 const char *plain_file(const char *path);                    /* the last part of an absolute path */
@@ -111,6 +110,18 @@ const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const r
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
                             int causes);
 int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
+
+/* ---- why: the reasons of a judgement, the gravest of whose tones is that of all; an empty text is none */
+
+#define REASONS_MOST 16
+
+struct reasons {
+    struct pool *pool;
+    int count;
+    enum tone tone;
+    const char *text[REASONS_MOST];
+};
+void reasons_add(struct reasons *reasons, enum tone tone, const char *text);
 
 /* ---- what a page says of each kind of result: the answer, then the sections */
 

@@ -7,11 +7,6 @@
 #include "fit/fit.h"
 #include "page/page.h"
 
-const char *or_nothing(const char *text)
-{
-    return text ? text : "";
-}
-
 /* Ids whose words a reader would have to turn round. */
 static const char *const names[][2] = {{"beam_theory", "error of beam theory"},
                                        {"guyan_reduction", "Guyan condensation"},

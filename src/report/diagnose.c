@@ -21,11 +21,6 @@
 
 /* ---- words of causes */
 
-static const char *or_nothing(const char *text)
-{
-    return text ? text : "";
-}
-
 /* What stands between the name of a cause and its target: "joint of core|right", "support at 0 m". */
 static const char *before_target(const char *target)
 {

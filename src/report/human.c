@@ -10,7 +10,7 @@
 #define WIDEST       1e9        /* from here on in a column with a power of ten */
 #define SMALL        1e-3       /* below, more zeros than a reader counts */
 
-static const char *or_nothing(const char *text)
+const char *or_nothing(const char *text)
 {
     return text ? text : "";
 }

@@ -129,6 +129,9 @@ void html_element(FILE *out, const char *name, const char *text);
 /* Numbers and units for people: "115.7 GPa", "-4.4 %" with a true minus sign. Texts are UTF-8 in the pool; where memory is out
  * they are "", and the pool's user notices at the next allocation that counts. */
 
+/* The text, "" for NULL. */
+const char *or_nothing(const char *text);
+
 /* The prefix a unit is read best with at a value: value in it = factor * value. Unit "1", which NULL stands for, and unknown ones
  * stay as they are. */
 struct human_unit {
