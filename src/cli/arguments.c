@@ -117,8 +117,6 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         refused = refuse_export(command);
     else if (!strcmp(command->name, "study"))
         refused = refuse_study(command);
-    else if (!strcmp(command->name, "report") && !command->output)
-        return arguments_wrong("%s: expected -o FOLDER", command->name);
     else if (command->changed && !is_pair(command->changed))
         return arguments_wrong("--changed %s: expected BEFORE,AFTER, the names of two states of the deck", command->changed);
     else if (command->changed && command->extended)
@@ -422,10 +420,10 @@ static int collect(struct command *command, int argc, char **argv)
         return command_fail(command, ROTID_ERROR_MEMORY);
     (void)unsetenv("POSIXLY_CORRECT"); /* with it getopt takes the options behind COMMAND FILE for files */
     opterr = 0;                        /* getopt prints what it was given as it is */
-    while ((option = getopt_long(argc, argv, ":o:h", options, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, ":o:hV", options, NULL)) != -1) {
         if (option == '?' || option == ':')
             return refuse_word(option, argv[optind - 1]);
-        const char *name = option == 'o' ? "output" : option == 'h' ? "help" : option_table[option - FIRST_OPTION].name;
+        const char *name = option == 'o' ? "output" : option == 'h' ? "help" : option == 'V' ? "version" : option_table[option - FIRST_OPTION].name;
         command->given[command->ngiven++] = (struct given_option){name, optarg ? optarg : ""};
     }
     return -1;
@@ -449,6 +447,17 @@ static int refuse_option(struct command *command, const char *name)
 
 static int refuse_command(const char *name)
 {
+    const char *nearest = NULL;
+    int least = TEXT_FAR;
+    for (const struct command_entry *c = command_table; c->name; c++) {
+        int distance = text_distance(name, c->name);
+        nearest = distance < least ? c->name : nearest;
+        least = distance < least ? distance : least;
+    }
+    if (nearest) {
+        terminal_say("rotid: %s is no command: did you mean %s?\n", name, nearest);
+        return EXIT_USAGE;
+    }
     terminal_say("rotid: %s is no command, expected", name);
     for (const struct command_entry *c = command_table; c->name; c++)
         terminal_say("%s %s", c == command_table ? "" : c[1].name ? "," : " or", c->name);
@@ -463,12 +472,17 @@ int arguments_parse(struct command *command, int argc, char **argv)
     if (code >= 0)
         return code;
     command->name = optind < argc ? argv[optind++] : NULL;
+    int help = command->name && !strcmp(command->name, "help"), version = command->name && !strcmp(command->name, "version");
+    if (help)
+        command->name = optind < argc ? argv[optind++] : NULL;
     const struct command_entry *entry = command->name ? command_find(command->name) : NULL;
-    if (arguments_given(command, "help")) {
+    if (help && command->name && !entry)
+        return refuse_command(command->name);
+    if (help || arguments_given(command, "help")) {
         help_print(terminal_out(), entry);
         return EXIT_DONE;
     }
-    if (arguments_given(command, "version")) {
+    if (version || arguments_given(command, "version")) {
         (void)fprintf(terminal_out(), "rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
                       baseline_exists() ? "" : ", without NLopt: identify has no baseline");
         return EXIT_DONE;

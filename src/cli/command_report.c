@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/cli.h"
 #include "page/page.h"
@@ -10,6 +11,13 @@ static const char *how_it_was_made(struct command *command)
     for (int i = 0; i < command->nfile && text; i++)
         text = pool_format(&command->pool, "%s %s", text, command->file[i]);
     return text ? pool_format(&command->pool, "%s -o %s", text, command->output) : NULL;
+}
+
+/* Where nobody says: result.html of result.json. */
+static const char *page_of(struct pool *pool, const char *file)
+{
+    const char *name = strrchr(file, '/'), *dot = strrchr(name ? name : file, '.');
+    return pool_format(pool, "%.*s.html", dot ? (int)(dot - file) : (int)strlen(file), file);
 }
 
 static int read_results(struct command *command, struct result *result)
@@ -41,7 +49,9 @@ int command_report(struct command *command)
 {
     struct result *result = POOL_ARRAY(&command->pool, struct result, command->nfile);
     const char *file = NULL;
-    int status = result ? read_results(command, result) : ROTID_ERROR_MEMORY, is_read = !status;
+    if (!command->output)
+        command->output = page_of(&command->pool, command->deck);
+    int status = result && command->output ? read_results(command, result) : ROTID_ERROR_MEMORY, is_read = !status;
     if (is_read)
         status = write_page(command, result, &file);
     for (int i = 0; i < command->nfile && result; i++)

@@ -26,7 +26,7 @@ const struct option_row option_table[] = {
     {.name = "seed", .commands = "sensitivity diagnose suggest speeds study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
      .standard = 1, .value = "N",
      .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
-    {.name = "version", .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
+    {.name = "version", .letter = 'V', .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
     {.name = "help", .letter = 'h', .kind = OPTION_HELP, .help = "the commands; behind a command: its options and examples"},
 
     {.name = "json", .commands = DECKS " ema uff study", .kind = OPTION_WRITES, AT(json), .value = "FILE", .files = "json",

@@ -34,7 +34,7 @@ const struct deck_row deck_density_rows[] = {
 const struct deck_row deck_shaft_rows[] = {
     {ABOVE_0(struct segment, length, "length [m]")},
     {ABOVE_0(struct segment, outer, "outer diameter [m]")},
-    {FROM_0(struct segment, inner, "inner diameter [m]")},
+    {FROM_0(struct segment, inner, "inner diameter [m]"), OPTIONAL},
     ELEMENTS(struct segment),
     {ABOVE_0(struct segment, stiff_outer, "outer diameter that carries stiffness [m]"), OPTIONAL,
      .as = offsetof(struct segment, outer)},
@@ -247,7 +247,7 @@ const struct deck_card deck_card_table[] = {
     {"ELASTIC", CARD_MODEL, 1, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
     {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
     {"SHAFT", CARD_MODEL, 2, deck_shaft,
-     "length, outer diameter, inner diameter [m] [, elements [, outer diameter that carries stiffness]]", group, BY_CODE},
+     "length, outer diameter [m] [, inner diameter [, elements [, outer diameter that carries stiffness]]]", group, BY_CODE},
     {"BEAM", CARD_MODEL, 2, deck_beam, "length, height in the bending plane, width [m] [, elements]", group, BY_CODE},
     {"LAYER", CARD_MODEL, 3, deck_layer, "outer diameter, inner diameter [m]", layer, BY_CODE},
     {"PERFORATION", CARD_MODEL, 4, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
