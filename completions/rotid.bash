@@ -22,7 +22,7 @@ _rotid_options=(
     '--verbose:check modes sensitivity identify diagnose suggest speeds frf export ema uff::'
     '--threads:check modes sensitivity identify diagnose suggest speeds frf export ema study:value:'
     '--seed:sensitivity diagnose suggest speeds study:value:'
-    '--version:check modes sensitivity identify diagnose suggest speeds frf ema export uff report study::'
+    '-V --version:check modes sensitivity identify diagnose suggest speeds frf ema export uff report study::'
     '-h --help:check modes sensitivity identify diagnose suggest speeds frf ema export uff report study::'
     '--json:check modes sensitivity identify diagnose suggest speeds frf export ema uff study:files:json'
     '--set:check modes sensitivity identify diagnose suggest speeds frf export study:value:'

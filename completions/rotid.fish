@@ -35,7 +35,7 @@ complete -c rotid -l quiet -d 'no tables, no warnings and no progress; errors ar
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema uff' -l verbose -d 'more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema study' -l threads -x -d 'threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity diagnose suggest speeds study' -l seed -x -d 'of the random numbers'
-complete -c rotid -l version -d 'version, commit and BLAS, and whether NLopt is missing'
+complete -c rotid -s V -l version -d 'version, commit and BLAS, and whether NLopt is missing'
 complete -c rotid -s h -l help -d 'the commands; behind a command: its options and examples'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export ema uff study' -l json -r -F -d 'the result as JSON; - for standard output, which then carries nothing else'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose suggest speeds frf export study' -l set -x -a $overrides -d 'another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated'

@@ -112,7 +112,7 @@ UNIT_TEST(wrong_usage_exits_2_and_says_what_was_expected)
 {
     assert_true(is(run(NULL), 2, NULL, "usage: rotid COMMAND FILE"));
     assert_true(is(run("identify"), 2, NULL, "no file given, expected rotid COMMAND FILE"));
-    assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command, expected"));
+    assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command: did you mean identify?"));
     assert_true(is(run("check", PAPER, BRAKE), 2, NULL, "is one argument too many, expected one file"));
     assert_true(is(run("check", PAPER, "--fast"), 2, NULL, "--fast"));
     assert_true(is(run("check", PAPER, "--json"), 2, NULL, "--json: expected a value behind it"));
@@ -130,6 +130,11 @@ UNIT_TEST(wrong_usage_exits_2_and_says_what_was_expected)
 UNIT_TEST(help_and_version_exit_0)
 {
     assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
+    assert_true(is(run("help"), 0, "usage: rotid COMMAND FILE", NULL));
+    assert_true(is(run("help", "identify"), 0, "usage: rotid identify FILE", NULL));
+    assert_true(is(run("help", "identfy"), 2, NULL, "identfy is no command: did you mean identify?"));
+    assert_true(is(run("version"), 0, "rotid " ROTID_VERSION, NULL));
+    assert_true(is(run("-V"), 0, "rotid " ROTID_VERSION, NULL));
     assert_true(is(run("identify", "--help"), 0, "usage: rotid identify FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
     struct outcome outcome = run("--version");

@@ -105,6 +105,20 @@ UNIT_TEST(states_count_for_themselves)
     assert_true(s.state[1].job.rotor.count_all);
 }
 
+/* A slender cantilever: w = 1.8751^2 sqrt(EI/(rho A L^4)); the clamp is stiff to 1e-6. */
+UNIT_TEST(a_clamped_end_is_clamped)
+{
+    struct message_list messages;
+    struct spectrum s;
+    struct job job = job_of("*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+                            "1.0, 0.005, 0, 40\n*CLAMP, AT=start\n",
+                            &messages);
+    assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_GUYAN, 2, &s), ROTID_OK);
+    double root = sqrt(2.1e11 / 7850) * 0.005 / 4 / (2 * PI); /* radius of gyration d/4 */
+    assert_close(s.full_hz[0], 1.87510407 * 1.87510407 * root, 1e-4, 0);
+    assert_close(s.full_hz[1], 4.69409113 * 4.69409113 * root, 2e-4, 0);
+}
+
 #define DISKS                                                                                                                    \
     BAR "*DISK, NAME=d\n0.3, 4, 0.02\n*DISK, NAME=e\n0.75, 6, 0.03\n*NOISE, FREQUENCY=0.002\n*IDENTIFY\nbar.E, 1e11, 4e11, "     \
         "1.8e11\n"

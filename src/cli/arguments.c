@@ -423,7 +423,10 @@ static int collect(struct command *command, int argc, char **argv)
     while ((option = getopt_long(argc, argv, ":o:hV", options, NULL)) != -1) {
         if (option == '?' || option == ':')
             return refuse_word(option, argv[optind - 1]);
-        const char *name = option == 'o' ? "output" : option == 'h' ? "help" : option == 'V' ? "version" : option_table[option - FIRST_OPTION].name;
+        const char *name = option == 'o'   ? "output"
+                           : option == 'h' ? "help"
+                           : option == 'V' ? "version"
+                                           : option_table[option - FIRST_OPTION].name;
         command->given[command->ngiven++] = (struct given_option){name, optarg ? optarg : ""};
     }
     return -1;

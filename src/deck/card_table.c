@@ -78,6 +78,10 @@ const struct deck_row deck_bars_rows[] = {
     {ABOVE_0(struct bars, pitch, "pitch radius [m]")},
     {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS)},
     LAST};
+const struct deck_row deck_clamp_rows[] = {
+    {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},
+    {.option = "AT", POSITION(struct spring, position)},
+    LAST};
 const struct deck_row deck_sling_rows[] = {
     {.option = "LENGTH", ABOVE_0(struct rotor, sling, "length [m]")},
     LAST};
@@ -260,6 +264,7 @@ const struct deck_card deck_card_table[] = {
      .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad] [, torsional stiffness [N.m/rad] [, axial stiffness [N/m]]]]", spring,
      LIST(spring, spring)},
+    {"CLAMP", CARD_MODEL, 4, deck_clamp, NULL, deck_clamp_rows, BY_CODE, .instead = "AT=start or AT=end on the card"},
     {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES, .instead = "LENGTH=length [m] on the card", .once = 1},
     {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", table, REPLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,

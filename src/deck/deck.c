@@ -253,13 +253,14 @@ static void choose_mesh(struct deck_reader *reader)
     if (!reader->nopen)
         return;
     reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
-    if (!reader->out_of_memory && isfinite(c.error) && !reader->job->options.solid) /* that has a mesh of its own */
+    if (reader->out_of_memory || !isfinite(c.error) || reader->job->options.solid) /* that has a mesh of its own */
+        return;
+    reader->job->mesh_error = c.error;
+    if (c.error > c.wanted)
         deck_note(reader, place,
-                  "%d elements of at most %.3g mm are chosen where none are stated: modes 1 to %d lie within %.2g %% of a fine "
-                  "mesh, %s %.2g %%%s",
-                  c.elements, 1000 * c.length_m, c.mode, 100 * c.error,
-                  c.error > c.wanted ? "and more elements would have to be stated for" : "as wanted:", 100 * c.wanted,
-                  c.is_noise_known ? ", a tenth of the smallest noise" : "");
+                  "the mesh of %d elements, where none are stated, leaves an error of %.2g %% in modes 1 to %d; state more for "
+                  "%.2g %%%s",
+                  c.elements, 100 * c.error, c.mode, 100 * c.wanted, c.is_noise_known ? ", a tenth of the smallest noise" : "");
 }
 
 /* Numbers of a rotor so far apart that the sixteen digits of K and M lose the smaller ones: refused here, where each has a place,

@@ -403,6 +403,30 @@ int deck_check_disk(struct deck_reader *reader, const struct card *card, const s
     return 0;
 }
 
+#define CLAMP_STIFFNESS 1e7 /* times EI/L^3 and EI/L: a clamped end moves by less than 1e-6 of the rest */
+
+/* A clamped place is a spring that is stiff beside the rotor, in every direction. */
+void deck_clamp(struct deck_reader *reader, const struct card *card)
+{
+    struct rotor *rotor = &reader->job->rotor;
+    struct spring spring = {.name = NULL};
+    double ei = 0, length = reader->length;
+    if (!card_option(card, "AT")) {
+        deck_error(reader, card->place, "*CLAMP has no AT, expected AT=start, AT=end or another position");
+        return;
+    }
+    if (deck_read_options(reader, card, deck_clamp_rows, &spring))
+        return;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        struct section section;
+        if (!section_of_segment(rotor, s, &section))
+            ei = fmax(ei, rotor->group[rotor->segment[s].group].material.e * section.stiff_inertia);
+    }
+    spring.rotational = spring.torsional = CLAMP_STIFFNESS * ei / length;
+    spring.lateral = spring.axial = spring.rotational / (length * length);
+    (void)DECK_ADD(reader, rotor->spring, rotor->nspring, &spring);
+}
+
 void deck_sling(struct deck_reader *reader, const struct card *card)
 {
     (void)deck_read_options(reader, card, deck_sling_rows, &reader->job->rotor);

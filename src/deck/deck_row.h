@@ -97,7 +97,7 @@ struct deck_card {
 /* Rows of cards that have code of their own. */
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
-    deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
+    deck_clamp_rows[], deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
 
 /* x along the horizontal; x along the load of the bearing, which the weight makes. */
 extern const char *const deck_axes[];

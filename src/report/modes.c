@@ -78,7 +78,7 @@ static struct table *table_of_causes(struct pool *pool, const struct job *job)
     return table;
 }
 
-static struct table *table_of_groups(struct pool *pool, const rotid_geometry *geometry)
+static struct table *table_of_groups(struct pool *pool, const rotid_geometry *geometry, const struct rotor *rotor)
 {
     struct table *table = table_open(pool, "");
     for (int g = 0; g < geometry->ngroups; g++) {
@@ -92,6 +92,7 @@ static struct table *table_of_groups(struct pool *pool, const rotid_geometry *ge
         scaled_column(table, "G", "Pa", SHOW_DIGITS(5), 1e9, material->g_pa);
         number_column(table, "nu", NULL, SHOW_FIXED(3), material->nu);
         number_column(table, "rho", "kg/m3", SHOW_FIXED(2), material->rho_kg_m3);
+        number_column(table, "mass", "kg", SHOW_DIGITS(5), rotor_group_mass(rotor, g));
         text_column(table, "on", SHOW_TEXT, group->layer_of);
     }
     return table;
@@ -105,7 +106,10 @@ static void print_check(const struct screen *to, const struct result *result, co
     (void)fprintf(out, "mass            %12.4f kg\n", check->mass_kg);
     (void)fprintf(out, "centre of mass  %12.6f m from the left end\n", check->center_of_mass_m);
     (void)fprintf(out, "inertia         %12.4f kg.m2 about a diameter there\n", check->inertia_kg_m2);
-    (void)fprintf(out, "mesh            %12d nodes, %d elements\n", check->nodes, check->elements);
+    (void)fprintf(out, "mesh            %12d nodes, %d elements", check->nodes, check->elements);
+    if (job->mesh_error > 0)
+        (void)fprintf(out, ", chosen for an error of %.2g %%", 100 * job->mesh_error);
+    (void)fputc('\n', out);
     if (check->solid) {
         (void)fprintf(out, "solid           %12d unknowns, half band %d, %d slices\n", check->solid->unknowns,
                       check->solid->half_band, check->solid->slices);
@@ -125,7 +129,7 @@ static void print_check(const struct screen *to, const struct result *result, co
                       job->measurement.numbering.stated ? "" : ", as the measured ones fit best");
     (void)fprintf(out, "fit             %12s, reduction %s, %d %s\n", check->functional, check->reduction, check->nparameters,
                   human_plural(check->nparameters, "parameter", "parameters"));
-    screen_table(to, table_of_groups(to->pool, check->geometry));
+    screen_table(to, table_of_groups(to->pool, check->geometry, &job->rotor));
     screen_table(to, table_of_causes(to->pool, job));
     const char *steps = doubt_steps(to->pool, job);
     if (steps)

@@ -102,12 +102,14 @@ static void add_section(const struct group *group, const struct section *section
         *sum -= mass_of_rods(&group->material, group->holes, group->hole_diameter, length);
 }
 
-double rotor_mass(const struct rotor *rotor)
+double rotor_group_mass(const struct rotor *rotor, int group)
 {
     double sum = 0;
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *segment = &rotor->segment[s];
         struct section section;
+        if (segment->group != group)
+            continue;
         if (segment->rectangular)
             section_rectangular(segment->height, segment->width, &section);
         else
@@ -117,9 +119,19 @@ double rotor_mass(const struct rotor *rotor)
     for (int i = 0; i < rotor->nring; i++) {
         const struct ring *ring = &rotor->ring[i];
         struct section section;
+        if (ring->group != group)
+            continue;
         section_round(ring->outer, ring->inner, ring->outer, &section);
         add_section(&rotor->group[ring->group], &section, rotor->segment[ring->segment].length, &sum);
     }
+    return sum;
+}
+
+double rotor_mass(const struct rotor *rotor)
+{
+    double sum = 0;
+    for (int g = 0; g < rotor->ngroup; g++)
+        sum += rotor_group_mass(rotor, g);
     for (int i = 0; i < rotor->ntierod; i++) {
         const struct tierod *rod = &rotor->tierod[i];
         sum += mass_of_rods(&rod->material, rod->number, rod->diameter, rod->to - rod->from);

@@ -144,6 +144,8 @@ double material_shear_modulus(const struct material *material);
 
 /* kg, from the dimensions alone: segments, layers, holes, rods, bars and disks. */
 double rotor_mass(const struct rotor *rotor);
+/* The same of a group alone: its segments or rings, less its holes. */
+double rotor_group_mass(const struct rotor *rotor, int group);
 
 /* A copy with arrays of its own; names are shared. A rotor that hangs on a sling gets two springs more, of no stiffness yet.
  * ROTID_OK or ROTID_ERROR_MEMORY. */

@@ -155,8 +155,10 @@ struct job {
 
     struct rotor rotor;
     const struct job_place *part; /* [ngroup + ntierod + nbars + nsensor] of the rotor, or NULL where nobody stated them */
-    struct job_place measured;    /* card of the measured modes, file NULL where there is none */
-    struct models *models;        /* of it, as far as they are built, or NULL */
+    double mesh_error; /* relative, of the measured modes, of the elements that were chosen where none are stated; 0: all are
+                          stated */
+    struct job_place measured; /* card of the measured modes, file NULL where there is none */
+    struct models *models;     /* of it, as far as they are built, or NULL */
     struct job_measurement measurement;
     struct job_unknowns unknowns;
     struct job_options options;
