@@ -31,9 +31,8 @@ static void says(const char *text, int severity, int line, const char *what)
     rotid_deck_free(deck);
 }
 
-static void the_cards_of_a_machine_are_read(void **state)
+POOL_TEST(the_cards_of_a_machine_are_read)
 {
-    (void)state;
     struct running_case c;
     (void)folder_write("table.csv", "speed_rpm,kyy,kxx,cxx,cyy\n1000,2e7,1e7,1,2\n3000,4e7,3e7,3,4\n");
     const char *text = pool_format(
@@ -76,9 +75,8 @@ static void the_cards_of_a_machine_are_read(void **state)
     running_case_close(&c);
 }
 
-static void units_of_the_deck_hold_for_the_machine(void **state)
+POOL_TEST(units_of_the_deck_hold_for_the_machine)
 {
-    (void)state;
     rotid_deck *deck;
     const char *text =
         "*UNITS, LENGTH=MM, STIFFNESS=N/UM\n*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, "
@@ -91,9 +89,8 @@ static void units_of_the_deck_hold_for_the_machine(void **state)
     rotid_deck_free(deck);
 }
 
-static void cards_that_cannot_be_are_refused_with_their_place(void **state)
+POOL_TEST(cards_that_cannot_be_are_refused_with_their_place)
 {
-    (void)state;
     says(SHAFT "*RUNNING\n", ROTID_ERROR, 10, "free rotor has no critical speed");
     says(SHAFT "*BEARING\n0.2, 1, 1\n", ROTID_ERROR, 10, "stands before *RUNNING");
     says(SHAFT TWO "*RUNNING\n", ROTID_ERROR, 15, "given twice");
@@ -126,9 +123,8 @@ static void cards_that_cannot_be_are_refused_with_their_place(void **state)
 
 /* With x along the load: what holds the journal against its weight is kyy here. Signs as of a journal that drives forward whirl.
  */
-static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
+POOL_TEST(a_bearing_is_turned_from_the_axes_of_its_load)
 {
-    (void)state;
     struct running_case c;
     const double k[4] = {4, -3, 2, 1}, d[4] = {8, -7, 6, 5};
     assert_int_equal(running_case_open(SHAFT TWO "*BEARING, AXES=LOAD\n1, 1, -2, 3, 4, 5, -6, 7, 8\n", 100, 2, 0, &c), ROTID_OK);
@@ -139,9 +135,8 @@ static void a_bearing_is_turned_from_the_axes_of_its_load(void **state)
 }
 
 /* G 2.5 of ISO 21940-11 at 3000 rpm: e = 7.96 um. */
-static void a_grade_is_an_unbalance_of_the_whole_machine(void **state)
+POOL_TEST(a_grade_is_an_unbalance_of_the_whole_machine)
 {
-    (void)state;
     struct running_case c;
     const double mass = 7800 * 3.14159265358979 / 4 * 0.01 * 2 + 30;
     assert_int_equal(running_case_open(SHAFT TWO "*DISK\n1, 30\n*UNBALANCE, G=2.5\n0.5, 0.25\n1.5, 0.75, 180\n*UNBALANCE\n1, "
@@ -157,9 +152,8 @@ static void a_grade_is_an_unbalance_of_the_whole_machine(void **state)
 }
 
 /* All of the energy of a free shaft is its own: eta = 2 zeta, s = 2 zeta/w; the mean of two modes, and their scatter. */
-static void a_loss_comes_from_the_damping_of_the_test(void **state)
+POOL_TEST(a_loss_comes_from_the_damping_of_the_test)
 {
-    (void)state;
     static const char *const begin =
         "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=a, MATERIAL=s\n2, 0.1, 0, 40\n*MODES\n1, "
         "111%s\n2, 301%s\n*RUNNING\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n*LOSS, TEST%s\na\n";
@@ -184,9 +178,8 @@ static void a_loss_comes_from_the_damping_of_the_test(void **state)
 }
 
 /* A soft zone in the shaft makes the machine softer unless it was left at the test. */
-static void a_cause_is_left_at_the_test(void **state)
+POOL_TEST(a_cause_is_left_at_the_test)
 {
-    (void)state;
     struct running_case c;
     double speed[3];
     static const char *const cause = "*CAUSE, NAME=soft, TYPE=stiffness_local\ndepth, 0.5\nz, 1\nwidth, 0.14\n",
@@ -205,9 +198,8 @@ static void a_cause_is_left_at_the_test(void **state)
 
 #define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */
 
-static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
+POOL_TEST(a_run_up_that_cannot_be_is_refused_with_its_place)
 {
-    (void)state;
     says(SHAFT TWO "*RUNUP\n1, 4000\n", ROTID_ERROR, 16, "standard deviation of it [rpm]");
     says(SHAFT TWO "*RUNUP\n1, 4000, 0\n", ROTID_ERROR, 16, "standard deviation of it [rpm] is 0");
     says(SHAFT TWO "*RUNUP\n0, 4000, 1\n", ROTID_ERROR, 16, "number of the critical speed");
@@ -232,9 +224,8 @@ static void a_run_up_that_cannot_be_is_refused_with_its_place(void **state)
     says(SHAFT MODES "p.k, 0.1, 2, 1\n" TWO, ROTID_ERROR, 15, "p is a *BEARING, expected its unknowns in an *IDENTIFY behind");
 }
 
-static void tables_of_bearings_are_refused_by_their_cells(void **state)
+POOL_TEST(tables_of_bearings_are_refused_by_their_cells)
 {
-    (void)state;
     const char *text = SHAFT "*RUNNING\n*BEARING, FILE=bad.csv\n0.2\n";
     says(text, ROTID_ERROR, 11, "cannot read");
     (void)folder_write("bad.csv", "speed_rpm,kxx,kyy,cxx\n0,1,1,1\n");
@@ -249,9 +240,8 @@ static void tables_of_bearings_are_refused_by_their_cells(void **state)
 
 /* A pedestal k - m w^2 + i w c by its dynamic stiffness: with its mass the same machine, with another one the same response,
  * which is at the frequency of the spin. */
-static void a_pedestal_by_its_dynamic_stiffness(void **state)
+POOL_TEST(a_pedestal_by_its_dynamic_stiffness)
 {
-    (void)state;
     const double m = 150, k = 6e8, d = 2e4;
     char *table = pool_copy_text(&test_pool, "frequency_hz,kx_re,kx_im,ky_re,ky_im\n");
     const char *under = "*PEDESTAL, BEARING=p, FILE=stand.csv\n%g, %g\n", *rest = "*UNBALANCE\n1, 1e-3\n*PROBE, NAME=x\n1\n";
@@ -293,9 +283,8 @@ static void a_pedestal_by_its_dynamic_stiffness(void **state)
         running_case_close(&c[i]);
 }
 
-static void lines_of_excitation(void **state)
+POOL_TEST(lines_of_excitation)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(running_case_open(SHAFT TWO "*OPERATION, LINE=50, POLES=4\n1000, 1500\n", 3000, 3, 0, &c), ROTID_OK);
     assert_int_equal(c.speeds.nexcitation, 4);
@@ -309,9 +298,8 @@ static void lines_of_excitation(void **state)
     running_case_close(&c);
 }
 
-static void a_bearing_that_is_not_what_it_seems_is_warned_of(void **state)
+POOL_TEST(a_bearing_that_is_not_what_it_seems_is_warned_of)
 {
-    (void)state;
     says(SHAFT TWO "*BEARING\n1, 1e8, -1e7, 1e7, 1e8, 1, 0, 0, 1\n", ROTID_WARNING, 15, "drives backward whirl");
     says(SHAFT TWO "*BEARING\n1, 1e8, 0, 0, 1e8, -1, 0, 0, 1\n", ROTID_WARNING, 15,
          "direct damping of this bearing is below zero");
@@ -319,9 +307,8 @@ static void a_bearing_that_is_not_what_it_seems_is_warned_of(void **state)
 }
 
 /* What a diagnosis or a suggestion writes keeps the machine, last of all. */
-static void written_decks_keep_the_machine(void **state)
+POOL_TEST(written_decks_keep_the_machine)
 {
-    (void)state;
     const struct deck_write_options options = {.x = NULL};
     struct running_case c;
     struct message_list notes;
@@ -336,9 +323,8 @@ static void written_decks_keep_the_machine(void **state)
     running_case_close(&c);
 }
 
-static void what_does_not_hold_the_rotor_is_refused(void **state)
+POOL_TEST(what_does_not_hold_the_rotor_is_refused)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(running_case_open(SHAFT "*RUNNING, WITHOUT=ALL\n*BEARING\n0.2, 1e8, 1\n", 3000, 3, 0, &c),
                      ROTID_ERROR_STIFFNESS);
@@ -349,23 +335,4 @@ static void what_does_not_hold_the_rotor_is_refused(void **state)
     running_case_close(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_cards_of_a_machine_are_read, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(units_of_the_deck_hold_for_the_machine, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(cards_that_cannot_be_are_refused_with_their_place, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_bearing_is_turned_from_the_axes_of_its_load, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_grade_is_an_unbalance_of_the_whole_machine, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_loss_comes_from_the_damping_of_the_test, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_cause_is_left_at_the_test, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_run_up_that_cannot_be_is_refused_with_its_place, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(tables_of_bearings_are_refused_by_their_cells, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_pedestal_by_its_dynamic_stiffness, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(lines_of_excitation, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(a_bearing_that_is_not_what_it_seems_is_warned_of, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(written_decks_keep_the_machine, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(what_does_not_hold_the_rotor_is_refused, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

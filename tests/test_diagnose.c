@@ -205,9 +205,8 @@ static void assert_honest(const struct run *r, const char *truth)
 
 /* ---- what it does with good data ---- */
 
-static void nothing_hidden_is_adequate(void **state)
+UNIT_TEST(nothing_hidden_is_adequate)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(NULL, 1, &d);
@@ -223,9 +222,8 @@ static void nothing_hidden_is_adequate(void **state)
     close_run(&r);
 }
 
-static void what_is_hidden_is_named_and_measured(void **state)
+UNIT_TEST(what_is_hidden_is_named_and_measured)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -359,9 +357,8 @@ static void same_diagnosis(const struct diagnosis *a, const struct diagnosis *b)
 
 static const char soft_zone[] = "*CAUSE, NAME=hidden, TYPE=stiffness_local\ndepth, 0.35\nz, 0.9\nwidth, 0.05\n";
 
-static void the_same_diagnosis_for_any_number_of_threads(void **state)
+UNIT_TEST(the_same_diagnosis_for_any_number_of_threads)
 {
-    (void)state;
     static const char *const hidden[] = {gradient, soft_zone};
     for (int h = 0; h < 2; h++) {
         struct data d;
@@ -445,9 +442,8 @@ static void open_long_run(struct run *r)
     read_run(r);
 }
 
-static void interrupted_at_any_point(void **state)
+UNIT_TEST(interrupted_at_any_point)
 {
-    (void)state;
     struct run r;
     struct failing_allocator failing;
     struct host whole = {.stop_at_stage = -1};
@@ -476,9 +472,8 @@ static void interrupted_at_any_point(void **state)
     pool_close(&r.pool);
 }
 
-static void out_of_memory_at_any_point(void **state)
+UNIT_TEST(out_of_memory_at_any_point)
 {
-    (void)state;
     struct run r;
     struct failing_allocator failing;
     struct host host = {.stop_at_stage = -1};
@@ -502,9 +497,8 @@ static void out_of_memory_at_any_point(void **state)
 
 /* ---- data that cannot carry a name ---- */
 
-static void fewer_data_than_parameters(void **state)
+UNIT_TEST(fewer_data_than_parameters)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -527,9 +521,8 @@ static void fewer_data_than_parameters(void **state)
     close_run(&r);
 }
 
-static void few_modes_carry_no_name(void **state)
+UNIT_TEST(few_modes_carry_no_name)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -545,9 +538,8 @@ static void few_modes_carry_no_name(void **state)
     }
 }
 
-static void frequencies_alone(void **state)
+UNIT_TEST(frequencies_alone)
 {
-    (void)state;
     static const char *const hidden[] = {gradient, soft_zone};
     static const char *const truth[] = {"stiffness_gradient", "stiffness_local"};
     for (int h = 0; h < 2; h++) {
@@ -564,9 +556,8 @@ static void frequencies_alone(void **state)
     }
 }
 
-static void sensors_at_one_end(void **state)
+UNIT_TEST(sensors_at_one_end)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -580,9 +571,8 @@ static void sensors_at_one_end(void **state)
     close_run(&r);
 }
 
-static void two_sensors(void **state)
+UNIT_TEST(two_sensors)
 {
-    (void)state;
     static const char *const hidden[] = {gradient, soft_zone, NULL};
     static const char *const truth[] = {"stiffness_gradient", "stiffness_local", NULL};
     for (int h = 0; h < 3; h++) {
@@ -599,9 +589,8 @@ static void two_sensors(void **state)
     }
 }
 
-static void noise_not_stated_or_zero(void **state)
+UNIT_TEST(noise_not_stated_or_zero)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -628,9 +617,8 @@ static void noise_not_stated_or_zero(void **state)
     pool_close(&pool);
 }
 
-static void frequencies_in_another_unit(void **state)
+UNIT_TEST(frequencies_in_another_unit)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -647,9 +635,8 @@ static void frequencies_in_another_unit(void **state)
 }
 
 /* Two frequencies exchanged: the deck says so. */
-static void frequencies_in_the_wrong_order(void **state)
+UNIT_TEST(frequencies_in_the_wrong_order)
 {
-    (void)state;
     struct data d;
     struct pool pool;
     struct message_list messages;
@@ -667,9 +654,8 @@ static void frequencies_in_the_wrong_order(void **state)
 }
 
 /* Mode 2 was missed and the others are counted through. Shapes say which they are. */
-static void a_mode_missing_from_the_count(void **state)
+UNIT_TEST(a_mode_missing_from_the_count)
 {
-    (void)state;
     static const int order[MODES] = {0, 2, 3, 4, 5};
     struct data d;
     struct run r;
@@ -702,9 +688,8 @@ static void a_mode_missing_from_the_count(void **state)
     }
 }
 
-static void a_mode_measured_twice(void **state)
+UNIT_TEST(a_mode_measured_twice)
 {
-    (void)state;
     static const int order[MODES + 1] = {0, 1, 2, 2, 3, 4};
     struct data d;
     struct run r;
@@ -732,9 +717,8 @@ static void a_mode_measured_twice(void **state)
     close_run(&r);
 }
 
-static void nothing_to_identify(void **state)
+UNIT_TEST(nothing_to_identify)
 {
-    (void)state;
     struct data d;
     struct run r;
     simulate(gradient, 2, &d);
@@ -749,25 +733,4 @@ static void nothing_to_identify(void **state)
     close_run(&r);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_hidden_is_adequate),
-        cmocka_unit_test(what_is_hidden_is_named_and_measured),
-        cmocka_unit_test(the_same_diagnosis_for_any_number_of_threads),
-        cmocka_unit_test(interrupted_at_any_point),
-        cmocka_unit_test(out_of_memory_at_any_point),
-        cmocka_unit_test(fewer_data_than_parameters),
-        cmocka_unit_test(few_modes_carry_no_name),
-        cmocka_unit_test(frequencies_alone),
-        cmocka_unit_test(sensors_at_one_end),
-        cmocka_unit_test(two_sensors),
-        cmocka_unit_test(noise_not_stated_or_zero),
-        cmocka_unit_test(frequencies_in_another_unit),
-        cmocka_unit_test(frequencies_in_the_wrong_order),
-        cmocka_unit_test(a_mode_missing_from_the_count),
-        cmocka_unit_test(a_mode_measured_twice),
-        cmocka_unit_test(nothing_to_identify),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

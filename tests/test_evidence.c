@@ -186,11 +186,10 @@ static void check(const char *what, double laplace, double grid)
         fail_msg("%s: ln Z %.4f, by a grid %.4f", what, laplace, grid);
 }
 
-static void nothing_but_a_modulus(void **state)
+POOL_TEST(nothing_but_a_modulus)
 {
     double x[8];
     struct likelihood l;
-    (void)state;
     for (int noise = 0; noise < 3; noise++) {
         open_bar(noise == 0 ? 1 : noise == 1 ? 1.5 : 0.7);
         double z = evidence(NULL, NULL, NULL, x);
@@ -200,7 +199,7 @@ static void nothing_but_a_modulus(void **state)
     }
 }
 
-static void a_size_with_a_sign(void **state)
+POOL_TEST(a_size_with_a_sign)
 {
     const double start[EFFECT_MOST_PARAMETERS] = {0.02};
     double x[8];
@@ -208,7 +207,6 @@ static void a_size_with_a_sign(void **state)
     struct states states;
     struct state one;
     rotid_fit_result *fit;
-    (void)state;
     open_bar(1);
     double z = evidence("stiffness_gradient", start, NULL, x);
     fit_with("stiffness_gradient", start, &states, &one, &fit);
@@ -219,7 +217,7 @@ static void a_size_with_a_sign(void **state)
 }
 
 /* A mass that the data hardly want, anywhere: the columns of the scan, over all places. */
-static void a_size_at_its_bound(void **state)
+POOL_TEST(a_size_at_its_bound)
 {
     const double start[EFFECT_MOST_PARAMETERS] = {0.001, 0.3};
     double x[8], sum = -INFINITY;
@@ -228,7 +226,6 @@ static void a_size_at_its_bound(void **state)
     struct state one, alone;
     struct scan scan;
     rotid_fit_result *fit;
-    (void)state;
     open_bar(1);
     double nothing = evidence(NULL, NULL, NULL, x);
     base = states_of(&job, &alone);
@@ -338,10 +335,9 @@ static double modulus_of_base(void)
     return x[0];
 }
 
-static void a_wrong_sign(void **state)
+POOL_TEST(a_wrong_sign)
 {
     struct candidate fault;
-    (void)state;
     open_bar(1);
     multiply(job.measurement.shape, job.measurement.shape_std, SENSOR, -1);
     double *shape = copy_of(job.measurement.shape), *std = copy_of(job.measurement.shape_std), x = modulus_of_base();
@@ -350,12 +346,11 @@ static void a_wrong_sign(void **state)
           grid_of_shapes(shape, std, x * 0.9, x * 1.1));
 }
 
-static void a_gain(void **state)
+POOL_TEST(a_gain)
 {
     struct candidate fault;
     double sum = -INFINITY;
     const int points = 80;
-    (void)state;
     open_bar(1);
     double x = modulus_of_base();
     multiply(job.measurement.shape, job.measurement.shape_std, SENSOR, 1.3);
@@ -389,9 +384,8 @@ static double scatter(const double *of, double least, double most)
     return sum;
 }
 
-static void a_dead_channel_and_a_copy(void **state)
+POOL_TEST(a_dead_channel_and_a_copy)
 {
-    (void)state;
     for (int copy = 0; copy < 2; copy++) {
         struct candidate fault;
         open_bar(1);
@@ -464,12 +458,11 @@ static double else_at(struct likelihood *l, const double *x, double shapes, doub
     return sum;
 }
 
-static void something_else(void **state)
+POOL_TEST(something_else)
 {
     double log_else, x[8], sum = -INFINITY;
     struct likelihood l;
     const int points = 24;
-    (void)state;
     open_bar(0.3); /* the noise stated too small: there is something else to find */
     (void)evidence(NULL, NULL, &log_else, x);
     open_likelihood(&job, &l);
@@ -485,12 +478,9 @@ static void something_else(void **state)
     check("something else", log_else, sum);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-
 /* What a cause that is an approximation leaves is noise behind it, in arrays of its own. */
-static void what_an_approximation_leaves_is_noise(void **state)
+POOL_TEST(what_an_approximation_leaves_is_noise)
 {
-    (void)state;
     static const int in_all[] = {1};
     double frequency[] = {1e-4, NAN}, shape[] = {0.01, NAN, 0.02, 0.03}, any[4] = {0};
     const struct candidate cone = {.cause = catalogue_find("step_stiffness"), .in = in_all},
@@ -506,17 +496,4 @@ static void what_an_approximation_leaves_is_noise(void **state)
     assert_close(m->shape_std[3], hypot(0.03, cone.cause->discrepancy_shape), 1e-14, 0);
     assert_true(isnan(m->frequency_std[1]) && isnan(m->shape_std[1])); /* what is not measured stays so */
     assert_close(frequency[0], 1e-4, 0, 0);                            /* others may have the same arrays */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {TEST(nothing_but_a_modulus),
-                                       TEST(a_size_with_a_sign),
-                                       TEST(a_size_at_its_bound),
-                                       TEST(a_wrong_sign),
-                                       TEST(a_gain),
-                                       TEST(a_dead_channel_and_a_copy),
-                                       TEST(something_else),
-                                       TEST(what_an_approximation_leaves_is_noise)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

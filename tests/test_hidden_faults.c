@@ -91,9 +91,8 @@ static int run_all(void **state)
     return status;
 }
 
-static void faults_are_found_by_number_and_not_taken_for_physics(void **state)
+UNIT_TEST(faults_are_found_by_number_and_not_taken_for_physics)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++) {
         const int *expected = table[i].sensor, *sensor = seen[i].sensor;
         print_message("%s: %s\n", table[i].effect, seen[i].text);
@@ -110,18 +109,16 @@ static void faults_are_found_by_number_and_not_taken_for_physics(void **state)
     }
 }
 
-static void the_sentence_says_what_was_found(void **state)
+UNIT_TEST(the_sentence_says_what_was_found)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++)
         if (!strstr(seen[i].text, table[i].text))
             fail_msg("%s: '%s' lacks '%s'", table[i].effect, seen[i].text, table[i].text);
 }
 
-static void a_line_has_to_stay_on_the_rotor(void **state)
+UNIT_TEST(a_line_has_to_stay_on_the_rotor)
 {
     const double z[] = {0, 0.5, 1};
-    (void)state;
     assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0, 1}, 1, 3, z), 1);
     assert_int_equal(sensor_line_fits(&(struct sensor_line){1, 0, 1}, 1, 3, z), 1);
     assert_int_equal(sensor_line_fits(&(struct sensor_line){0, 0.019, 1}, 1, 3, z), 1); /* as well as a line is known */
@@ -131,12 +128,4 @@ static void a_line_has_to_stay_on_the_rotor(void **state)
     assert_close(sensor_line_place(&(struct sensor_line){1, 0.1, 0.5}, 2, 0.4), 1.7, 1e-15, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faults_are_found_by_number_and_not_taken_for_physics),
-        cmocka_unit_test(the_sentence_says_what_was_found),
-        cmocka_unit_test(a_line_has_to_stay_on_the_rotor),
-    };
-    return cmocka_run_group_tests(tests, run_all, NULL);
-}
+TEST_GROUP(run_all, NULL);

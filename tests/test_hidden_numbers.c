@@ -34,7 +34,7 @@ static void write_numbered(const char *deck, const int *number)
     free(text);
 }
 
-static void numbers_are_put_right(void **state)
+UNIT_TEST(numbers_are_put_right)
 {
     static const struct {
         int number[MODES], first, is;
@@ -49,7 +49,6 @@ static void numbers_are_put_right(void **state)
     const struct diagnose_options options = {.threads = 1, .seed = 1};
     char *text = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp"), *deck = NULL, *truth = NULL, message[300] = "";
     struct hide_request request = hide_request_default();
-    (void)state;
     assert_non_null(text);
     request.deck = text;
     request.name = "paper_rotor.inp";
@@ -87,10 +86,4 @@ static void numbers_are_put_right(void **state)
     free(text);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_put_right),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);

@@ -8,6 +8,7 @@
 #include "modal/modal.h"
 #include "model/model.h"
 #include "run/run.h"
+#include "support.h"
 
 #define SENSORS 9
 #define MODES   5
@@ -171,9 +172,8 @@ static void compare_with_refits(const struct job *job, double tolerance)
     assert_close(rms, sqrt(sums[2] / sums[1]), tolerance, 0);
 }
 
-static void sensors_out_are_fits_without_them(void **state)
+POOL_TEST(sensors_out_are_fits_without_them)
 {
-    (void)state;
     struct job job = make_job(1e-4);
     compare_with_refits(&job, 0.002);
     holdout[1] = holdout[4] = 1;
@@ -182,17 +182,15 @@ static void sensors_out_are_fits_without_them(void **state)
     compare_with_refits(&job, 0.02);
 }
 
-static void sensors_out_with_nothing_identified(void **state)
+POOL_TEST(sensors_out_with_nothing_identified)
 {
-    (void)state;
     struct job job = make_job(0.01);
     job.unknowns.nparameter = 0; /* the scales are left */
     compare_with_refits(&job, 1e-9);
 }
 
-static void sensors_out_need_shapes(void **state)
+POOL_TEST(sensors_out_need_shapes)
 {
-    (void)state;
     struct job job = make_job(1e-3);
     double standardised = 0, rms = 0;
     rotid_fit_result *fit = fit_job(&job, holdout);
@@ -229,9 +227,8 @@ static double shape_by_definition(const struct job *job, const double *x, int k)
     return sqrt(sum / used);
 }
 
-static void errors_are_as_defined(void **state)
+POOL_TEST(errors_are_as_defined)
 {
-    (void)state;
     struct job job = make_job(0.02);
     double rms, most, shapes, squares = 0, largest = 0, shape_squares = 0;
     holdout[2] = holdout[3] = 1;
@@ -265,9 +262,8 @@ static void errors_are_as_defined(void **state)
     rotid_fit_free(fit);
 }
 
-static void a_mode_out_is_a_fit_without_it(void **state)
+POOL_TEST(a_mode_out_is_a_fit_without_it)
 {
-    (void)state;
     struct job job = make_job(0.02);
     holdout[4] = 1;
     for (int k = 0; k < MODES; k++) {
@@ -290,9 +286,8 @@ static void a_mode_out_is_a_fit_without_it(void **state)
     assert_int_equal(failing.in_use, 0);
 }
 
-static void a_mode_out_leaves_enough_or_nothing_is_said(void **state)
+POOL_TEST(a_mode_out_leaves_enough_or_nothing_is_said)
 {
-    (void)state;
     struct job job = make_job(0.02);
     double error = 0, difference = 0;
     job.measurement.shape = NULL;
@@ -312,26 +307,10 @@ static int at_once(void *context)
     return 1;
 }
 
-static void a_host_can_cancel(void **state)
+POOL_TEST(a_host_can_cancel)
 {
-    (void)state;
     struct job job = make_job(0.02);
     double error, difference;
     const rotid_environment environment = {.size = sizeof environment, .cancelled = at_once};
     assert_status(mode_out_fit(of(&job), number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(sensors_out_are_fits_without_them),
-        TEST(sensors_out_with_nothing_identified),
-        TEST(sensors_out_need_shapes),
-        TEST(errors_are_as_defined),
-        TEST(a_mode_out_is_a_fit_without_it),
-        TEST(a_mode_out_leaves_enough_or_nothing_is_said),
-        TEST(a_host_can_cancel),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -75,11 +75,10 @@ static void check_list(void *context, const struct hidden_case *c, const struct 
     (*checked)++;
 }
 
-static void what_is_hidden_leads(void **state)
+UNIT_TEST(what_is_hidden_leads)
 {
     char directory[] = "/tmp/hidden.XXXXXX", *deck = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp");
     int checked = 0;
-    (void)state;
     assert_non_null(deck);
     assert_non_null(mkdtemp(directory));
     for (int i = 0; i < COUNT; i++) {
@@ -98,10 +97,4 @@ static void what_is_hidden_leads(void **state)
     assert_int_equal(checked, COUNT);
     rmdir(directory);
     free(deck);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_hidden_leads)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static const rotid_critical_speed *forward(const struct running_case *c)
     return NULL;
 }
 
-static void one_draw_for_both_bearings_is_log_normal(void **state)
+POOL_TEST(one_draw_for_both_bearings_is_log_normal)
 {
-    (void)state;
     struct running_case c;
     const double std = 0.2, w0 = sqrt(2 * 1e6 / 50) / RPM, high = 1300, sigma = std / 2;
     char *deck = pool_format(
@@ -62,9 +61,8 @@ static void one_draw_for_both_bearings_is_log_normal(void **state)
     running_case_close(&c);
 }
 
-static void draws_of_their_own_share_the_variance(void **state)
+POOL_TEST(draws_of_their_own_share_the_variance)
 {
-    (void)state;
     struct running_case c;
     assert_int_equal(
         running_case_open(RIGID "*BEARING, NAME=p, STD=0.1, 0.5\nstart, 1e6, 10\n*BEARING, NAME=q, STD=0.2\nend, 1e6, 10\n", 4000,
@@ -92,9 +90,8 @@ static const rotid_speed_sensitivity *by(const rotid_critical_speed *w, const ch
           "*PROBE, NAME=x\n0.5\n*OPERATION\n2500, 3000\n"
 
 /* zeta = c/(2 sqrt(k m)) = 0.01, delta = 2 pi zeta; at the peak, W^2 = k/m/(1 - 2 zeta^2), |x| ~ sqrt(k)/c. */
-static void damping_and_peaks_have_their_derivatives_and_bands(void **state)
+POOL_TEST(damping_and_peaks_have_their_derivatives_and_bands)
 {
-    (void)state;
     struct running_case c;
     const double sigma = 0.3, delta = 2 * 3.141592653589793 * 0.01;
     assert_int_equal(running_case_open(pool_format(&test_pool, BOUNCE, 1e-6, sigma), 4000, 9, DRAWS, &c), ROTID_OK);
@@ -119,9 +116,8 @@ static void damping_and_peaks_have_their_derivatives_and_bands(void **state)
 }
 
 /* Below the critical speed |x| = u W^2/(k - m W^2) falls with k alone: its quantiles are those of k. */
-static void the_response_has_the_band_of_its_stiffness(void **state)
+POOL_TEST(the_response_has_the_band_of_its_stiffness)
 {
-    (void)state;
     struct running_case c;
     const double sigma = 0.1, m = 50, k = 2e6;
     int seen = 0;
@@ -163,9 +159,8 @@ static int open_changed(struct running_case *c, int which, double by_log)
     return running_case_open(text, 12000, 25, which < 0 ? 20 : 0, c);
 }
 
-static void derivatives_are_those_of_differences(void **state)
+POOL_TEST(derivatives_are_those_of_differences)
 {
-    (void)state;
     static const char *const name[] = {"p.k", "p.c", "loss a", "pull b", "change a.E"};
     struct running_case c, side[2];
     int peaks = 0;
@@ -195,9 +190,8 @@ static void derivatives_are_those_of_differences(void **state)
 }
 
 /* The formula at factors of which the values are known by hand: 17 (1 - 1/1) = 0, 17 (1 - 1/8.5) = 15, and the caps. */
-static void the_margin_of_api_617_goes_by_the_amplification(void **state)
+POOL_TEST(the_margin_of_api_617_goes_by_the_amplification)
 {
-    (void)state;
     const struct machine machine = {.api617 = 1, .low = 100, .high = 200};
     assert_true(isnan(speeds_required(&machine, 2.49, 90)) && isnan(speeds_required(&machine, NAN, 90)));
     assert_close(speeds_required(&machine, 2.5, 90), 0, 0, 1e-15);
@@ -231,9 +225,8 @@ static rotid_fit_result fit_of(double *x, double *std, double *covariance, int d
         .n = 1, .x = x, .std = std, .covariance = covariance, .dof = dof, .variance_from_residuals = dof > 0};
 }
 
-static void the_modulus_has_the_distribution_of_its_fit(void **state)
+POOL_TEST(the_modulus_has_the_distribution_of_its_fit)
 {
-    (void)state;
     struct running_case c;
     double x = 2e11, std = 0.04 * x, covariance = std * std;
     for (int dof = 0; dof <= 3; dof += 3) {
@@ -251,9 +244,8 @@ static void the_modulus_has_the_distribution_of_its_fit(void **state)
     }
 }
 
-static void draws_end_at_the_bounds_of_the_unknown(void **state)
+POOL_TEST(draws_end_at_the_bounds_of_the_unknown)
 {
-    (void)state;
     struct running_case c;
     double x = 2e11, std = 0.7 * x, covariance = std * std;
     rotid_fit_result fit = fit_of(&x, &std, &covariance, 0);
@@ -265,9 +257,8 @@ static void draws_end_at_the_bounds_of_the_unknown(void **state)
     running_case_close(&c);
 }
 
-static void threads_do_not_change_the_draws(void **state)
+POOL_TEST(threads_do_not_change_the_draws)
 {
-    (void)state;
     struct running_case c;
     struct message_list notes;
     rotid_speeds speeds;
@@ -285,20 +276,4 @@ static void threads_do_not_change_the_draws(void **state)
         memcpy(first, forward(&c)->ci95, sizeof first);
     }
     running_case_close(&c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(one_draw_for_both_bearings_is_log_normal, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(damping_and_peaks_have_their_derivatives_and_bands, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_response_has_the_band_of_its_stiffness, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(derivatives_are_those_of_differences, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(draws_of_their_own_share_the_variance, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_margin_of_api_617_goes_by_the_amplification, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(the_modulus_has_the_distribution_of_its_fit, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(draws_end_at_the_bounds_of_the_unknown, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(threads_do_not_change_the_draws, open_test_pool, close_test_pool),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

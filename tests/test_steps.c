@@ -31,10 +31,9 @@ static void frequencies(const struct job *job, struct spectrum *s)
         ROTID_OK);
 }
 
-static void the_error_is_that_beside_the_solid(void **state)
+UNIT_TEST(the_error_is_that_beside_the_solid)
 {
     static const double table[][2] = {{1.3, 9}, {1.6, 5}, {1.6, 15}, {2, 9}, {3, 9}};
-    (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct job beam, solid;
         struct spectrum b, s;
@@ -55,21 +54,13 @@ static void the_error_is_that_beside_the_solid(void **state)
     }
 }
 
-static void a_rotor_that_is_even_or_repaired_is_not_doubted(void **state)
+UNIT_TEST(a_rotor_that_is_even_or_repaired_is_not_doubted)
 {
     struct job job;
-    (void)state;
     rotor_of(1, 9, "", &job);
     assert_null(doubt_steps(&test_pool, &job));
     rotor_of(1.6, 9, "*CAUSE, NAME=c, TYPE=step_stiffness\nangle, 40\n", &job);
     assert_null(doubt_steps(&test_pool, &job));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_error_is_that_beside_the_solid),
-        cmocka_unit_test(a_rotor_that_is_even_or_repaired_is_not_doubted),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+TEST_GROUP(folder_make, folder_remove);
