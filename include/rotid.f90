@@ -1142,6 +1142,46 @@ module rotid
     type(c_ptr) :: parameter = c_null_ptr ! integer [nparam of the model], from 0
   end type rotid_state
 
+  type, bind(C) :: rotid_host_cause
+    integer(c_size_t) :: size = 72
+    type(c_ptr) :: name = c_null_ptr, target = c_null_ptr ! texts that end with c_null_char
+    integer(c_int) :: nparameter = 0
+    type(c_ptr) :: parameter = c_null_ptr ! rotid_parameter [nparameter]
+    type(c_ptr) :: neutral = c_null_ptr   ! real [nparameter]
+    type(c_ptr) :: deviation = c_null_ptr ! real [nparameter]
+    type(c_funptr) :: add = c_null_funptr ! rotid_host_cause_add
+    type(c_ptr) :: user = c_null_ptr
+  end type rotid_host_cause
+
+  type, bind(C) :: rotid_host_options
+    integer(c_size_t) :: size = 32
+    type(c_ptr) :: position = c_null_ptr  ! real [nmaster]
+    real(c_double) :: length = 0
+    integer(c_int) :: changed = 0, reserved = 0
+  end type rotid_host_options
+
+  type, bind(C) :: rotid_host_explanation
+    integer(c_int) :: ncause = 0, cause(3) = 0 ! indices, from 0
+    integer(c_int) :: something_else = 0
+    real(c_double) :: probability = 0
+    real(c_double) :: chi2 = 0
+    real(c_double) :: value(12) = 0, std(12) = 0
+  end type rotid_host_explanation
+
+  type, bind(C) :: rotid_host_diagnosis
+    integer(c_int) :: verdict = 0
+    real(c_double) :: nothing = 0, something_else = 0
+    integer(c_int) :: nexplanation = 0
+    type(c_ptr) :: explanation = c_null_ptr ! rotid_host_explanation [nexplanation]
+    integer(c_int) :: ncause = 0
+    type(c_ptr) :: probability = c_null_ptr ! real [ncause]
+    integer(c_int) :: nparameter = 0
+    type(c_ptr) :: mean = c_null_ptr, std = c_null_ptr, ci_lower = c_null_ptr, ci_upper = c_null_ptr ! real [nparameter]
+    integer(c_int) :: dof = 0
+    real(c_double) :: chi2 = 0
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_host_diagnosis
+
   type, bind(C) :: rotid_fit_options
     integer(c_size_t) :: size = 72
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
@@ -1232,6 +1272,14 @@ module rotid
   ! ------------------------------------------------------------------------------------------------ what a host supplies
 
   abstract interface
+
+    function rotid_host_cause_add(user, x, value, stiffness, mass) result(status) bind(C)
+      import :: c_ptr, c_int, c_double, rotid_matrix
+      type(c_ptr), value :: user
+      real(c_double), intent(in) :: x(*), value(*)
+      type(rotid_matrix), intent(inout), target :: stiffness, mass
+      integer(c_int) :: status
+    end function rotid_host_cause_add
 
     function rotid_allocator_allocate(context, bytes) result(block) bind(C)
       import :: c_ptr, c_size_t
@@ -1501,6 +1549,25 @@ module rotid
       import :: c_ptr
       type(c_ptr), value :: result
     end subroutine rotid_fit_free
+
+    function rotid_diagnose_model(model, parameter, measured, ncause, cause, options, environment, failure, diagnosis) &
+        result(status) bind(C, name="rotid_diagnose_model")
+      import :: c_ptr, c_int, rotid_model, rotid_parameter, rotid_measured, rotid_host_cause
+      type(rotid_model), intent(in) :: model
+      type(rotid_parameter), intent(in) :: parameter(*)
+      type(rotid_measured), intent(in) :: measured
+      integer(c_int), value :: ncause
+      type(rotid_host_cause), intent(in) :: cause(*)
+      type(c_ptr), value :: options             ! rotid_host_options
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: diagnosis
+      integer(c_int) :: status
+    end function rotid_diagnose_model
+
+    subroutine rotid_host_diagnosis_free(diagnosis) bind(C, name="rotid_host_diagnosis_free")
+      import :: c_ptr
+      type(c_ptr), value :: diagnosis
+    end subroutine rotid_host_diagnosis_free
 
     function rotid_check_model(model, parameter, x, environment, failure, error, doubt) result(status) &
         bind(C, name="rotid_check_model")

@@ -1461,6 +1461,65 @@ ROTID_API int rotid_fit_states(int nstate, const rotid_state *state, int nparam,
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
 
+/* A cause that the model of a host may lack: what it adds to K and M. Causes of one name are one kind, at several targets. */
+typedef struct rotid_host_cause {
+    size_t size;
+    const char *name, *target;        /* "crack", "blade 3"; target NULL: "" */
+    int nparameter;                   /* 1 to 4 */
+    const rotid_parameter *parameter; /* [nparameter] bounds are what is possible, start is where fits begin, not neutral */
+    const double *neutral;            /* [nparameter] there is no cause there; NULL: 0 */
+    const double *deviation; /* [nparameter] expected before the data: normal about neutral with this deviation, between the
+                                bounds; 0, or NULL: uniform between them, of positive bounds in ln */
+    /* adds what the cause changes at these values [nparameter] to the matrices of the model at x; 0: done */
+    int (*add)(void *user, const double *x, const double *value, rotid_matrix *stiffness, rotid_matrix *mass);
+    void *user;
+} rotid_host_cause;
+
+/* Zeros but for the size: the defaults in brackets. */
+typedef struct rotid_host_options {
+    size_t size;
+    const double *position; /* [nmaster] of the sensors along the structure [m]; NULL [errors of the model are not smooth] */
+    double length;          /* of the structure [m], with position: an error of the model is smooth over a part of it */
+    int changed;            /* nonzero: something is known to be wrong: "nothing" has the prior of one cause among them [0.5] */
+    int reserved;           /* 0 */
+} rotid_host_options;
+
+/* One explanation: none, one, two or three causes, perhaps with something else that no cause is. */
+typedef struct rotid_host_explanation {
+    int ncause, cause[3]; /* indices */
+    int something_else;
+    double probability;
+    double chi2;               /* of its fit */
+    double value[12], std[12]; /* 4 k + q: of parameter q of cause k, NaN beyond them */
+} rotid_host_explanation;
+
+typedef struct rotid_host_diagnosis {
+    int verdict;                    /* ROTID_ADEQUATE ... ROTID_UNEXPLAINED */
+    double nothing, something_else; /* probability that the model lacks nothing; that it lacks something that is no cause */
+    int nexplanation;
+    rotid_host_explanation *explanation; /* [nexplanation] largest probability first */
+    int ncause;
+    double *probability;                      /* [ncause] of each cause, alone or with others */
+    int nparameter;                           /* of the model, averaged over all explanations: */
+    double *mean, *std, *ci_lower, *ci_upper; /* [nparameter] 95 % */
+    int dof;                                  /* of the model without a cause, and its chi2 */
+    double chi2;
+    void *memory; /* internal */
+} rotid_host_diagnosis;
+
+/* What the model of a host lacks: the explanations of measured modes by sets of up to three causes, and by something else, with
+ * their probabilities P(H) Z(H), Z the integral of the likelihood over all parameters with their priors (docs/method.md, 11).
+ * Entry: model, parameter [model->nparam] and measured as for rotid_fit by ROTID_LIKELIHOOD without a reduction, frequency_std
+ * not NULL; cause [ncause], ncause >= 1, of which the size member of the first holds for all; options NULL: the defaults. Every
+ * cause is fitted alone, then the likeliest sets with one cause more. Exit: *diagnosis, to be freed with
+ * rotid_host_diagnosis_free; NULL on an error. Statuses: those of rotid_fit; ROTID_STOP_CANCELLED, and *diagnosis is NULL. Time:
+ * 1 + ncause fits and as many again for each of up to eight sets; memory O(ncause n kd). */
+ROTID_API int rotid_diagnose_model(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+                                   int ncause, const rotid_host_cause *cause, const rotid_host_options *options,
+                                   const rotid_environment *environment, char *failure, rotid_host_diagnosis **diagnosis);
+/* NULL is allowed. The allocator of the environment of that call has to exist until then. */
+ROTID_API void rotid_host_diagnosis_free(rotid_host_diagnosis *diagnosis);
+
 /* Compares dK/dx_p and dM/dx_p as rotid_fit would use them, those of model->derivatives or differences where it is NULL, with
  * differences of `matrices` that are extrapolated over a sequence of steps inside the bounds (rotid_check_jacobian), at x
  * [nparam] between the bounds, NULL: at the starts. A derivative that is a fifth too large does not keep a fit from converging,

@@ -98,7 +98,7 @@ POOL_TEST(structs_of_hosts_say_their_size)
     static const char *const sized[] = {
         "rotid_environment", "rotid_diagnose_options", "rotid_suggest_options", "rotid_speeds_options",
         "rotid_model",       "rotid_measured",         "rotid_state",           "rotid_fit_options",
-        "rotid_lm_options"};
+        "rotid_lm_options",  "rotid_host_cause",       "rotid_host_options"};
     struct header header;
     int count = 0;
     assert_int_equal(header_read(&test_pool, HEADER, &header), 0);

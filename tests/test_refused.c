@@ -342,6 +342,12 @@ static void take_back(void *context, void *block)
     free(block);
 }
 
+static int add_nothing(void *user, const double *x, const double *value, rotid_matrix *k, rotid_matrix *m)
+{
+    (void)user, (void)x, (void)value, (void)k, (void)m;
+    return 0;
+}
+
 /* Every routine that takes an environment, with this one. */
 static int call_all(const rotid_deck *good, const rotid_environment *environment, const char *text)
 {
@@ -382,7 +388,14 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 17;
+    const rotid_parameter size = {"mass", "kg", 0, 1, 0.1};
+    const rotid_host_cause cause = {
+        .size = sizeof cause, .name = "mass", .nparameter = 1, .parameter = &size, .add = add_nothing};
+    rotid_host_diagnosis *of_model = (void *)&c;
+    assert_refused(rotid_diagnose_model(&f.model, f.parameter, &f.measured, 1, &cause, NULL, environment, failure, &of_model),
+                   text);
+    assert_null(of_model);
+    return 18;
 }
 
 POOL_TEST(an_environment_that_is_none_is_refused_by_all)

@@ -224,7 +224,9 @@ enum sized {
     SIZED_MEASURED,
     SIZED_STATE,
     SIZED_FIT_OPTIONS,
-    SIZED_LM_OPTIONS
+    SIZED_LM_OPTIONS,
+    SIZED_CAUSE,
+    SIZED_HOST_OPTIONS
 };
 
 /* *copy := the struct of this library with what the host has of it, zeros in what it was compiled without. `given` is not NULL.

@@ -24,6 +24,8 @@ static const struct sized_struct table[] = {
     [SIZED_STATE] = STRUCT(rotid_state, "state", parameter),
     [SIZED_FIT_OPTIONS] = STRUCT(rotid_fit_options, "options", bijection_chi),
     [SIZED_LM_OPTIONS] = STRUCT(rotid_lm_options, "options", trace_user),
+    [SIZED_CAUSE] = STRUCT(rotid_host_cause, "cause", user),
+    [SIZED_HOST_OPTIONS] = STRUCT(rotid_host_options, "options", reserved),
 };
 
 ENDS_WITH(rotid_environment, context);
@@ -35,6 +37,8 @@ ENDS_WITH(rotid_measured, holdout);
 ENDS_WITH(rotid_state, parameter);
 ENDS_WITH(rotid_fit_options, objective_tolerance);
 ENDS_WITH(rotid_lm_options, decrease_tolerance);
+ENDS_WITH(rotid_host_cause, user);
+ENDS_WITH(rotid_host_options, reserved);
 
 int sized_copy(const struct sized_struct *structure, const void *given, char *failure, void *copy)
 {

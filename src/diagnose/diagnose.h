@@ -798,6 +798,17 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
                     int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
                     const struct scan *else_scan, struct evidence *out);
+struct model_prior { /* of a parameter of a host: normal about neutral, deviation 0: uniform, of a positive one in ln */
+    double lower, upper, neutral, deviation;
+};
+
+/* The same of a host's model: of its measured modes, position [nsensor] of the sensors along a structure of that length (NULL:
+ * something else is white), and of a fit with priors [fit->n]; with_else: something else as well. */
+int evidence_open_model(struct pool *pool, const rotid_measured *measured, int nsensor, const double *position, double length,
+                        struct evidence_data **data);
+int evidence_of_model(const struct evidence_data *data, const struct model_prior *prior, int nown, const rotid_fit_result *fit,
+                      int with_else, struct evidence *out);
+
 /* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
 double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
 
@@ -840,6 +851,13 @@ int fault_correct(struct engine *engine, const struct candidate *fault);
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
 /* Probability of a cause, alone or with others; 0 where it is below LEAST_MARGINAL. */
 double posterior_of_cause(const struct posterior *posterior, const struct candidate *cause);
+/* ln of the prior of a set of so many causes, without those of its causes. */
+double posterior_log_prior(int nmember, int something_else);
+/* Unknown q averaged over all explanations, cut at its bounds: mean, deviation, 95 % interval. */
+void posterior_average(const struct posterior *posterior, const rotid_parameter *bounds, int q, double *mean, double *std,
+                       double *lower, double *upper);
+/* The kind of the verdict by the probabilities: of something else, of the likeliest cause, of nothing after and before. */
+int posterior_kind(double something_else, int named, int nothing_leads, double largest, double nothing, double prior);
 /* Takes the faults of the measurement with a probability of VERDICT_NAMED out of the judged data, *changed: there were any. The
  * search has to be repeated then. */
 int posterior_take_faults(struct engine *engine, const struct posterior *posterior, int *changed);

@@ -151,25 +151,19 @@ static struct unknown unknown_of(const struct states *states, int p, double x)
 
 /* ---- the data */
 
-/* Half a wavelength of elastic mode `number`. */
-static double correlation_length(const struct job *job, int number)
+/* shape, std [nsensor] of mode k of a state; position [nsensor], NULL: the field is white; length: over which it is smooth */
+static int add_block(struct evidence_data *d, int state, int k, int nsensor, const double *shape, const double *std,
+                     const double *position, double length)
 {
-    return 0.3 * rotor_length(&job->rotor) / (number + 1);
-}
-
-static int add_block(struct evidence_data *d, const struct states *states, int state, int k, int number)
-{
-    const struct job *job = &states->state[state].job;
-    const struct job_measurement *m = &job->measurement;
-    int nsensor = job->rotor.nsensor, count = 0;
+    int count = 0;
     struct evidence_block *block = &d->block[d->nblock];
     int *sensor = POOL_ARRAY(d->pool, int, nsensor);
-    double largest = 0, length = correlation_length(job, number);
+    double largest = 0;
     if (!sensor)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < nsensor; s++)
-        if (isfinite(m->shape[s + (ptrdiff_t)k * nsensor])) {
-            largest = fmax(largest, fabs(m->shape[s + (ptrdiff_t)k * nsensor]));
+        if (isfinite(shape[s])) {
+            largest = fmax(largest, fabs(shape[s]));
             sensor[count++] = s;
         }
     if (!count)
@@ -184,11 +178,10 @@ static int add_block(struct evidence_data *d, const struct states *states, int s
     if (!block->vector || !block->value)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < count; i++, d->nrow++) {
-        ptrdiff_t at = sensor[i] + (ptrdiff_t)k * nsensor;
-        d->noise[d->nrow] = m->shape_std[at];
-        d->measured[d->nrow] = m->shape[at] / largest / m->shape_std[at];
+        d->noise[d->nrow] = std[sensor[i]];
+        d->measured[d->nrow] = shape[sensor[i]] / largest / std[sensor[i]];
         for (int j = 0; j < count; j++) {
-            double apart = (job->rotor.sensor[sensor[i]].position - job->rotor.sensor[sensor[j]].position) / length;
+            double apart = position ? (position[sensor[i]] - position[sensor[j]]) / length : i != j ? INFINITY : 0;
             block->vector[i + (ptrdiff_t)j * count] = exp(-apart * apart / 2);
         }
     }
@@ -197,12 +190,8 @@ static int add_block(struct evidence_data *d, const struct states *states, int s
     return positive_spectrum(count, block->vector, block->value, block->value + count) ? ROTID_ERROR_LIBRARY : ROTID_OK;
 }
 
-int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
-                  struct evidence_data **out)
+static int data_new(struct pool *pool, int rows, int modes, struct evidence_data **out)
 {
-    int modes = states_modes(states, states->nstate), rows = modes, status = ROTID_OK;
-    for (int s = 0; s < states->nstate; s++)
-        rows += states->state[s].job.measurement.nmode * states->state[s].job.rotor.nsensor;
     struct evidence_data *d = *out = POOL_NEW(pool, struct evidence_data);
     if (!d)
         return ROTID_ERROR_MEMORY;
@@ -212,21 +201,53 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
                                 .measured = POOL_ARRAY(pool, double, rows),
                                 .block = POOL_ARRAY(pool, struct evidence_block, modes),
                                 .deviation = NOISE_STATED};
-    if (!d->is_line || !d->noise || !d->measured || !d->block)
-        return ROTID_ERROR_MEMORY;
+    return d->is_line && d->noise && d->measured && d->block ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static void add_line(struct evidence_data *d, double std)
+{
+    d->is_line[d->nrow] = 1;
+    d->noise[d->nrow++] = std;
+    d->nline++;
+}
+
+int evidence_open_model(struct pool *pool, const rotid_measured *m, int nsensor, const double *position, double length,
+                        struct evidence_data **out)
+{
+    int status = data_new(pool, m->nmode * (nsensor + 1), m->nmode, out);
+    for (int k = 0; k < m->nmode && !status; k++)
+        if (!m->holdout || !m->holdout[k])
+            add_line(*out, m->frequency_std[k]);
+    for (int k = 0; k < m->nmode && !status && m->shape; k++)
+        if (!m->holdout || !m->holdout[k])
+            status = add_block(*out, 0, k, nsensor, m->shape + (ptrdiff_t)k * nsensor, m->shape_std + (ptrdiff_t)k * nsensor,
+                               position, 0.3 * length / (m->number[k] + 1));
+    return status;
+}
+
+int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                  struct evidence_data **out)
+{
+    int modes = states_modes(states, states->nstate), rows = modes, status = ROTID_OK;
+    for (int s = 0; s < states->nstate; s++)
+        rows += states->state[s].job.measurement.nmode * states->state[s].job.rotor.nsensor;
+    double *position = POOL_ARRAY(pool, double, rows);
+    status = position ? data_new(pool, rows, modes, out) : ROTID_ERROR_MEMORY;
+    struct evidence_data *d = *out;
     for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
         const struct job *job = &states->state[s].job;
         if (!job_knows_frequency_noise(job))
             d->deviation = NOISE_ASSUMED;
         for (int k = 0; k < job->measurement.nmode; k++)
-            if (!holdout[mode + k]) {
-                d->is_line[d->nrow] = 1;
-                d->noise[d->nrow++] = job->measurement.frequency_std[k];
-                d->nline++;
-            }
+            if (!holdout[mode + k])
+                add_line(d, job->measurement.frequency_std[k]);
+        for (int i = 0; i < job->rotor.nsensor; i++)
+            position[i] = job->rotor.sensor[i].position;
         for (int k = 0; k < job->measurement.nmode && !status; k++)
             if (!holdout[mode + k] && job_fits_shapes(job))
-                status = add_block(d, states, s, k, number[mode + k]);
+                status = add_block(d, s, k, job->rotor.nsensor, job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor,
+                                   job->measurement.shape_std + (ptrdiff_t)k * job->rotor.nsensor, position,
+                                   0.3 * rotor_length(&job->rotor) / (number[mode + k] + 1)); /* half a wavelength */
     }
     return status;
 }
@@ -235,7 +256,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 
 struct normal { /* at one noise: N, b = J'r and r'r of frequencies and shapes apart */
     int n;
-    struct unknown *u;
+    const struct unknown *u;
     double *line, *shape; /* [n * n] */
     double *line_b, *shape_b, line_square, shape_square;
     double *work, *step; /* [n * n], [n] */
@@ -364,7 +385,7 @@ static void mirror(int n, double *a)
             a[q + (ptrdiff_t)p * n] = a[p + (ptrdiff_t)q * n];
 }
 
-static int normal_new(struct pool *pool, int n, struct unknown *u, struct normal *w)
+static int normal_new(struct pool *pool, int n, const struct unknown *u, struct normal *w)
 {
     size_t square = (size_t)n * (size_t)n + 1;
     *w = (struct normal){.n = n,
@@ -534,7 +555,7 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
     memcpy(more, rows, (size_t)nrow * (size_t)n * sizeof *rows);
     for (int p = n; p < most_columns; p++)
         all[p] = (struct unknown){.step = 1, .lower = -1e9, .upper = 1e9};
-    for (int kinds = 1; kinds < 4 && !status && scan->nrow == nrow; kinds++) {
+    for (int kinds = 1; kinds < 4 && !status && states && scan->nrow == nrow; kinds++) {
         int count = 0;
         for (int k = 0; k < 2; k++)
             if (kinds & 1 << k)
@@ -554,63 +575,114 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
     return status;
 }
 
+/* ln Z by rows [nrow * (n + 1)], the last column the residual, in units of the n unknowns; the first nown are the deck's, moments
+ * of which go to out->mean and out->std in those units. known: what approximations leave of a frequency and of a shape. states,
+ * scan: of something else, NULL scan: not asked for. fault [nfault]: the last unknowns. */
+static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, int n, const struct unknown *u, const double *rows,
+                            int nown, const double known[2], const struct states *states, const struct scan *scan, int with_else,
+                            int nfault, struct fault_column *fault, struct evidence *out)
+{
+    struct normal w;
+    int nrow = d->nrow, status = normal_new(pool, n, u, &w);
+    double field;
+    for (int i = 0; i < nrow && !status; i++)
+        gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
+               d->is_line[i] ? &w.line_square : &w.shape_square);
+    if (status)
+        return status;
+    mirror(n, w.line);
+    mirror(n, w.shape);
+    out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
+    out->log_exact = out->log_stated;
+    for (int p = 0; p < nown; p++) {
+        out->mean[p] = w.step[p];
+        out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]);
+    }
+    for (int f = 0, p = n - nfault; f < nfault; f++, p++) {
+        fault[f].step = u[p].step * w.step[p];
+        fault[f].std = fabs(u[p].step) * sqrt(w.work[p + (ptrdiff_t)p * n]);
+    }
+    if (known[0] > 0 || known[1] > 0) { /* what an approximation leaves: nothing, or as much as is known of it */
+        status = with_field(d, pool, n, u, rows, known, 0, 0, out, NULL, &field);
+        out->log_z = log_sum(out->log_z, field) - LN_2;
+        out->log_stated = log_sum(out->log_stated, field) - LN_2;
+    }
+    out->log_else = -INFINITY;
+    if (status || !with_else)
+        return status;
+    memset(out->mean, 0, (size_t)nown * sizeof *out->mean);
+    memset(out->std, 0, (size_t)nown * sizeof *out->std);
+    return something_else(d, pool, states, scan, n, u, rows, nown, out);
+}
+
+/* Rows in units of the unknowns; u [n + 1] is filled, extra columns are those of the faults. */
+static void take_rows(const struct evidence_data *d, const rotid_fit_result *fit, int nfault, const struct fault_column *fault,
+                      const struct unknown *u, double *rows)
+{
+    int n = fit->n + nfault, nrow = d->nrow;
+    for (int p = 0; p <= n; p++) {
+        const double *column = p == n ? fit->r : p < fit->n ? fit->jacobian + (ptrdiff_t)p * nrow : fault[p - fit->n].column;
+        for (int i = 0; i < nrow; i++)
+            rows[i + (ptrdiff_t)p * nrow] = p < n ? u[p].step * column[i] : column[i];
+    }
+}
+
+static struct unknown unknown_of_prior(const struct model_prior *prior, double x)
+{
+    if (prior->deviation > 0)
+        return normal_unknown(x, prior->neutral, prior->deviation, prior->lower, prior->upper);
+    return prior->lower > 0 ? flat_log(x, prior->lower, prior->upper) : flat_unknown(1, prior->lower - x, prior->upper - x);
+}
+
+int evidence_of_model(const struct evidence_data *d, const struct model_prior *prior, int nown, const rotid_fit_result *fit,
+                      int with_else, struct evidence *out)
+{
+    struct pool pool;
+    const double known[2] = {0, 0};
+    if (fit->nresidual != d->nrow)
+        return ROTID_ERROR_ARGUMENT;
+    pool_open(&pool, d->pool->allocator);
+    struct unknown *u = POOL_ARRAY(&pool, struct unknown, fit->n + 1);
+    double *rows = POOL_ARRAY(&pool, double, (size_t)d->nrow *(size_t)(fit->n + 1));
+    int status = u && rows ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int p = 0; p < fit->n && !status; p++)
+        u[p] = unknown_of_prior(&prior[p], fit->x[p]);
+    if (!status) {
+        take_rows(d, fit, 0, NULL, u, rows);
+        status = evidence_of_rows(d, &pool, fit->n, u, rows, nown, known, NULL, NULL, with_else, 0, NULL, out);
+    }
+    for (int p = 0; p < nown && !status; p++) {
+        out->mean[p] = fmin(fmax(fit->x[p] + u[p].step * out->mean[p], prior[p].lower), prior[p].upper);
+        out->std[p] *= fabs(u[p].step);
+    }
+    pool_close(&pool);
+    return status;
+}
+
 int evidence_of_fit(const struct evidence_data *d, const struct states *states, int nown, const rotid_fit_result *fit,
                     int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
                     const struct scan *else_scan, struct evidence *out)
 {
     struct pool pool;
-    struct normal w;
     int n = fit->n + nfault, nrow = d->nrow;
     if (fit->nresidual != nrow)
         return ROTID_ERROR_ARGUMENT;
     pool_open(&pool, d->pool->allocator);
     struct unknown *u = POOL_ARRAY(&pool, struct unknown, n + 1);
-    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1));
-    int status = !u || !rows ? ROTID_ERROR_MEMORY : normal_new(&pool, n, u, &w);
+    double *rows = POOL_ARRAY(&pool, double, (size_t)nrow *(size_t)(n + 1)), known[2] = {0, 0};
+    int status = !u || !rows ? ROTID_ERROR_MEMORY : ROTID_OK;
     for (int p = 0; p < n && !status; p++) {
         const struct fault_column *f = p < fit->n ? NULL : fault + p - fit->n;
-        const double *column = f ? f->column : fit->jacobian + (ptrdiff_t)p * nrow;
         u[p] = f ? unknown_of_cause(f->cause, f->parameter, f->value, f->lower, f->upper) : unknown_of(states, p, fit->x[p]);
-        for (int i = 0; i < nrow; i++)
-            rows[i + (ptrdiff_t)p * nrow] = u[p].step * column[i];
     }
-    double known[2] = {0, 0}, field;
     for (int m = 0; m < nmember; m++) {
         known[0] = hypot(known[0], member[m].cause->discrepancy_frequency);
         known[1] = hypot(known[1], member[m].cause->discrepancy_shape);
     }
-    for (int i = 0; i < nrow && !status; i++) {
-        double *row = rows + i;
-        row[(ptrdiff_t)n * nrow] = fit->r[i];
-        gather(1, n, row, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
-               d->is_line[i] ? &w.line_square : &w.shape_square);
-    }
     if (!status) {
-        mirror(n, w.line);
-        mirror(n, w.shape);
-        out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
-        out->log_exact = out->log_stated;
-        for (int p = 0; p < nown; p++) {
-            out->mean[p] = w.step[p];
-            out->std[p] = sqrt(w.work[p + (ptrdiff_t)p * n]);
-        }
-        for (int f = 0, p = fit->n; f < nfault; f++, p++) {
-            fault[f].step = u[p].step * w.step[p];
-            fault[f].std = fabs(u[p].step) * sqrt(w.work[p + (ptrdiff_t)p * n]);
-        }
+        take_rows(d, fit, nfault, fault, u, rows);
+        status = evidence_of_rows(d, &pool, n, u, rows, nown, known, states, else_scan, else_scan != NULL, nfault, fault, out);
     }
-    if (!status && (known[0] > 0 || known[1] > 0)) { /* what an approximation leaves: nothing, or as much as is known of it */
-        status = with_field(d, &pool, n, u, rows, known, 0, 0, out, NULL, &field);
-        out->log_z = log_sum(out->log_z, field) - LN_2;
-        out->log_stated = log_sum(out->log_stated, field) - LN_2;
-    }
-    out->log_else = -INFINITY;
-    if (!status && else_scan) {
-        memset(out->mean, 0, (size_t)nown * sizeof *out->mean);
-        memset(out->std, 0, (size_t)nown * sizeof *out->std);
-    }
-    if (!status && else_scan)
-        status = something_else(d, &pool, states, else_scan, n, u, rows, nown, out);
     for (int p = 0; p < nown && !status; p++) {
         double x = fit->x[p] + u[p].step * out->mean[p];
         out->mean[p] = fmin(fmax(x, states->bounds[p].lower), states->bounds[p].upper);

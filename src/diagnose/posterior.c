@@ -3,10 +3,10 @@
  *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a
  *            kind, then over all states (1/2) and each alone; something else: a factor 0.05
  *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is
- *            scored by the evidence of its columns, the most promising are fitted and scored by laplace.c, until none is left
- *            within WITHIN of the best; what was not fitted enters by its columns
- *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval;
- * ADEQUATE: nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
+ *            scored by the evidence of its columns, the most promising are fitted, and the set with one cause less and scored by
+ * laplace.c, until none is left within WITHIN of the best; what was not fitted enters by its columns verdict  UNEXPLAINED:
+ * something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval; ADEQUATE: nothing leads, no
+ * cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,12 +130,20 @@ static double cause_prior(const struct posterior *p, const struct candidate *c)
     return log(share * (c->result.suspect ? SUSPECTED : 1));
 }
 
+double posterior_log_prior(int nmember, int something_else)
+{
+    double sum = log(set_prior[nmember]) + (something_else ? log(ELSE_PRIOR) : log1p(-ELSE_PRIOR));
+    for (int m = 1; m < nmember; m++) /* a set has no order */
+        sum += log(m + 1);
+    return sum;
+}
+
 static double prior_of(const struct posterior *p, const struct explanation *e)
 {
-    double sum = log(set_prior[e->nmember]);
+    double sum = posterior_log_prior(e->nmember, e->something_else);
     for (int m = 0; m < e->nmember; m++)
-        sum += cause_prior(p, &e->member[m]) + log(m + 1);
-    return sum + (e->something_else ? log(ELSE_PRIOR) : log1p(-ELSE_PRIOR));
+        sum += cause_prior(p, &e->member[m]);
+    return sum;
 }
 
 /* ---- the list */
@@ -216,8 +224,10 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
 
 /* ---- proposals */
 
+enum { ADDS_FAULT = -1, REMOVES = -2 };
+
 struct proposal {
-    int parent, candidate; /* number in the list; of the parent's scan, -1: a fault of the measurement */
+    int parent, candidate; /* number in the list; of the parent's scan; ADDS_FAULT: of the measurement; REMOVES: one cause less */
     struct scan *scan;
     double gain; /* of ln Z over the parent, linear */
     struct explanation set;
@@ -303,7 +313,7 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
     int found, status = faults_propose(engine->pool, states_of_explanation(engine, from), engine->number, engine->holdout,
                                        fit_of(engine, from), from->data, scan, FAULTS, fault, &found);
     for (int i = 0; i < found && *count < most && !status; i++) {
-        struct proposal one = {.parent = parent, .candidate = -1, .scan = scan, .gain = fault[i].gain, .set = *from};
+        struct proposal one = {.parent = parent, .candidate = ADDS_FAULT, .scan = scan, .gain = fault[i].gain, .set = *from};
         struct explanation *set = &one.set;
         if (has_fault_there(from, &fault[i].fault))
             continue;
@@ -321,6 +331,29 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
             proposal[(*count)++] = one;
     }
     return status;
+}
+
+/* A set of physical causes with one less: what led to it may not be needed any more. */
+static void propose_removals(const struct posterior *p, int parent, struct proposal *proposal, int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    for (int m = 0; m < from->nmember && from->nmember > 1 && *count < most; m++) {
+        struct proposal one = {.parent = parent, .candidate = REMOVES, .set = *from};
+        struct explanation *set = &one.set;
+        int physical = 1;
+        set->nmember--;
+        for (int k = m; k < set->nmember; k++)
+            set->member[k] = from->member[k + 1];
+        for (int k = 0; k < from->nmember; k++)
+            physical &= !is_fault(&from->member[k]) && !from->member[k].cause->solid;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = prior_of(p, set);
+        set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
+        if (physical && !find(p, set))
+            proposal[(*count)++] = one;
+    }
 }
 
 /* The additions to a set, behind the *count there are. */
@@ -378,6 +411,25 @@ struct task {
     struct pool *pool;
 };
 
+/* The set fitted anew from the model without a cause, from the values that its causes have. */
+static int refit_set(struct pool *pool, const struct engine *e, const struct explanation *set, const double *x,
+                     struct refit *refit)
+{
+    struct states states = e->states;
+    rotid_fit_result *fit = NULL;
+    int status = states_started_at(pool, &e->states, x, &states);
+    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    for (int m = 0; m < set->nmember && !status; m++) {
+        const struct candidate *c = &set->member[m];
+        status = states_with_effect(pool, &states, NULL, &c->effect, c->cause, c->fixed, c->in, &states);
+    }
+    if (!status)
+        status = refit_states(pool, &states, e->number, e->holdout, e->environment, &fit);
+    if (!status)
+        status = refit_keep(pool, &states, fit, refit);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
 static int fit_task(void *context, int index, int worker)
 {
     struct task *t = context;
@@ -390,7 +442,9 @@ static int fit_task(void *context, int index, int worker)
     if (!deck)
         return ROTID_ERROR_MEMORY;
     t->data[index] = parent->data;
-    if (proposal->candidate < 0)
+    if (proposal->candidate == REMOVES)
+        return refit_set(&t->pool[index], e, &proposal->set, fit_of(e, parent)->x, &t->refit[index]);
+    if (proposal->candidate == ADDS_FAULT)
         return fault_refit(&t->pool[index], states, e->nown, e->number, e->holdout, fit_of(e, parent), e->environment,
                            &t->proposal[index].set.member[proposal->set.nmember - 1], &t->refit[index], &t->data[index]);
     const double *x = fit_of(e, parent)->x;
@@ -465,7 +519,7 @@ static int next_parent(const struct engine *engine, const struct posterior *p, i
             continue;
         if (lead < 0 || e->log_posterior > p->item[lead].log_posterior)
             lead = i;
-        if (!e->expanded && e->nmember < MOST_MEMBERS && !(e->nmember && e->member[e->nmember - 1].cause->solid) &&
+        if (!e->expanded && !(e->nmember && e->member[e->nmember - 1].cause->solid) &&
             (best < 0 || e->log_posterior > p->item[best].log_posterior))
             best = i;
     }
@@ -521,17 +575,21 @@ static int keep_first(struct proposal *proposal, int count)
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
 {
     struct pool *pool = engine->pool;
-    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS), status = ROTID_OK;
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + MOST_MEMBERS),
+                status = ROTID_OK;
     struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
     if (!proposal)
         return ROTID_ERROR_MEMORY;
     *more = 0;
     while (taken < (pass ? BEAM : 1) && !status && (parent = pass ? next_parent(engine, p, taken) : 0) >= 0) {
         struct explanation *from = &p->item[parent];
-        struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;
         from->expanded = 1;
-        from->scan = scan;
         taken++;
+        propose_removals(p, parent, proposal, most, &count);
+        if (from->nmember == MOST_MEMBERS)
+            continue;
+        struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;
+        from->scan = scan;
         if (!scan)
             return ROTID_ERROR_MEMORY;
         if (parent)
@@ -551,7 +609,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     status = fit_proposals(engine, result, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
         struct explanation *e = &proposal[i].set;
-        if (proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
+        if (proposal[i].candidate == REMOVES || proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
             continue;
         e->log_posterior = e->evidence.log_z + e->log_prior;
         if (!find(p, e))
@@ -672,6 +730,22 @@ static double quantile(const struct posterior *p, const rotid_parameter *bounds,
     return (lower + upper) / 2;
 }
 
+void posterior_average(const struct posterior *p, const rotid_parameter *bounds, int q, double *mean, double *std, double *lower,
+                       double *upper)
+{
+    double sum = 0, square = 0;
+    for (int i = 0; i < p->count; i++)
+        sum += p->item[i].probability * p->item[i].evidence.mean[q];
+    for (int i = 0; i < p->count; i++) {
+        double apart = p->item[i].evidence.mean[q] - sum;
+        square += p->item[i].probability * (apart * apart + p->item[i].evidence.std[q] * p->item[i].evidence.std[q]);
+    }
+    *mean = sum;
+    *std = sqrt(square);
+    *lower = quantile(p, bounds, q, 0.025);
+    *upper = quantile(p, bounds, q, 0.975);
+}
+
 static int summarise(struct engine *engine, struct posterior *p)
 {
     int status = find_marginals(engine, p);
@@ -680,15 +754,9 @@ static int summarise(struct engine *engine, struct posterior *p)
         return ROTID_ERROR_MEMORY;
     for (int q = 0; q < p->nown; q++) {
         const rotid_parameter *bounds = &engine->out->judged.bounds[q];
-        double mean = 0, square = 0;
-        for (int i = 0; i < p->count; i++)
-            mean += p->item[i].probability * p->item[i].evidence.mean[q];
-        for (int i = 0; i < p->count; i++) {
-            double apart = p->item[i].evidence.mean[q] - mean;
-            square += p->item[i].probability * (apart * apart + p->item[i].evidence.std[q] * p->item[i].evidence.std[q]);
-        }
-        p->averaged[p->naveraged++] = (rotid_averaged_parameter){
-            bounds->name, bounds->unit, mean, sqrt(square), {quantile(p, bounds, q, 0.025), quantile(p, bounds, q, 0.975)}};
+        rotid_averaged_parameter *to = &p->averaged[p->naveraged++];
+        *to = (rotid_averaged_parameter){.name = bounds->name, .unit = bounds->unit};
+        posterior_average(p, bounds, q, &to->value, &to->std, &to->ci95[0], &to->ci95[1]);
     }
     return ROTID_OK;
 }
@@ -908,6 +976,16 @@ static int list_faults(const struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
+int posterior_kind(double something_else, int named, int nothing_leads, double largest, double nothing, double prior)
+{
+    if (something_else > 0.5)
+        return ROTID_UNEXPLAINED;
+    if (named)
+        return ROTID_NAMED;
+    return nothing_leads && largest <= HARMLESS && (1 - nothing) / nothing < ODDS * (1 - prior) / prior ? ROTID_ADEQUATE
+                                                                                                        : ROTID_AMBIGUOUS;
+}
+
 int posterior_verdict(struct engine *engine, struct posterior *p)
 {
     struct diagnosis *out = engine->out;
@@ -923,12 +1001,8 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
     verdict->something_else = p->something_else;
-    verdict->kind = p->something_else > 0.5 ? ROTID_UNEXPLAINED
-                    : model                 ? ROTID_NAMED
-                    : !lead->nmember && !lead->something_else && (!p->nmarginal || p->marginal[0].probability <= HARMLESS) &&
-                            (1 - p->nothing) / p->nothing < ODDS * (1 - p->nothing_prior) / p->nothing_prior
-                        ? ROTID_ADEQUATE
-                        : ROTID_AMBIGUOUS;
+    verdict->kind = posterior_kind(p->something_else, model != NULL, !lead->nmember && !lead->something_else,
+                                   p->nmarginal ? p->marginal[0].probability : 0, p->nothing, p->nothing_prior);
     verdict->adequate_after = verdict->kind == ROTID_ADEQUATE || (verdict->kind == ROTID_NAMED && explains(engine, p, model));
     if (verdict->kind == ROTID_AMBIGUOUS)
         list_alternatives(out, p);
