@@ -329,6 +329,14 @@ POOL_TEST(what_does_not_hold_the_rotor_is_refused)
     assert_int_equal(running_case_open(SHAFT "*RUNNING, WITHOUT=ALL\n*BEARING\n0.2, 1e8, 1\n", 3000, 3, 0, &c),
                      ROTID_ERROR_STIFFNESS);
     running_case_close(&c);
+    rotid_deck *deck;
+    rotid_speeds *speeds;
+    char failure[ROTID_FAILURE_LENGTH];
+    const char *loose = SHAFT "*RUNNING, WITHOUT=ALL\n*BEARING\n0.2, 1e8, 1\n";
+    assert_int_equal(rotid_deck_read_text(strlen(loose), loose, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_int_equal(rotid_speeds_compute(deck, NULL, NULL, failure, &speeds), ROTID_ERROR_STIFFNESS);
+    assert_non_null(strstr(failure, "deck:10:1: the bearings do not hold the rotor"));
+    rotid_deck_free(deck);
     assert_int_equal(running_case_open(SHAFT TWO "*PULL, GROUP=a\n1e9\n", 3000, 3, 0, &c), ROTID_ERROR_STIFFNESS);
     running_case_close(&c);
     assert_int_equal(running_case_open(SHAFT TWO "*PULL, GROUP=a\n1e5\n", 3000, 3, 0, &c), ROTID_OK);

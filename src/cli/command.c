@@ -44,6 +44,8 @@ int command_fail(struct command *command, int status)
     }
     if (command->job)
         check_sections(command->job, status, &command->messages);
+    if (command->job && !command->messages.errors) /* no part of the deck is known to be the reason: its first line stands for all */
+        message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", rotid_status_text(status));
     command_print_messages(command);
     if (!command->messages.errors)
         terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));
@@ -64,8 +66,10 @@ int command_fail(struct command *command, int status)
 
 int command_fail_with(struct command *command, int status, const char *failure)
 {
+    /* a failure that names no place is of the whole deck, which its first line stands for */
+    int placed = !command->job || !strncmp(failure, command->job->deck, strlen(command->job->deck));
     if (*failure && strcmp(failure, rotid_status_text(status)) != 0)
-        message_add(&command->messages, SEVERITY_ERROR, NULL, 0, 0, "%s", failure);
+        message_add(&command->messages, SEVERITY_ERROR, placed ? NULL : command->job->deck, !placed, !placed, "%s", failure);
     return command_fail(command, status);
 }
 

@@ -116,6 +116,7 @@ void deck_running(struct deck_reader *reader, const struct card *card)
     struct machine *machine = reader->machine;
     const struct rotor *rotor = &reader->job->rotor;
     const struct card_option *without = card_option(card, "WITHOUT");
+    machine->place = (struct job_place){card->place.file, card->place.line, card->place.column};
     machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
     machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
     machine->without_effect = POOL_ARRAY(reader->pool, int, rotor->neffect);

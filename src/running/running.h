@@ -99,6 +99,7 @@ struct machine_unknown { /* a factor on all stiffness or all damping of a bearin
 
 /* What stands behind *RUNNING. */
 struct machine {
+    struct job_place place; /* of *RUNNING */
     int nbearing, nloss, npull, nchange, nunbalance, nprobe, nrunup, nunknown;
     struct runup_reading *runup;
     int runup_held; /* HOLDOUT=RUNUP: it takes no part in fits */

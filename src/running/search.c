@@ -15,7 +15,7 @@
 static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
 {
     if (status == ROTID_ERROR_STIFFNESS)
-        message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
+        message_add(notes, SEVERITY_ERROR, s->machine->place.file, s->machine->place.line, s->machine->place.column,
                     "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
     if (status == ROTID_ERROR_SECTION) {
         struct job_place place = job_part_place(s->job, failed);
@@ -55,7 +55,7 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
         if (status)
             return refuse_system(s, status, failed, notes);
         if (!is_held(pool, &s->system, s->machine->npull)) {
-            message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
+            message_add(notes, SEVERITY_ERROR, s->machine->place.file, s->machine->place.line, s->machine->place.column,
                         "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
                         "below their stiffness");
             return ROTID_ERROR_STIFFNESS;
