@@ -76,9 +76,6 @@ static int identify(struct call *call, const struct states *given, const struct 
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
-    const char *steps = doubt_steps(pool, &states->state->job);
-    if (steps)
-        message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", steps);
     status = numbering_warn(pool, states, found, fit, &call->environment, &call->notes);
     if (status && status != ROTID_STOP_CANCELLED) {
         rotid_fit_free(fit);

@@ -9,6 +9,9 @@ static int show(struct command *command, rotid_identification *found)
     int doubtful = !fit->converged || fit->any_at_bound || fit->any_undetermined || fit_is_inadequate(found);
     int code = doubtful ? EXIT_DOUBTFUL : EXIT_DONE;
     command_take_messages(command, NULL, found->nmessage, found->message);
+    const char *steps = doubt_steps(&command->pool, command->job);
+    if (steps)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "%s", steps);
     if (command_wants_table(command)) {
         const struct screen to = command_screen(command);
         screen_identify(&to, &result, !command->no_baseline);

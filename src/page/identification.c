@@ -146,7 +146,7 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
                         isfinite(fit->chi2) ? fit->intervals_widened_by > 1
                                                   ? " They are widened because the misfit exceeds the stated noise."
                                                   : ""
-                                            : " They rest on the misfit that is left, since no noise is stated (*NOISE)."));
+                                            : " They are estimated from the residuals, since no noise is stated (*NOISE)."));
 }
 
 static void on_condensation(struct reasons *reasons, const rotid_identification *fit)

@@ -143,10 +143,11 @@ static void print_intervals(const struct screen *to, const struct result_head *h
     FILE *out = to->out;
     double wide = fit->intervals_widened_by;
     if (fit->noise && !strcmp(fit->noise->intervals_from, "residuals") && fit->dof > 0)
-        screen_say(to,
-                   "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on "
-                   "the measurement",
-                   fit->dof);
+        screen_say(
+            to,
+            "intervals are estimated from the residuals (Student t, %d degrees of freedom); state *NOISE to take them from "
+            "the measurement",
+            fit->dof);
     if (wide > 1 && fit_is_inadequate(fit))
         screen_say(to, "the misfit is %.3g times the stated noise: the intervals are widened by that", wide);
     else if (wide > 1) /* half of all adequate models have a misfit above the noise */
@@ -216,7 +217,7 @@ static void print_head(const struct screen *to, const rotid_identification *fit)
                   !strcmp(fit->status, "converged")  ? "converged"
                   : !strcmp(fit->status, "at_bound") ? "converged AT A BOUND"
                                                      : "NOT CONVERGED",
-                  fitted, human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, IN_DIGITS(10, fit->objective),
+                  fitted, human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, IN_DIGITS(4, fit->objective),
                   IN_DIGITS(2, fit->gradient));
 }
 

@@ -431,7 +431,7 @@ static int plan_run(struct pool *pool, const struct job *job, const double *x, c
 static const char *needed(struct pool *pool, const rotid_suggestion *r)
 {
     if (!r->nparameters)
-        return "nothing is to be identified";
+        return "no interval can be planned: the deck has no *IDENTIFY";
     if (r->modes_needed != ROTID_NONE)
         return pool_format(pool, "the frequencies of modes 1 to %d determine all parameters to %g %%", r->modes_needed,
                            r->wanted_percent);
@@ -448,7 +448,7 @@ static const char *plan(struct pool *pool, const rotid_suggestion *r)
     for (int i = 0; i < r->nplans; i++)
         if (!best || r->plans[i].gain_percent > best->gain_percent)
             best = &r->plans[i];
-    const char *where = best ? pool_format(pool, " Of the plans %s tells most of moduli and causes: shapes at its %d points.",
+    const char *where = best ? pool_format(pool, " The plan \"%s\" is best for moduli and causes: shapes at its %d points.",
                                            best->method, best->nz_m)
                              : "";
     const char *what = needed(pool, r);
@@ -492,7 +492,7 @@ static const char *advice_sentence(struct pool *pool, const struct suggestion *s
     const char *open = s->rivals.left_out ? "What is open is no matter of causes that a test of this kind tells apart"
                        : s->found.result.verdict.kind == ROTID_UNEXPLAINED
                            ? "No cause of the catalogue explains the data, so no test can be chosen to tell causes apart"
-                           : "No cause is left to be told from another one";
+                           : "The diagnosis is settled: no cause is left to distinguish";
     return more ? pool_format(pool, "%s. %s", open, more) : NULL;
 }
 
