@@ -89,16 +89,16 @@ static double shared_noise(const struct engine *engine, const double *r, double 
 
 /* Where the noise of the shapes is not as stated beside the likeliest explanation, or neighbouring sensors share it, which looks
  * like physics to the scan, the judged data get the level that is there, with a finding: the search has to be repeated, *changed.
- * Nothing where something else explains the data better: it is no noise then. */
+ * The level is nothing to go by where something else explains the data better; noise that is shared looks like that itself. */
 static int noise_settle(struct engine *engine, const struct posterior *p, int *changed)
 {
     const struct job *job = engine->job;
     const struct explanation *lead = NULL;
     for (int i = 0; i < p->count && !lead; i++)
-        if (p->item[i].refit || !p->item[i].nmember)
+        if (!p->item[i].something_else && (p->item[i].refit || !p->item[i].nmember))
             lead = &p->item[i];
     *changed = 0;
-    if (engine->coloured || !job_fits_shapes(job) || !lead || lead->something_else || p->something_else > 0.5)
+    if (engine->coloured || !job_fits_shapes(job) || !lead)
         return ROTID_OK;
     const rotid_fit_result *fit = lead->refit ? lead->refit->fit : engine->fit;
     int rows = lead->data->nrow - lead->data->nline - lead->data->nscale;
@@ -107,7 +107,7 @@ static int noise_settle(struct engine *engine, const struct posterior *p, int *c
         chi2 += lead->data->is_line[i] ? 0 : fit->r[i] * fit->r[i] / (rows > 0 ? rows : 1);
     double shared = lead->data->nrow == p->data->nrow ? shared_noise(engine, fit->r, chi2) : 1;
     int coloured = shared > 1 + SLIGHT, status;
-    if (!coloured && !is_misstated(engine, level, rows))
+    if (!coloured && (p->something_else > 0.5 || !is_misstated(engine, level, rows)))
         return ROTID_OK;
     double factor = coloured ? shared : level;
     const char *text = pool_format(
