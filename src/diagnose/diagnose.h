@@ -777,6 +777,7 @@ struct evidence_data {
     double *measured; /* [nrow] components over their noise */
     struct evidence_block *block;
     double deviation; /* of ln of the noise */
+    int is_floor;     /* the noise is stated for more than scatter: it is no less */
 };
 
 struct fault_column { /* how the residual moves with a parameter of a fault of the measurement */

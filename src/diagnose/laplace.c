@@ -238,6 +238,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
         const struct job *job = &states->state[s].job;
         if (!job_knows_frequency_noise(job))
             d->deviation = NOISE_ASSUMED;
+        d->is_floor |= job->measurement.has_noise_floor;
         for (int k = 0; k < job->measurement.nmode; k++)
             if (!holdout[mode + k])
                 add_line(d, job->measurement.frequency_std[k]);
@@ -304,6 +305,8 @@ static double log_normal(double x, double deviation)
 /* ln of the integral over the unknowns at noise e^a and e^b times as stated, with the prior of a and b. */
 static double integrate_at(const struct evidence_data *d, struct normal *w, double a, double b)
 {
+    if (d->is_floor && fmin(a, b) < 0)
+        return -INFINITY;
     double wrong = fmax(MISTAKE, d->deviation),
            shapes = d->nrow == d->nline
                         ? 0
@@ -332,6 +335,8 @@ static double find_mode(const struct evidence_data *d, struct normal *w, int sha
             step /= 3;
         }
     }
+    if (isinf(value[0])) /* at the floor */
+        value[0] = value[1];
     double bend = (2 * most - value[0] - value[1]) / (step * step);
     *spread = bend > 0 ? fmin(deviation, 1 / sqrt(bend)) : deviation;
     return bend > 0 ? at + fmin(fmax((value[1] - value[0]) / (2 * step) / bend, -step), step) : at;
