@@ -143,8 +143,10 @@ UNIT_TEST(an_identification_ends_with_the_best_point_so_far)
             } else {
                 assert_true(r->fit->converged);
                 assert_memory_equal(r->fit->x, full->x, (size_t)full->n * sizeof(double));
-                assert_int_equal(r->fit->nbaseline, ended && baseline ? baseline_count(full->n) : 0);
-                in_baseline += !ended;
+                int all = baseline ? baseline_count(full->n) : 0, left_out = !ended && all && !r->fit->nbaseline;
+                assert_true(left_out ||
+                            r->fit->nbaseline == all); /* the stop may come behind it, while other numbers are tried */
+                in_baseline += left_out;
             }
             free(dump_identification(r)); /* every number of it is there */
             rotid_identification_free(r);

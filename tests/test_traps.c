@@ -207,8 +207,17 @@ static void least_squares(void)
         }
 }
 
+static int add_mass(void *user, const double *x, const double *value, rotid_matrix *k, rotid_matrix *m)
+{
+    (void)user, (void)x, (void)k;
+    return rotid_matrix_add(m, 0, 0, value[0], NULL);
+}
+
 static void fits(void)
 {
+    static const rotid_parameter mass = {"mass", "kg", 0, 1, 0.1};
+    static const rotid_host_cause added = {
+        .size = sizeof added, .name = "mass", .nparameter = 1, .parameter = &mass, .add = add_mass};
     rotid_fit_result *result;
     for (int i = -1; i < EXTREMES; i++) {
         rotid_fit_defaults(sizeof with.options, &with.options);
@@ -222,6 +231,14 @@ static void fits(void)
         survived += rotid_fit_states(2, state, 1, &with.parameter, &with.options, NULL, NULL, &result) <= 0;
         rotid_fit_free(result);
         survived += rotid_check_model(&with.model, &with.parameter, NULL, NULL, NULL, with.error, with.doubt) <= 0;
+        rotid_host_diagnosis *found;
+        rotid_measured measured = with.measured;
+        measured.frequency_std = with.lambda;
+        for (int k = 0; k < measured.nmode; k++)
+            with.lambda[k] = 0.01;
+        int diagnosed = rotid_diagnose_model(&with.model, &with.parameter, &measured, 1, &added, NULL, NULL, NULL, &found);
+        survived += diagnosed <= 0;
+        rotid_host_diagnosis_free(found);
     }
 }
 
@@ -274,7 +291,8 @@ static const struct {
     {pairs, "rotid_eigenpairs rotid_eigenpair_derivative "},
     {condensations, "rotid_condense rotid_condense_derivative "},
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
-    {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free "},
+    {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free rotid_diagnose_model "
+           "rotid_host_diagnosis_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
             "rotid_spectrum_beside rotid_spectrum_of_type rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free rotid_suggest rotid_suggestion_free "

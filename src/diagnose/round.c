@@ -11,13 +11,15 @@
 
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */
 
-#define MUCH_LESS 0.7  /* of the stated noise */
-#define NOISIER   3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
-#define MISJUDGED 1.15 /* times the stated noise: less is no finding */
-#define CERTAIN   3.29 /* standard deviations, two-sided 0.001 */
-#define SHARED    0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
-#define LITTLE    2.0  /* chi2 a residual: with more, it is not noise that is left */
-#define SLIGHT    0.05 /* excess of the smooth part of the noise that changes no verdict */
+#define LEAST_ROWS 60
+#define MUCH_LESS  0.7  /* of the stated noise, */
+#define EXACT      0.1  /* and data that were computed rather than measured */
+#define NOISIER    3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
+#define MISJUDGED  1.15 /* times the stated noise: less is no finding */
+#define CERTAIN    3.29 /* standard deviations, two-sided 0.001 */
+#define SHARED     0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
+#define LITTLE     2.0  /* chi2 a residual: with more, it is not noise that is left */
+#define SLIGHT     0.05 /* excess of the smooth part of the noise that changes no verdict */
 
 /* A cause that is an approximation, or an accelerometer that went from sensor to sensor, stands in the model already, and the
  * stated noise holds what it leaves. */
@@ -36,10 +38,11 @@ static int allows_for_more(const struct rotor *rotor)
  */
 static int is_misstated(const struct engine *engine, double factor, int rows)
 {
-    if (rows < 1 || !(fabs(log(factor)) > CERTAIN / sqrt(2.0 * rows)))
+    if (rows < LEAST_ROWS || !(fabs(log(factor)) > CERTAIN / sqrt(2.0 * rows)))
         return 0;
     if (factor < 1)
-        return factor < MUCH_LESS && !engine->job->measurement.has_noise_floor && !allows_for_more(&engine->job->rotor);
+        return factor < MUCH_LESS && factor > EXACT && !engine->job->measurement.has_noise_floor &&
+               !allows_for_more(&engine->job->rotor);
     return factor > MISJUDGED && factor < NOISIER;
 }
 

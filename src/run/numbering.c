@@ -148,7 +148,7 @@ int numbering_warn(struct pool *pool, const struct states *states, const struct 
     struct renumbering best;
     if (!number)
         return ROTID_ERROR_MEMORY;
-    if (states->state->job.options.solid || states->more || !fit->n || fit->dof < 1 ||
+    if (fit->status == ROTID_STOP_CANCELLED || states->state->job.options.solid || states->more || !fit->n || fit->dof < 1 ||
         (isfinite(fit->chi2) && chi_square_tail(fit->chi2, fit->dof) > UNEXPLAINED))
         return ROTID_OK;
     for (int s = 0, at = 0; s < states->nstate; s++)
@@ -157,6 +157,8 @@ int numbering_warn(struct pool *pool, const struct states *states, const struct 
             holdout[at] = states->state[s].job.measurement.holdout[k];
         }
     int status = numbering_search(pool, states, number, holdout, environment, &best);
+    if (status == ROTID_STOP_CANCELLED) /* the fit is a result all the same */
+        return ROTID_OK;
     if (status || !(best.chi2 < NUMBERING_CLEAR * NUMBERING_CLEAR * 2 * fit->objective))
         return status;
     const char *text = numbering_text(pool, states, &best);
