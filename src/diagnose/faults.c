@@ -315,14 +315,15 @@ static int offer_swap(struct fault_list *list, int s, int t)
 /* One line of all positions: shift, scale or both free; which of them are as stated says `fixed`. */
 static int offer_line_with(struct fault_list *list, const double h[3], const double g[2], double shift, double scale)
 {
-    double a = h[0] + 1 / (shift * shift), b = shift > 0 && scale > 0 ? h[1] : 0, e = h[2] + 1 / (scale * scale),
-           det = (shift > 0 ? a : 1) * (scale > 0 ? e : 1) - b * b, one = shift > 0 ? g[0] : 0, two = scale > 0 ? g[1] : 0,
-           value[3] = {-((scale > 0 ? e : 1) * one - b * two) / det, 1 - ((shift > 0 ? a : 1) * two - b * one) / det, 0},
+    int moved = shift > 0, stretched = scale > 0; /* what is free; the other one has a row of the unit matrix */
+    double a = moved ? h[0] + 1 / (shift * shift) : 1, b = moved && stretched ? h[1] : 0,
+           e = stretched ? h[2] + 1 / (scale * scale) : 1, det = a * e - b * b, one = moved ? g[0] : 0,
+           two = stretched ? g[1] : 0, value[3] = {-(e * one - b * two) / det, 1 - (a * two - b * one) / det, 0},
            gain = -(one * value[0] + two * (value[1] - 1)) / 2 -
-                  log(det * (shift > 0 ? shift * shift : 1) * (scale > 0 ? scale * scale : 1)) / 2;
+                  log(det * (moved ? shift * shift : 1) * (stretched ? scale * scale : 1)) / 2;
     if (fabs(value[0]) + fabs(value[1] - 1) * rotor_length(&list->channels->states->state->job.rotor) < LEAST_SHIFT)
         return ROTID_OK;
-    return offer(list, "sensor_line", -1, -1, value, (const int[]){!(shift > 0), !(scale > 0), 1}, 0, gain);
+    return offer(list, "sensor_line", -1, -1, value, (const int[]){!moved, !stretched, 1}, 0, gain);
 }
 
 /* All positions: chi2 with the line as it is linearised, and counted from the other end. Scales of the modes are free. */
