@@ -231,6 +231,9 @@ static int search(struct host *h)
         for (int q = 0; q < VALUES; q++)
             none.value[VALUES * i + q] = none.std[VALUES * i + q] = NAN;
     status = enter(h, none, NULL, 0);
+    if (!status && !h->count)
+        status =
+            refuse(h->failure, "the model without a cause has no finite likelihood of these data, expected modes nearer to them");
     for (int pass = 0; pass < SETS && !status && next >= 0; pass++) {
         h->set[next].expanded = 1;
         for (int c = 0; c < h->ncause && h->set[next].is.ncause < MOST_MEMBERS && !status; c++) {
