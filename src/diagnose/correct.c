@@ -5,24 +5,29 @@
 
 #include "diagnose/causes/causes.h"
 
-int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found)
+int correction_add(struct pool *pool, struct job *job, const struct correction *correction)
 {
-    struct job *job = engine->job;
-    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->measurement.ncorrection + 1), correction = *found;
-    correction.name = pool_format(engine->pool, "fault_%d", job->measurement.ncorrection + 1);
-    correction.id = finding->id;
-    int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
+    struct correction *more = POOL_ARRAY(pool, struct correction, job->measurement.ncorrection + 1);
+    int status = more ? corrections_keep_raw(pool, job) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = corrections_keep_raw(engine->pool, job);
-    if (!status)
-        status = correction_apply(engine->pool, job, &correction);
+        status = correction_apply(pool, job, correction);
     if (status)
         return status;
     if (job->measurement.ncorrection)
         memcpy(more, job->measurement.correction, (size_t)job->measurement.ncorrection * sizeof *more);
-    more[job->measurement.ncorrection++] = correction;
+    more[job->measurement.ncorrection++] = *correction;
     job->measurement.correction = more;
     return ROTID_OK;
+}
+
+int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found)
+{
+    struct job *job = engine->job;
+    struct correction correction = *found;
+    correction.name = pool_format(engine->pool, "fault_%d", job->measurement.ncorrection + 1);
+    correction.id = finding->id;
+    int status = correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
+    return status ? status : correction_add(engine->pool, job, &correction);
 }
 
 int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text)

@@ -563,6 +563,10 @@ int changed_job(struct pool *pool, const struct states *states, const char *befo
 
 /* A fault of the measurement chain, found and taken out of the judged data. */
 
+/* Takes a fault out of the data of a job, which has its own copies, and lists it among its corrections; the data as read are
+ * kept. Statuses of correction_apply. */
+int correction_add(struct pool *pool, struct job *job, const struct correction *correction);
+
 /* Adds the finding, and corrects the data by its cause; `found` needs neither name nor id. Statuses of correction_apply. */
 int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found);
 

@@ -441,23 +441,12 @@ static int put_right(struct pool *pool, const struct states *from, const struct 
         return status;
     struct job *job = &to->state[fault->home].job;
     const struct correction correction = correction_of(fault);
-    struct correction *more = POOL_ARRAY(pool, struct correction, job->measurement.ncorrection + 1);
-    status = more ? data_copy(pool, job) : ROTID_ERROR_MEMORY;
+    status = data_copy(pool, job);
     if (!status && is_dead(fault)) {
         leave_out(job, fault->sensor[0]);
         return ROTID_OK;
     }
-    if (!status)
-        status = corrections_keep_raw(pool, job);
-    if (!status)
-        status = correction_apply(pool, job, &correction);
-    if (status)
-        return status;
-    if (job->measurement.ncorrection)
-        memcpy(more, job->measurement.correction, (size_t)job->measurement.ncorrection * sizeof *more);
-    more[job->measurement.ncorrection++] = correction;
-    job->measurement.correction = more;
-    return ROTID_OK;
+    return status ? status : correction_add(pool, job, &correction);
 }
 
 int fault_columns(struct pool *pool, const struct states *states, const int *number, const int *holdout,
