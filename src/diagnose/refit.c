@@ -398,7 +398,7 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
     if (!status && deck &&
-        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter) ||
+        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter) ||
          is_strayed(states->nparameter, x, deck)))
         status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)

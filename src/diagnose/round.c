@@ -249,8 +249,8 @@ static int fit_singles(struct engine *engine, struct diagnosis_round *round, str
     result->refit = POOL_ARRAY(pool, struct refit, result->room);
     if (!result->candidate || !result->refit)
         return ROTID_ERROR_MEMORY;
-    if (!result->adequate)
-        status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan, engine->notes);
+    /* also where nothing is missed: what holds its mesh there saves the search nine tenths of its fit */
+    status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan, engine->notes);
     engine_step(engine, "scan");
     if (status)
         return status;
