@@ -68,7 +68,9 @@ UNIT_TEST(identify_shows_measured_predicted_error_and_the_papers_own)
     assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
     (void)line_with("converged, fit of 6 modes, functional HYBRID, reduction GUYAN");
     (void)line_with("core.E     GPa   115.7");
-    (void)line_with(WITH_NLOPT ? "NLopt LN_BOBYQA" : "no minimiser beside it: this rotid is built without NLopt");
+    (void)line_with("core.E = 120 +- 60 GPa, core.G = 32 +- 23 GPa (95 %)\n");
+    (void)line_with(WITH_NLOPT ? "NLopt (LN_BOBYQA, LN_SBPLX, LD_SLSQP) finds the same minimum\n"
+                               : "no minimiser beside it: this rotid is built without NLopt");
     (void)line_with("the hybrid quotient equals the frequency of the condensed model");
     for (int k = 1; k <= 6; k++) {
         assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 0.006); /* the error is that of the two beside it */
@@ -79,6 +81,76 @@ UNIT_TEST(identify_shows_measured_predicted_error_and_the_papers_own)
     assert_int_equal(run("identify " INPUT "paper_rotor.inp --verbose --no-baseline"), 0);
     (void)line_with("iteration  ");
     assert_null(strstr(text, "NLopt"));
+    assert_int_equal(run("identify " INPUT "paper_rotor.inp --verbose"), 0);
+    (void)line_with(WITH_NLOPT ? "NLopt LN_BOBYQA        0.02305" : "no minimiser beside it");
+}
+
+/* One rotor, stated in metres and hertz and in millimetres and kilohertz: the same numbers but for their units, and one result.
+ */
+UNIT_TEST(lengths_and_frequencies_are_shown_in_the_units_of_the_deck)
+{
+    static const char *const deck[2] = {
+        "*UNITS, LENGTH=M\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+        "1.2, 0.05, 0, 60\n*MODES\n1, 158.2\n2, 433.1\n3, 841.9\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, 1e10, 4e11, 2e11\n",
+        "*UNITS, LENGTH=MM, FREQUENCY=KHZ\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, "
+        "MATERIAL=steel\n1200, 50, 0, 60\n*MODES\n1, 0.1582\n2, 0.4331\n3, 0.8419\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, "
+        "1e10, 4e11, 2e11\n"};
+    static const char *const said[2][3] = {{"length              1.200000 m\n", "measured [Hz]", "  158.200"},
+                                           {"length              1200.000 mm\n", "measured [kHz]", "  0.158200"}};
+    static char csv[2][4096], json[2][1 << 16];
+    for (int i = 0; i < 2; i++) {
+        char path[] = "/tmp/rotid_units_XXXXXX", arguments[512], name[128];
+        FILE *file = fdopen(mkstemp(path), "w");
+        assert_non_null(file);
+        (void)fputs(deck[i], file);
+        assert_int_equal(fclose(file), 0);
+        (void)snprintf(arguments, sizeof arguments, "check %s", path);
+        assert_int_equal(run(arguments), 0);
+        (void)line_with(said[i][0]);
+        (void)snprintf(arguments, sizeof arguments, "identify %s --csv %s.t --json %s.json", path, path, path);
+        assert_true(run(arguments) <= 1);
+        (void)line_with(said[i][1]);
+        (void)line_with(said[i][2]);
+        (void)snprintf(name, sizeof name, "%s.t.modes.csv", path);
+        FILE *table = fopen(name, "r");
+        assert_non_null(table);
+        csv[i][fread(csv[i], 1, sizeof csv[i] - 1, table)] = 0;
+        (void)fclose(table);
+        (void)remove(name);
+        (void)snprintf(name, sizeof name, "%s.json", path);
+        assert_non_null(table = fopen(name, "r"));
+        json[i][fread(json[i], 1, sizeof json[i] - 1, table)] = 0;
+        (void)fclose(table);
+        (void)snprintf(arguments, sizeof arguments, "report %s.json -o %s.html", path, path);
+        assert_int_equal(run(arguments), 0);
+        (void)snprintf(name, sizeof name, "%s.html", path);
+        assert_non_null(table = fopen(name, "r"));
+        int shown = 0;
+        while (fgets(text, sizeof text, table))
+            shown |= strstr(text, i ? "0.1582 to 0.8419\xc2\xa0kHz" : "158.2 to 841.9\xc2\xa0Hz") != NULL;
+        (void)fclose(table);
+        assert_true(shown);
+        (void)remove(name);
+        (void)snprintf(name, sizeof name, "%s.json", path);
+        (void)remove(name);
+        (void)snprintf(name, sizeof name, "%s.t.parameters.csv", path);
+        (void)remove(name);
+        (void)remove(path);
+    }
+    assert_non_null(strstr(csv[1], "measured [Hz]"));
+    const char *one = strchr(csv[0], '\n'), *two = strchr(csv[1], '\n');
+    for (int i = 0; i < 21; i++) { /* three modes, seven numbers each */
+        one += strcspn(one, "0123456789-");
+        two += strcspn(two, "0123456789-");
+        char *end[2];
+        assert_close(strtod(two, &end[1]), strtod(one, &end[0]), 1e-6, 1e-8); /* 1200 * 0.001 is not 1.2 to the last bit */
+        one = end[0];
+        two = end[1];
+    }
+    assert_null(strstr(json[0], "length_unit"));
+    assert_non_null(strstr(json[1], "\"length_unit\":\t\"mm\""));
+    assert_non_null(strstr(json[1], "\"frequency_unit\":\t\"kHz\""));
+    assert_non_null(strstr(json[1], "\"length_m\":\t1.2"));
 }
 
 UNIT_TEST(held_out_modes_and_widened_intervals_are_said)

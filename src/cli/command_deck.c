@@ -64,6 +64,9 @@ int command_read_deck(struct command *command)
     command->head.heading = command->read->heading;
     command->head.nreferences = command->read->nreferences;
     command->head.references = command->read->references;
+    command->head.length_unit = command->job->units.length;
+    command->head.frequency_unit = command->job->units.frequency;
+    human_units_of(&command->head);
     const struct states *states = deck_states_of(command->read);
     const struct job *last = &states->state[states->nstate - 1].job; /* the files of a state go on where the one before ends */
     int refused = arguments_refuse_read(command, last->nfile, last->file);

@@ -62,6 +62,8 @@ void deck_keep_units(struct deck_reader *reader)
 {
     for (int q = 0; q < DECK_QUANTITIES; q++)
         reader->job->units.si[q] = quantity[q].factor[reader->unit[q]];
+    reader->job->units.length = reader->unit[0] ? deck_unit_name(reader, "m") : NULL;
+    reader->job->units.frequency = reader->unit[DECK_QUANTITIES - 1] ? deck_unit_name(reader, "Hz") : NULL;
 }
 
 double deck_unit_of(const struct job_units *units, const char *what)
@@ -72,12 +74,13 @@ double deck_unit_of(const struct job_units *units, const char *what)
 
 const char *deck_unit_name(const struct deck_reader *reader, const char *what)
 {
-    static const char *const lengths[] = {"m", "cm", "mm", "in"};
+    static const char *const lengths[] = {"m", "cm", "mm", "in"}, *const frequencies[] = {"Hz", "kHz", "rpm", "rad/s"};
     int q = find(what);
-    return q < 0             ? what
-           : q == 0          ? lengths[reader->unit[0]]
-           : reader->unit[q] ? quantity[q].word[reader->unit[q]]
-                             : quantity[q].si;
+    return q < 0                      ? what
+           : q == 0                   ? lengths[reader->unit[0]]
+           : q == DECK_QUANTITIES - 1 ? frequencies[reader->unit[q]]
+           : reader->unit[q]          ? quantity[q].word[reader->unit[q]]
+                                      : quantity[q].si;
 }
 
 int deck_quantity(const char *what, const char **option, const char **si)

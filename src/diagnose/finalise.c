@@ -216,33 +216,33 @@ static int quality(struct engine *engine, const struct states *states, const str
 }
 
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
-static const char *describe(struct pool *pool, const struct candidate *c)
+static const char *describe(struct pool *pool, const struct job_units *units, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists */
     const char *text = candidate_label(pool, c);
     if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
-        text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
+        text = pool_format(pool, "%s, as well at z = %s", text, job_value_text(pool, units, 3, c->other_place, "m"));
     if (!cause->effect) { /* a rival that is no part of a model */
         const struct effect_parameter_name *name;
         for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
-            text = pool_format(pool, "%s%s%s %.3g", text, p ? ", " : " (", name->name, c->effect.value[p]);
+            text = pool_format(pool, "%s%s%s %s", text, p ? ", " : " (", name->name,
+                               job_value_text(pool, units, 3, c->effect.value[p], name->unit));
         return text && cause->value.name ? pool_format(pool, "%s)", text) : text;
     }
     for (int p = 0; p < c->nparameter && text; p++) {
         const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
-        int has_unit = strcmp(parameter->unit, "1") != 0;
-        text = pool_format(pool, "%s%s%s %.3g%s%s", text, p ? ", " : " (", parameter->name, c->effect.value[p],
-                           has_unit ? " " : "", has_unit ? parameter->unit : "");
+        text = pool_format(pool, "%s%s%s %s", text, p ? ", " : " (", parameter->name,
+                           job_value_text(pool, units, 3, c->effect.value[p], parameter->unit));
     }
     return c->nparameter && text ? pool_format(pool, "%s)", text) : text;
 }
 
-static const char *list(struct pool *pool, int count, const struct candidate *c)
+static const char *list(struct pool *pool, const struct job_units *units, int count, const struct candidate *c)
 {
     const char *text = "";
     int shown = count < LISTED ? count : LISTED;
     for (int i = 0; i < shown && text; i++) {
-        const char *one = describe(pool, &c[i]);
+        const char *one = describe(pool, units, &c[i]);
         int paired = i && c[i].set && c[i].set == c[i - 1].set,
             ends = i + 1 == count || (c[i].set && c[i].set == c[count - 1].set);
         text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : paired ? " with " : ends ? " and " : ", ", one) : NULL;
@@ -251,7 +251,7 @@ static const char *list(struct pool *pool, int count, const struct candidate *c)
 }
 
 /* "joint of core|right (flexibility 4e-10 rad/(N.m)) (72 %), nothing (8 %) and 3 more": explanations by their probability. */
-static const char *shares(struct pool *pool, const struct posterior *p)
+static const char *shares(struct pool *pool, const struct job_units *units, const struct posterior *p)
 {
     const char *text = "";
     double sum = 0;
@@ -263,7 +263,7 @@ static const char *shares(struct pool *pool, const struct posterior *p)
         const struct explanation *e = &p->item[i];
         const char *one = e->nmember ? "" : e->something_else ? "something outside of the catalogue" : "nothing";
         for (int m = 0; m < e->nmember && one; m++) {
-            const char *own = describe(pool, &e->member[m]);
+            const char *own = describe(pool, units, &e->member[m]);
             one = own ? pool_format(pool, "%s%s%s", one, m ? " with " : "", own) : NULL;
         }
         text = one ? pool_format(pool, e->probability > 0.1 ? "%s%s%s%s (%.0f %%)" : "%s%s%s%s (%.2g %%)", text,
@@ -292,13 +292,15 @@ static int partner_of(const rotid_fit_result *fit, int p)
 static const char *open_parameters(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
+    const struct job_units *units = &engine->states.state[0].job.units;
     const rotid_fit_result *fit = out->extended.fit ? out->extended.fit : out->base.fit;
     const rotid_parameter *parameter = out->extended.fit ? out->extended_states.bounds : out->judged.bounds;
     const char *text = "";
     for (int p = 0; p < fit->n && p < out->judged.nparameter && text; p++) {
         if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->result.verdict.kind != ROTID_ADEQUATE)
-            text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
-                               parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
+            text = pool_format(engine->pool, "%s %s ends at its %s bound %s, which may be the cause itself: widen it.", text,
+                               parameter[p].name, base_bound_side(engine, p),
+                               job_value_text(engine->pool, units, 4, out->base.fit->x[p], parameter[p].unit));
         if (!text)
             break;
         double half = interval_half_percent(fit->x[p], fit->ci_lower[p], fit->ci_upper[p]);
@@ -310,9 +312,11 @@ static const char *open_parameters(struct engine *engine)
                                                    percent_text(half, figure), partner < 0 ? "" : ", and not separately from ")
                                      : pool_format(engine->pool, "do not determine %s%s", parameter[p].name,
                                                    partner < 0 ? "" : " separately from ");
-        text = how ? pool_format(engine->pool, "%s The data %s%s: its 95 %% interval is %.3g to %.3g %s.", text, how,
-                                 partner < 0 ? "" : parameter[partner].name, fmax(fit->ci_lower[p], parameter[p].lower),
-                                 fmin(fit->ci_upper[p], parameter[p].upper), parameter[p].unit)
+        text = how ? pool_format(
+                         engine->pool, "%s The data %s%s: its 95 %% interval is %s to %s.", text, how,
+                         partner < 0 ? "" : parameter[partner].name,
+                         job_value_text(engine->pool, units, 3, fmax(fit->ci_lower[p], parameter[p].lower), parameter[p].unit),
+                         job_value_text(engine->pool, units, 3, fmin(fit->ci_upper[p], parameter[p].upper), parameter[p].unit))
                    : NULL;
         out->result.verdict.undetermined_parameters += !determined;
     }
@@ -348,7 +352,8 @@ static const char *verdict_sentence(struct engine *engine)
     struct diagnosis *out = engine->out;
     const rotid_verdict *verdict = &out->result.verdict;
     struct pool *pool = engine->pool;
-    const char *causes = list(pool, out->ncause, out->cause), *others = shares(pool, &out->posterior);
+    const struct job_units *units = &engine->states.state[0].job.units;
+    const char *causes = list(pool, units, out->ncause, out->cause), *others = shares(pool, units, &out->posterior);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
                *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit) : "",

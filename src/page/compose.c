@@ -158,8 +158,10 @@ void page_compose(struct document *document, int count, const struct result *giv
 {
     struct result *result = POOL_ARRAY(document->pool, struct result, count);
     int decks = several_decks(count, given);
-    for (int i = 0; i < count && result; i++)
+    for (int i = 0; i < count && result; i++) {
         result[i] = without_folders(&given[i]);
+        human_units_of(&result[i].head);
+    }
     const struct result **by_rank = result ? sorted(document->pool, count, result) : NULL;
     if (!by_rank) {
         document->failed = 1;

@@ -6,10 +6,9 @@
 #include "page/page.h"
 #include "report/report.h"
 
-#define NAMED             3    /* parameters that the answer names; the table has the others */
-#define POOR_PERCENT      2.0  /* error of a fitted frequency that a beam need not leave */
-#define CONDENSED_PERCENT 0.5  /* as `rotid frf` warns */
-#define SAME_POINT        1e-6 /* relative difference of objectives */
+#define NAMED             3   /* parameters that the answer names; the table has the others */
+#define POOR_PERCENT      2.0 /* error of a fitted frequency that a beam need not leave */
+#define CONDENSED_PERCENT 0.5 /* as `rotid frf` warns */
 
 void reasons_add(struct reasons *reasons, enum tone tone, const char *text)
 {
@@ -58,32 +57,10 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
 
 static void on_baseline(struct reasons *reasons, const rotid_identification *fit)
 {
-    struct pool *pool = reasons->pool;
-    double best = INFINITY, furthest = 0;
-    const char *names = "";
-    int usable = 0;
-    for (int b = 0; b < fit->nbaseline && names; b++) {
-        if (!fit->baseline[b].usable || !isfinite(fit->baseline[b].objective))
-            continue;
-        best = fmin(best, fit->baseline[b].objective);
-        furthest = fmax(furthest, fabs(fit->baseline[b].objective / fit->objective - 1));
-        names = pool_format(pool, "%s%s%s", names, usable++ ? ", " : "", fit->baseline[b].algorithm);
-    }
-    if (!usable || !names)
-        return;
-    if (best < fit->objective * (1 - SAME_POINT))
-        reasons_add(reasons, TONE_BAD,
-                    pool_format(pool, "NLopt (%s) found a point where the functional is lower: %s against %s.", names,
-                                human_digits(pool, best, 6), human_digits(pool, fit->objective, 6)));
-    else if (furthest <= SAME_POINT)
-        reasons_add(
-            reasons, TONE_GOOD,
-            pool_format(pool,
-                        "NLopt (%s), started at the same point, ends at the same minimum; the functionals differ by %s at most.",
-                        names, human_digits(pool, furthest, 1)));
-    else
-        reasons_add(reasons, TONE_GOOD,
-                    pool_format(pool, "Not all of NLopt's minimisers (%s) got as far; none got further.", names));
+    int lower;
+    const char *text = minimisers_sentence(reasons->pool, fit, &lower);
+    if (*text)
+        reasons_add(reasons, lower ? TONE_BAD : TONE_GOOD, pool_format(reasons->pool, "%s.", text));
 }
 
 static void on_misfit(struct reasons *reasons, const rotid_identification *fit, const char *deck)
@@ -248,9 +225,8 @@ void answer_plain(struct document *document, const struct result *result)
     const char *text = "";
     if (result->modes && result->modes->nmodes) {
         const rotid_model_mode *mode = result->modes->modes;
-        text =
-            pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmodes,
-                        human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
+        text = pool_format(pool, "%d bending modes from %s", result->modes->nmodes,
+                           human_range(pool, mode[0].full_hz, mode[result->modes->nmodes - 1].full_hz, "Hz"));
     } else if (result->suggest) {
         text = result->suggest->sentence;
     } else if (result->speeds) {
@@ -260,13 +236,13 @@ void answer_plain(struct document *document, const struct result *result)
                            result->sensitivity->nparameters,
                            human_plural(result->sensitivity->nparameters, "parameter", "parameters"));
     } else if (result->frf) {
-        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->frf->nfunctions,
+        text = pool_format(pool, "%d transfer %s from %s", result->frf->nfunctions,
                            human_plural(result->frf->nfunctions, "function", "functions"),
-                           human_trimmed(pool, result->frf->low_hz, 4), human_trimmed(pool, result->frf->high_hz, 5));
+                           human_range(pool, result->frf->low_hz, result->frf->high_hz, "Hz"));
     } else if (result->check) {
-        text = pool_format(pool, "A rotor of %s\xc2\xa0m and %s\xc2\xa0kg in %d %s",
-                           human_trimmed(pool, result->check->length_m, 4), human_trimmed(pool, result->check->mass_kg, 4),
-                           result->check->elements, human_plural(result->check->elements, "element", "elements"));
+        text = pool_format(pool, "A rotor of %s and %s in %d %s", human_value(pool, result->check->length_m, "m"),
+                           human_value(pool, result->check->mass_kg, "kg"), result->check->elements,
+                           human_plural(result->check->elements, "element", "elements"));
     }
     document->now.text = or_nothing(text);
 }

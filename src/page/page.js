@@ -9,6 +9,23 @@
   const NS = 'http://www.w3.org/2000/svg';
   const COLORS = ['blue', 'vermilion', 'green', 'purple', 'ochre'];
   const results = JSON.parse(document.getElementById('data').textContent);
+  /* Lengths and frequencies as the deck states them; the data are in SI. Amplitudes keep their micrometres. */
+  const stated = (key) => results.map((r) => (r.result ?? r)[key]).find(Boolean);
+  const M = stated('length_unit') ?? 'm';
+  const HZ = stated('frequency_unit') ?? 'Hz';
+  const inM = { cm: 1e2, mm: 1e3, in: 1 / 0.0254 }[M] ?? 1;
+  const inHz = { kHz: 1e-3, rpm: 60, 'rad/s': 2 * Math.PI }[HZ] ?? 1;
+  const times = (v, f) => (Array.isArray(v) ? v.map((one) => times(one, f)) : typeof v === 'number' ? v * f : v);
+  function convert(o) {
+    if (!o || typeof o !== 'object') return;
+    for (const key of Object.keys(o)) {
+      if (key === 'unbalance') continue;
+      if (/^z$|_m$/.test(key) && !/_(n|kg)_m$/.test(key) || (key === 'value' && o.unit === 'm')) o[key] = times(o[key], inM);
+      else if (/_hz$/.test(key)) o[key] = times(o[key], inHz);
+      else convert(o[key]);
+    }
+  }
+  if (inM !== 1 || inHz !== 1) convert(results);
   const known = (v) => typeof v === 'number' && isFinite(v);
   const color = (name) => `var(--${name})`;
 
@@ -515,10 +532,10 @@
     const parts = geometry.groups.filter((group) => isIdentified(group, identified)).map((group) => group.name);
     return figure({
       id: 'rotor',
-      title: `The rotor: ${num(geometry.length_m)} m, ${geometry.groups.length} ${geometry.groups.length === 1 ? 'part' : 'parts'}${parts.length ? `; identified: ${parts.join(', ')}` : ''}`,
+      title: `The rotor: ${num(geometry.length_m)} ${M}, ${geometry.groups.length} ${geometry.groups.length === 1 ? 'part' : 'parts'}${parts.length ? `; identified: ${parts.join(', ')}` : ''}`,
       caption: `To scale. ${geometry.sensors.length ? `Dots on the axis: ${geometry.sensors.length} sensors. ` : ''}${geometry.springs.length ? 'Triangles: springs. ' : ''}${geometry.disks.length ? 'Squares: disks. ' : ''}${geometry.tierods.length + geometry.bars.length ? 'Dashed green: tie rods and bars. ' : ''}`,
       table: () => ({
-        head: ['part', 'from [m]', 'to [m]', 'height or diameter [m]', 'material', 'E [GPa]', 'G [GPa]', 'density [kg/m\u00b3]'],
+        head: ['part', `from [${M}]`, `to [${M}]`, `height or diameter [${M}]`, 'material', 'E [GPa]', 'G [GPa]', 'density [kg/m\u00b3]'],
         rows: segmentsOf(geometry).map((s) => [s.group.name, s.from_m, s.to_m, heightOf(s), s.group.material?.name || '', (s.group.material?.e_pa ?? NaN) / 1e9, (s.group.material?.g_pa ?? NaN) / 1e9, s.group.material?.rho_kg_m3]),
       }),
       legend: parts.length ? [['identified part', 'sheets', 'face'], ['other parts', 'steel', 'face'], ...marks.filter((m) => m.name).map((m) => [m.name, m.color, 'dot'])] : marks.filter((m) => m.name).map((m) => [m.name, m.color, 'dot']),
@@ -550,7 +567,7 @@
         const low = bottom + (marks.length ? 46 : 4);
         content.append(line(x(0), low, x(geometry.length_m), low, 'muted'));
         for (const v of x.ticks(width / 90)) content.append(line(x(v), low, x(v), low + 4, 'muted'), text(x(v), low + 17, num(v), { 'text-anchor': 'middle', class: 'quiet' }));
-        content.append(text(width / 2, low + 33, 'z [m]', { 'text-anchor': 'middle', class: 'quiet' }));
+        content.append(text(width / 2, low + 33, `z [${M}]`, { 'text-anchor': 'middle', class: 'quiet' }));
         return { content, height: low + 40 };
       },
       ...is,
@@ -582,11 +599,11 @@
       const noise = mode.measured && mode.std ? [{ type: 'interval', name: null, color: 'muted', points: sensors.map((z, i) => [z, mode.measured[i] - 2 * mode.std[i], mode.measured[i] + 2 * mode.std[i]]), opacity: 0.5 }] : [];
       const all = [...lines, ...dots].flatMap((mark) => mark.points.map((p) => p[1]));
       const domain = [0, geometry.length_m];
-      const first = { height: 110, x: { domain, label: measured ? '' : 'z [m]' }, y: { label: 'deflection', domain: padded(all, 0.08, true) }, marks: [{ type: 'rule', y: 0, solid: true }, ...noise, ...lines, ...dots] };
+      const first = { height: 110, x: { domain, label: measured ? '' : `z [${M}]` }, y: { label: 'deflection', domain: padded(all, 0.08, true) }, marks: [{ type: 'rule', y: 0, solid: true }, ...noise, ...lines, ...dots] };
       if (!measured) return [first];
       const residuals = models.map((model, m) => ({ type: m === models.length - 1 ? 'stems' : 'dots', ring: m < models.length - 1, r: m < models.length - 1 ? 3 : 2.6, name: `residual ${model.name}`, legend: false, color: model.color, points: sensors.map((z, i) => [z, over(model, mode, i)]) }));
       const extreme = Math.max(3, ...residuals.flatMap((mark) => mark.points.map((p) => Math.abs(p[1]))).filter(known));
-      return [first, { height: 84, x: { domain, label: 'z [m]' }, y: { label: 'measured less predicted, over its noise', domain: [-extreme * 1.1, extreme * 1.1] }, marks: [{ type: 'band', from: -2, to: 2 }, { type: 'rule', y: 0, solid: true }, ...residuals] }];
+      return [first, { height: 84, x: { domain, label: `z [${M}]` }, y: { label: 'measured less predicted, over its noise', domain: [-extreme * 1.1, extreme * 1.1] }, marks: [{ type: 'band', from: -2, to: 2 }, { type: 'rule', y: 0, solid: true }, ...residuals] }];
     };
     let group;
     let frame = 0;
@@ -597,7 +614,7 @@
         const mode = modes[state.mode];
         if (!sensors.length || !last.modes[state.mode].at) return tableOf(list());
         return {
-          head: ['sensor', 'z [m]', ...(measured ? ['measured', 'noise'] : []), ...models.flatMap((model) => [model.name, ...(measured ? [`residual over noise, ${model.name}`] : [])])],
+          head: ['sensor', `z [${M}]`, ...(measured ? ['measured', 'noise'] : []), ...models.flatMap((model) => [model.name, ...(measured ? [`residual over noise, ${model.name}`] : [])])],
           rows: sensors.map((z, i) => [ids?.[i] ?? i + 1, z, ...(measured ? [mode.measured?.[i], mode.std?.[i]] : []), ...models.flatMap((model) => [model.modes[state.mode].at[i], ...(measured ? [over(model, mode, i)] : [])])]),
         };
       },
@@ -685,14 +702,14 @@
       const mode = fit.modes.find((m) => m.mode === shape.mode && m.measured_mode === shape.measured_mode) || {};
       return {
         label: `mode ${shape.mode}`, measured: shape.measured, std: shape.measured_std,
-        said: `Mode ${shape.mode}: measured ${num(mode.measured_hz, 5)} Hz, predicted ${num(mode.predicted_hz, 5)} Hz (${signed(mode.error_percent, 2)} %)${known(mode.mac) ? `, MAC ${fixed(mode.mac, 4)}` : ''}${known(mode.nco) ? `, NCO ${fixed(mode.nco, 4)}` : ''}.`,
+        said: `Mode ${shape.mode}: measured ${num(mode.measured_hz, 5)} ${HZ}, predicted ${num(mode.predicted_hz, 5)} ${HZ} (${signed(mode.error_percent, 2)} %)${known(mode.mac) ? `, MAC ${fixed(mode.mac, 4)}` : ''}${known(mode.nco) ? `, NCO ${fixed(mode.nco, 4)}` : ''}.`,
       };
     });
     const first = least ? Math.max(0, shapes.modes.findIndex((mode) => mode.mode === least.mode)) : 0;
     return motion({
       first,
       title: least ? `The shapes of ${of} against the measured ones: least alike is mode ${least.mode}, ${word} ${fixed(least.nco ?? least.mac, 3)}` : `Predicted shapes of ${modes.length} modes of ${of}: none was measured`,
-      caption: `${num(geometry.length_m)} m, ${num(fit.mass_kg)} kg, ${shapes.z_m.length} sensors. Drawn to scale with the deflection enlarged; sections stand normal to the axis. ${shapes.modes.some((m) => m.measured) ? 'Bars and band: two standard deviations of the noise.' : ''}`,
+      caption: `${num(geometry.length_m)} ${M}, ${num(fit.mass_kg)} kg, ${shapes.z_m.length} sensors. Drawn to scale with the deflection enlarged; sections stand normal to the axis. ${shapes.modes.some((m) => m.measured) ? 'Bars and band: two standard deviations of the noise.' : ''}`,
     }, geometry, fit.parameters, modes, models, shapes.z_m, shapes.sensor_id);
   }
 
@@ -858,7 +875,7 @@
     const marks = [...(worst ? [{ type: 'rule', y: 1 }, { type: 'stems', name: 'residual at the sensors over its noise', color: 'vermilion', points: d.sensors.map((s) => [s.z_m, s.rms]) }] : []), { type: 'line', name: 'force that the model lacks', color: 'blue', points: d.localisation.map((l) => [l.z_m, l.indicator]) }];
     const named = d.verdict.causes.flatMap((c) => c.parameters.filter((p) => p.name === 'z').map((p) => p.value));
     return [rotor(d.geometry, (d.extended || d.base)?.parameters, [{ name: 'force that the model lacks', color: 'blue', points: d.localisation.map((l) => [l.z_m, Math.max(0, Math.min(1, l.indicator))]) }, ...(named.length ? [{ name: 'cause that was named', color: 'vermilion', points: named.map((z) => [z, 1]) }] : [])], { id: 'places', title: peak ? `The model lacks most force around z = ${num(peak.z_m, 3)} m` : 'The rotor' }),
-      panels({ id: 'residuals', title: worst ? `Shapes miss most at sensor ${worst.id}, z = ${num(worst.z_m, 3)} m: ${short(worst.rms)} times the noise` : 'Where the model lacks force', caption: 'Of the model without the cause. 1: what the noise alone leaves.' }, [{ height: 130, x: { label: 'z [m]', domain: [0, d.geometry.length_m] }, y: { label: 'over its noise; share of the largest force', domain: padded(marks.flatMap((m) => (m.points || []).map((p) => p[1])).concat(1), 0.06, true) }, marks }])];
+      panels({ id: 'residuals', title: worst ? `Shapes miss most at sensor ${worst.id}, z = ${num(worst.z_m, 3)} ${M}: ${short(worst.rms)} times the noise` : 'Where the model lacks force', caption: 'Of the model without the cause. 1: what the noise alone leaves.' }, [{ height: 130, x: { label: `z [${M}]`, domain: [0, d.geometry.length_m] }, y: { label: 'over its noise; share of the largest force', domain: padded(marks.flatMap((m) => (m.points || []).map((p) => p[1])).concat(1), 0.06, true) }, marks }])];
   }
   function limitsFigure(entry) {
     const list = entry.result.detectable.filter((l) => known(l.z_m) && !l.beyond);
@@ -866,7 +883,7 @@
     if (!geometry || !list.length) return null;
     return rows({ id: 'limits', title: `${list.length} causes have a place where they show best, ${entry.result.detectable.filter((l) => l.beyond).length} do not show at any size`, caption: 'Where on the rotor a cause shows best, and what it would have to be there at least.' },
       list.slice(0, 16).map((l) => ({ ...l, name: `${plain(l.id)}${l.target ? ` of ${l.target.replace('|', ' and ')}` : ''}: ${l.parameter} ${num(l.smallest * unitOf(l.smallest, l.unit).factor, 2)} ${unitOf(l.smallest, l.unit).text}` })),
-      [{ label: 'z [m]', domain: [0, geometry.length_m], value: (l) => l.z_m, draw: (l, x, y, content) => dot(content, x(l.z_m), y, 'purple') }]);
+      [{ label: `z [${M}]`, domain: [0, geometry.length_m], value: (l) => l.z_m, draw: (l, x, y, content) => dot(content, x(l.z_m), y, 'purple') }]);
   }
 
   /* ---- modes of a model */
@@ -876,11 +893,11 @@
     const list = [];
     if (!modes.length || !geometry) return list;
     const shaped = modes.filter((mode) => mode.shape?.length > 1);
-    const size = (mode) => `${num(mode.full_hz, 5)} Hz${known(mode.measured_hz) ? `, measured ${num(mode.measured_hz, 5)} Hz (${signed(mode.error_percent, 2)} %)` : ''}`;
+    const size = (mode) => `${num(mode.full_hz, 5)} ${HZ}${known(mode.measured_hz) ? `, measured ${num(mode.measured_hz, 5)} ${HZ} (${signed(mode.error_percent, 2)} %)` : ''}`;
     const compared = modes.filter((mode) => known(mode.error_percent)).sort((a, b) => Math.abs(b.error_percent) - Math.abs(a.error_percent))[0];
     if (shaped.length)
       list.push(motion({
-        title: `${modes.length} bending modes from ${num(modes[0].full_hz, 4)} to ${num(modes[modes.length - 1].full_hz, 5)} Hz${compared ? `; furthest from its measured one is mode ${compared.mode}, ${signed(compared.error_percent, 1)} %` : ''}`,
+        title: `${modes.length} bending modes from ${num(modes[0].full_hz, 4)} to ${num(modes[modes.length - 1].full_hz, 5)} ${HZ}${compared ? `; furthest from its measured one is mode ${compared.mode}, ${signed(compared.error_percent, 1)} %` : ''}`,
         caption: 'Drawn to scale with the deflection enlarged; sections stand normal to the axis.',
       }, geometry, [], shaped.map((mode) => ({ label: `mode ${mode.mode}`, said: `Mode ${mode.mode}: ${size(mode)}.` })),
       [{ name: 'the model', color: 'blue', modes: shaped.map((mode) => (mode.axis?.length ? { z: r.axis_z_m, w: mode.axis, at: mode.shape } : { z: r.sensor_z_m, w: mode.shape, at: mode.shape })) }], r.sensor_z_m, null));
@@ -901,7 +918,7 @@
       elements.forEach((e, i) => sum.set(r.geometry.groups[e.group]?.name, (sum.get(r.geometry.groups[e.group]?.name) || 0) + mode.meridian.energy[i]));
       return [...sum.entries()].sort((a, b) => b[1] - a[1]);
     };
-    const title = () => { const [name, share] = byGroup(modes[chosen])[0]; return `Mode ${modes[chosen].mode}, ${num(modes[chosen].full_hz, 5)} Hz: ${fixed(100 * share, 0)} % of its strain energy are in ${name}`; };
+    const title = () => { const [name, share] = byGroup(modes[chosen])[0]; return `Mode ${modes[chosen].mode}, ${num(modes[chosen].full_hz, 5)} ${HZ}: ${fixed(100 * share, 0)} % of its strain energy are in ${name}`; };
     const is = {
       id: 'meridian', title: title(), caption: `The meridian of the solid, ${elements.length} elements, deflection enlarged. Shade: strain energy of an element over the largest.`,
       table: () => ({ head: ['part', ...modes.map((mode) => `mode ${mode.mode}`)], rows: byGroup(modes[0]).map(([name]) => [name, ...modes.map((mode) => byGroup(mode).find(([other]) => other === name)[1])]) }),
@@ -931,12 +948,12 @@
           levels[Math.round(10 * Math.sqrt(energy[i] / most))] += `M${corners.join('L')}Z`;
         });
         levels.forEach((d, k) => d && content.append(path(d, { fill: color('ramp'), 'fill-opacity': (0.05 + 0.095 * k).toFixed(3), stroke: color('grid'), 'stroke-width': 0.3 })));
-        content.append(line(left, y(0), width - 16, y(0), 'muted', { 'stroke-dasharray': '8 3 2 3' }), text(0, 11, 'r [m]', { class: 'quiet' }));
+        content.append(line(left, y(0), width - 16, y(0), 'muted', { 'stroke-dasharray': '8 3 2 3' }), text(0, 11, `r [${M}]`, { class: 'quiet' }));
         for (const v of d3.scaleLinear().domain([0, top]).ticks(Math.min(3, top * scale / 14))) content.append(text(left - 8, y(v) + 4, num(v), { 'text-anchor': 'end', class: 'quiet' }), line(left - 5, y(v), left, y(v), 'muted'));
         const low = 18 + high;
         content.append(line(left, low, width - 16, low, 'muted'));
         for (const v of x.ticks(width / 90)) content.append(line(x(v), low, x(v), low + 4, 'muted'), text(x(v), low + 17, num(v), { 'text-anchor': 'middle', class: 'quiet' }));
-        content.append(text((left + width) / 2, low + 33, 'z [m]', { 'text-anchor': 'middle', class: 'quiet' }));
+        content.append(text((left + width) / 2, low + 33, `z [${M}]`, { 'text-anchor': 'middle', class: 'quiet' }));
         for (let k = 0; k <= 10; k++) content.append(sv('rect', { x: left + k * 12, y: low + 42, width: 12, height: 10, fill: color('ramp'), 'fill-opacity': (0.05 + 0.095 * k).toFixed(3) }));
         content.append(text(left, low + 66, '0 to 1: energy over the largest (root)', { class: 'quiet' }));
         return { content, height: low + 74 };
@@ -980,7 +997,7 @@
     const running = known(r.low_rpm) ? [{ type: 'rule', x: r.low_rpm }, { type: 'rule', x: r.high_rpm }] : [];
     const first = r.critical_speeds[0];
     const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed; dots: critical speeds; intervals of the frequencies by the linear prediction; dashed lines: the running range.' }, [
-      { height: 300, x: rpm, y: { label: 'frequency [Hz]', domain: [0, top] }, marks: [
+      { height: 300, x: rpm, y: { label: `frequency [${HZ}]`, domain: [0, top] }, marks: [
         ...running,
         ...numbers.map((n, i) => ({ type: 'interval', color: COLORS[i % COLORS.length], opacity: 0.45, legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m && known(m.ci95[0])).map(([x, m]) => [x, m.ci95[0], m.ci95[1]]) })).filter((mark) => mark.points.length > 1),
         ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], points: of(n, (m) => m.frequency_hz) })),
@@ -1006,7 +1023,7 @@
     if (first) {
       const shown = r.critical_speeds.slice(0, 6);
       list.push(panels({ id: 'critical-shapes', title: `Shapes at ${shown.length} critical speeds`, caption: 'Amplitude of the motion in x and in y along the rotor, the largest being 1.' }, shown.map((c) => ({
-        title: `${num(c.speed_rpm)} rpm, ${c.whirl}`, height: 90, x: { label: 'z [m]', domain: range(c.z) }, y: { label: 'amplitude', domain: [0, 1.05] },
+        title: `${num(c.speed_rpm)} rpm, ${c.whirl}`, height: 90, x: { label: `z [${M}]`, domain: range(c.z) }, y: { label: 'amplitude', domain: [0, 1.05] },
         marks: ['x', 'y'].map((axis, i) => ({ type: 'line', name: axis, color: COLORS[i], points: c.z.map((z, k) => [z, Math.hypot(c[`${axis}_re`][k], c[`${axis}_im`][k])]) })) }))));
     }
     return list;
@@ -1037,7 +1054,7 @@
       const domain = range(f);
       const marks = (lines || []).map((hz) => ({ type: 'rule', x: hz }));
       return [{ height: 190, x: { label: '', domain }, y: { label: `magnitude [${unit}]`, log: true, domain: [Math.min(...levels) / 1.5, Math.max(...levels) * 1.5] }, marks: [...marks, ...parts.map(([name, re, im, tint]) => ({ type: 'line', width: 1.3, name, color: tint, points: magnitude(re, im).map((v, i) => [f[i], v > 0 ? v : NaN]) })).reverse()] },
-        { height: 90, x: { label: 'frequency [Hz]', domain }, y: { label: 'phase [\u00b0]', domain: [-190, 190], ticks: [-180, -90, 0, 90, 180] }, marks: parts.map(([name, re, im, tint]) => ({ type: 'line', width: 1, name: `phase ${name}`, color: tint, points: phase(re, im).map((v, i, all) => [f[i], i && Math.abs(v - all[i - 1]) > 300 ? NaN : v]) })).reverse() }];
+        { height: 90, x: { label: `frequency [${HZ}]`, domain }, y: { label: 'phase [\u00b0]', domain: [-190, 190], ticks: [-180, -90, 0, 90, 180] }, marks: parts.map(([name, re, im, tint]) => ({ type: 'line', width: 1, name: `phase ${name}`, color: tint, points: phase(re, im).map((v, i, all) => [f[i], i && Math.abs(v - all[i - 1]) > 300 ? NaN : v]) })).reverse() }];
     };
     const whole = panels(is, list);
     return whole;
@@ -1046,7 +1063,7 @@
     const choices = r.functions.filter((f) => f.frequency_hz).map((f) => ({ ...f, label: `${f.response} over ${f.reference}` }));
     if (!choices.length) return null;
     const within = r.modes.filter((mode) => mode.model_hz >= r.low_hz && mode.model_hz <= r.high_hz).map((mode) => mode.model_hz);
-    return functionFigure('transfer', (c) => `${plain(r.quantity)} at ${c.response} for a force at ${c.reference}: ${within.length} modes from ${num(r.low_hz)} to ${num(r.high_hz)} Hz${known(c.frac) ? `, FRAC ${fixed(c.frac, 3)}` : ''}`, `Dashed: modes of the model. Drag along the axis to zoom.`, choices, readable(r.unit), within);
+    return functionFigure('transfer', (c) => `${plain(r.quantity)} at ${c.response} for a force at ${c.reference}: ${within.length} modes from ${num(r.low_hz)} to ${num(r.high_hz)} ${HZ}${known(c.frac) ? `, FRAC ${fixed(c.frac, 3)}` : ''}`, `Dashed: modes of the model. Drag along the axis to zoom.`, choices, readable(r.unit), within);
   }
   function stabilisation(r) {
     const poles = r.stabilisation.filter((p) => p.damping > 0);
@@ -1054,7 +1071,7 @@
     const part = (filter) => poles.filter(filter).map((p) => [p.frequency_hz, p.order]);
     const is = { id: 'stabilisation', zoom: true, title: `${r.modes.length} modes are stable over the orders up to ${r.order}`, caption: 'Dashed: modes that were picked. Grey line: rms of the measured functions. Drag along the axis to zoom.' };
     const level = r.rms_measured?.length ? d3.scaleLog().domain(range(r.rms_measured.filter((v) => v > 0))).range([0, r.order]) : null;
-    return panels(is, () => [{ height: 260, x: { label: 'frequency [Hz]', domain: [r.source.low_hz, r.source.high_hz] }, y: { label: 'order', domain: [0, r.order * 1.03] }, marks: [
+    return panels(is, () => [{ height: 260, x: { label: `frequency [${HZ}]`, domain: [r.source.low_hz, r.source.high_hz] }, y: { label: 'order', domain: [0, r.order * 1.03] }, marks: [
       ...(level ? [{ type: 'line', color: 'steel', width: 1, points: r.rms_frequency_hz.map((f, i) => [f, r.rms_measured[i] > 0 ? level(r.rms_measured[i]) : NaN]) }] : []),
       { type: 'dots', name: 'unstable', color: 'steel', r: 1.4, points: part((p) => !p.stable_frequency) },
       { type: 'dots', name: 'frequency stable', color: 'ochre', r: 2, points: part((p) => p.stable_frequency && !p.stable_damping) },
@@ -1068,7 +1085,7 @@
       let chosen = 0;
       const is = {
         id: 'shapes', title: `${r.modes.length} mode shapes at ${points.length} points: ${fixed(Math.min(...r.modes.map((m) => m.mpc)), 3)} is the smallest phase collinearity`, caption: 'Real shapes, largest component 1, over the points in the order of the file; bars: two standard deviations. Rings: imaginary part of the complex shape.',
-        said: () => `Mode ${r.modes[chosen].mode}: ${num(r.modes[chosen].frequency_hz, 6)} Hz, damping ${num(100 * r.modes[chosen].damping, 3)} %, MPC ${fixed(r.modes[chosen].mpc, 3)}.`,
+        said: () => `Mode ${r.modes[chosen].mode}: ${num(r.modes[chosen].frequency_hz, 6)} ${HZ}, damping ${num(100 * r.modes[chosen].damping, 3)} %, MPC ${fixed(r.modes[chosen].mpc, 3)}.`,
         controls: (redraw) => {
           let playing = null;
           const choose = r.modes.map((mode, k) => button(`mode ${mode.mode}`, () => { chosen = k; choose.forEach((other, j) => other.setAttribute('aria-pressed', j === k)); redraw(); }, { 'aria-pressed': !k }));
@@ -1126,7 +1143,7 @@
     if (places.length) {
       const key = places.some((p) => known(p.worth_percent)) ? 'worth_percent' : 'margin_percent';
       const top = places.filter((p) => known(p[key])).sort((a, b) => b[key] - a[key])[0];
-      list.push(panels({ id: 'sensor-worth', title: `One more sensor is worth most at z = ${num(top.z_m, 3)} m: ${short(top[key])} %`, caption: 'By how much it lowers the standard deviations of moduli and causes, and raises what tells rivals apart.' }, [{ height: 150, x: { label: 'z [m]', domain: [0, r.geometry?.length_m ?? Math.max(...places.map((p) => p.z_m))] }, y: { label: 'worth [%]', domain: padded(places.flatMap((p) => [p.worth_percent, p.margin_percent]), 0.05, true) }, marks: [{ type: 'line', name: 'standard deviations', color: 'blue', points: r.places.filter((p) => known(p.worth_percent)).map((p) => [p.z_m, p.worth_percent]) }, ...(places.some((p) => known(p.margin_percent)) ? [{ type: 'line', name: 'rivals apart', color: 'vermilion', dash: true, points: r.places.filter((p) => known(p.margin_percent)).map((p) => [p.z_m, p.margin_percent]) }] : [])] }]));
+      list.push(panels({ id: 'sensor-worth', title: `One more sensor is worth most at z = ${num(top.z_m, 3)} ${M}: ${short(top[key])} %`, caption: 'By how much it lowers the standard deviations of moduli and causes, and raises what tells rivals apart.' }, [{ height: 150, x: { label: `z [${M}]`, domain: [0, r.geometry?.length_m ?? Math.max(...places.map((p) => p.z_m))] }, y: { label: 'worth [%]', domain: padded(places.flatMap((p) => [p.worth_percent, p.margin_percent]), 0.05, true) }, marks: [{ type: 'line', name: 'standard deviations', color: 'blue', points: r.places.filter((p) => known(p.worth_percent)).map((p) => [p.z_m, p.worth_percent]) }, ...(places.some((p) => known(p.margin_percent)) ? [{ type: 'line', name: 'rivals apart', color: 'vermilion', dash: true, points: r.places.filter((p) => known(p.margin_percent)).map((p) => [p.z_m, p.margin_percent]) }] : [])] }]));
     }
     if (r.counts?.length > 1)
       list.push(panels({ id: 'counts', title: `${r.counts[r.counts.length - 1].sensors} sensors leave \u00b1${short(r.counts[r.counts.length - 1].half_width_percent)} % of the least known parameter, one leaves \u00b1${short(r.counts[0].half_width_percent)} %`, caption: 'The best places taken one after the other.' }, [{ height: 120, x: { label: 'sensors', domain: [0, r.counts[r.counts.length - 1].sensors] }, y: { label: 'half-width [%]', domain: padded(r.counts.map((c) => c.half_width_percent), 0.05, true) }, marks: [{ type: 'line', color: 'blue', points: r.counts.map((c) => [c.sensors, c.half_width_percent]) }, { type: 'dots', name: 'half-width of the widest 95 % interval', color: 'blue', points: r.counts.map((c) => [c.sensors, c.half_width_percent]) }, ...(known(r.wanted_percent) ? [{ type: 'rule', y: r.wanted_percent, color: 'vermilion' }] : [])] }]));

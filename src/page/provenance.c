@@ -28,9 +28,9 @@ static const char *records_of(struct pool *pool, const struct ema_source *source
     const char *impacts = source->from_time_records
                               ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
                               : "";
-    return pool_format(pool, "%d transfer %s of %d lines from %s to %s\xc2\xa0Hz%s", source->transfer_functions,
+    return pool_format(pool, "%d transfer %s of %d lines from %s%s", source->transfer_functions,
                        human_plural(source->transfer_functions, "function", "functions"), source->lines,
-                       human_trimmed(pool, source->low_hz, 4), human_trimmed(pool, source->high_hz, 5), impacts ? impacts : "");
+                       human_range(pool, source->low_hz, source->high_hz, "Hz"), impacts ? impacts : "");
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)
@@ -48,9 +48,8 @@ static const char *data_of(struct pool *pool, const struct result *result)
         low = fmin(low, fit->modes[k].measured_hz);
         high = fmax(high, fit->modes[k].measured_hz);
     }
-    const char *text =
-        pool_format(pool, "%d measured %s from %s to %s\xc2\xa0Hz", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
-                    human_trimmed(pool, low, 5), human_trimmed(pool, high, 5));
+    const char *text = pool_format(pool, "%d measured %s from %s", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
+                                   human_range(pool, low, high, "Hz"));
     if (!fit->shapes || !text)
         return text;
     return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor_id)

@@ -68,8 +68,8 @@ void section_transfer(struct document *document, const struct result *result)
     struct pool *pool = document->pool;
     const char *at = "";
     document_section(document, "transfer", "Transfer functions");
-    document_paragraph(document, "%d synthesised %s from modes up to %s\xc2\xa0Hz with the damping below; %s%s.", out->nfunctions,
-                       human_plural(out->nfunctions, "function", "functions"), human_trimmed(pool, out->modes_up_to_hz, 4),
+    document_paragraph(document, "%d synthesised %s from modes up to %s with the damping below; %s%s.", out->nfunctions,
+                       human_plural(out->nfunctions, "function", "functions"), human_value(pool, out->modes_up_to_hz, "Hz"),
                        out->measured_file ? "measured ones from " : "none was measured", or_nothing(out->measured_file));
     for (int p = 0; p < out->nparameters && at; p++)
         at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
@@ -119,13 +119,13 @@ void answer_ema(struct document *document, const struct result *result)
         return;
     }
     document->now.tone = doubtful ? TONE_CARE : TONE_GOOD;
-    document->now.text = pool_format(
-        pool, "%d %s from %s to %s\xc2\xa0Hz in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
-        human_trimmed(pool, ema->modes[0].frequency_hz, 5), human_trimmed(pool, ema->modes[ema->nmodes - 1].frequency_hz, 5),
-        ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
-        doubtful ? or_nothing(pool_format(pool, "%d of the modes and %d of the channels %s doubtful, see below.", modes, channels,
-                                          modes + channels == 1 ? "is" : "are"))
-                 : "Nothing about the modes and the channels looks doubtful.");
+    document->now.text =
+        pool_format(pool, "%d %s from %s in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
+                    human_range(pool, ema->modes[0].frequency_hz, ema->modes[ema->nmodes - 1].frequency_hz, "Hz"),
+                    ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
+                    doubtful ? or_nothing(pool_format(pool, "%d of the modes and %d of the channels %s doubtful, see below.",
+                                                      modes, channels, modes + channels == 1 ? "is" : "are"))
+                             : "Nothing about the modes and the channels looks doubtful.");
     for (int k = 0; k < ema->nmodes && k < TILES_MOST; k++)
         document_tile(document, pool_format(pool, "mode %d [Hz]", ema->modes[k].mode),
                       human_digits(pool, ema->modes[k].frequency_hz, 6),

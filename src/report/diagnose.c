@@ -160,7 +160,7 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
                            *text ? ";" : "unseen:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure), hidden->id,
                            before_target(hidden->target), hidden->target);
         if (isfinite(hidden->z_m) && text)
-            text = pool_format(pool, "%s at z %.3g m", text, hidden->z_m);
+            text = pool_format(pool, "%s at z %s", text, human_value(pool, hidden->z_m, "m"));
         if (strcmp(hidden->component, "presence") != 0 && text)
             text = pool_format(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size),
                                layout_gap(hidden->size_unit), layout_unit(hidden->size_unit));
@@ -639,6 +639,7 @@ static void print_data(const struct screen *to, const rotid_diagnosis *d)
         (void)fprintf(to->out, "\nDATA  faults of the measurement, taken out before the physics is judged\n");
     for (int i = 0; i < d->ndata_findings; i++) {
         const rotid_data_finding *finding = &d->data_findings[i];
+        const struct human_unit unit = human_unit(finding->value, finding->unit);
         struct wrap wrap;
         wrap_open(&wrap, to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s%s%s", finding->id, finding->state ? " in state " : "", finding->state ? finding->state : "");
@@ -649,9 +650,9 @@ static void print_data(const struct screen *to, const rotid_diagnosis *d)
         if (finding->block)
             wrap_item(&wrap, "%s", finding->block);
         if (isfinite(finding->value))
-            wrap_item(&wrap, ": %.3g%s%s", finding->value, layout_gap(finding->unit), layout_unit(finding->unit));
+            wrap_item(&wrap, ": %.3g%s%s", finding->value * unit.factor, layout_gap(unit.text), unit.text);
         if (isfinite(finding->std))
-            wrap_item(&wrap, "+- %.2g", finding->std);
+            wrap_item(&wrap, "+- %.2g", finding->std * unit.factor);
         if (isfinite(finding->chi2_drop))
             wrap_item(&wrap, ", chi2 less by %.4g", finding->chi2_drop);
         if (finding->text) {

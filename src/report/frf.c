@@ -267,8 +267,10 @@ static void print_model(const struct screen *to, const struct transfer_result *o
     (void)fprintf(out,
                   "\nsum of %d %s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
                   rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, of->modes_up_to_hz);
+    const struct human_unit hz = human_unit(1, "Hz");
     for (int m = 0; m < rigid; m++) {
-        (void)fprintf(out, "%s%.4f Hz", m ? ", " : "modes on the supports: ", of->modes[m].model_hz);
+        (void)fprintf(out, "%s%.*f %s", m ? ", " : "modes on the supports: ", hz.factor < 1 ? 7 : 4,
+                      of->modes[m].model_hz * hz.factor, hz.text);
         damping = of->modes[m].damping_from;
     }
     if (rigid)

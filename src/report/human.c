@@ -15,6 +15,23 @@ const char *or_nothing(const char *text)
     return text ? text : "";
 }
 
+static struct human_unit length = {1, "m"}, frequency = {1, "Hz"}; /* human_units_of */
+
+static void take_unit(const char *word, struct human_unit *unit)
+{
+    static const struct human_unit units[] = {{1e2, "cm"},   {1e3, "mm"}, {1 / 0.0254, "in"},
+                                              {1e-3, "kHz"}, {60, "rpm"}, {6.283185307179586, "rad/s"}};
+    for (size_t i = 0; word && i < sizeof units / sizeof *units; i++)
+        if (!strcmp(units[i].text, word))
+            *unit = units[i];
+}
+
+void human_units_of(const struct result_head *head)
+{
+    take_unit(head->length_unit, &length);
+    take_unit(head->frequency_unit, &frequency);
+}
+
 struct human_unit human_unit(double value, const char *unit)
 {
     static const struct {
@@ -33,6 +50,10 @@ struct human_unit human_unit(double value, const char *unit)
     } prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {0, ""}};
     struct human_unit human = {1, ""};
     unit = unit ? unit : "1";
+    if (!strcmp(unit, "m"))
+        return length;
+    if (!strcmp(unit, "Hz"))
+        return frequency;
     (void)snprintf(human.text, sizeof human.text, "%s", unit);
     for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
         if (strcmp(units[i].unit, unit))
@@ -134,6 +155,30 @@ const char *human_value(struct pool *pool, double value, const char *unit)
     struct human_unit shown = human_unit(value, unit);
     return or_nothing(
         pool_format(pool, "%s%s%s", human_trimmed(pool, value * shown.factor, 4), *shown.text ? NARROW_SPACE : "", shown.text));
+}
+
+const char *human_quote(struct pool *pool, double value, const double ci[2], const char *unit)
+{
+    struct human_unit shown = human_unit(value, unit);
+    double half = (ci[1] - ci[0]) / 2 * shown.factor;
+    char text[32];
+    int exponent = 0;
+    if (!isfinite(half) || half <= 0)
+        return NULL;
+    (void)snprintf(text, sizeof text, "%.1e", half);
+    (void)sscanf(strchr(text, 'e'), "e%d", &exponent); /* NOLINT: of two or three digits */
+    int last = *text < '3' ? exponent - 1 : exponent;  /* power of ten of the last digit */
+    double whole = last > 0 ? pow(10, last) : 1;       /* 123 +- 40 is 120 +- 40 */
+    return or_nothing(pool_format(
+        pool, "%s \xc2\xb1 %s%s%s", human_fixed(pool, round(value * shown.factor / whole) * whole, last < 0 ? -last : 0),
+        human_fixed(pool, round(half / whole) * whole, last < 0 ? -last : 0), *shown.text ? NARROW_SPACE : "", shown.text));
+}
+
+const char *human_range(struct pool *pool, double from, double to, const char *unit)
+{
+    struct human_unit shown = human_unit(to, unit);
+    return or_nothing(pool_format(pool, "%s to %s%s%s", human_trimmed(pool, from * shown.factor, 5),
+                                  human_trimmed(pool, to * shown.factor, 5), *shown.text ? NARROW_SPACE : "", shown.text));
 }
 
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit)

@@ -44,6 +44,14 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
 struct table *table_of_parameters(struct pool *pool, const rotid_identification *fit)
 {
     struct table *table = table_open(pool, "Parameters");
+    const char *quote = "";
+    for (int p = 0; p < fit->nparameters && quote && !fit_is_inadequate(fit); p++) {
+        const rotid_fitted_parameter *is = &fit->parameters[p];
+        const char *one = is->at_bound || !is->identifiable ? NULL : human_quote(pool, is->value, is->ci95, is->unit);
+        quote = one ? pool_format(pool, "%s%s%s = %s", quote, *quote ? ", " : "", is->name, one) : quote;
+    }
+    if (table && quote && *quote)
+        table->note = pool_format(pool, "%s (95 %%)", quote);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *is = &fit->parameters[p];
         table_row(table);
@@ -96,7 +104,7 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
         table_row(table);
         text_column(table, "minimiser", SHOW_TEXT,
                     other ? pool_format(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
-        number_column(table, "objective", NULL, SHOW_DIGITS(9), other ? other->objective : fit->objective);
+        number_column(table, "objective", NULL, SHOW_DIGITS(4), other ? other->objective : fit->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(2) | DETAIL, other ? other->gradient : fit->gradient);
         number_column(table, "evaluations", NULL, SHOW_COUNT, other ? other->evaluations : fit->evaluations);
         number_column(table, "time", "ms", SHOW_FIXED(1), 1e3 * (other ? other->seconds : fit->seconds));
@@ -109,6 +117,30 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
     return table;
 }
 
+#define SAME_POINT 1e-6 /* relative difference of objectives */
+
+const char *minimisers_sentence(struct pool *pool, const rotid_identification *fit, int *lower)
+{
+    double best = INFINITY, furthest = 0;
+    const char *names = "";
+    for (int b = 0; b < fit->nbaseline && names; b++) {
+        if (!fit->baseline[b].usable || !isfinite(fit->baseline[b].objective))
+            continue;
+        best = fmin(best, fit->baseline[b].objective);
+        furthest = fmax(furthest, fabs(fit->baseline[b].objective / fit->objective - 1));
+        names = pool_format(pool, "%s%s%s", names, *names ? ", " : "", fit->baseline[b].algorithm);
+    }
+    *lower = best < fit->objective * (1 - SAME_POINT);
+    return !names || !*names
+               ? ""
+               : or_nothing(
+                     *lower ? pool_format(pool, "NLopt (%s) finds a lower minimum: %s, against %s of this fit", names,
+                                          human_digits(pool, best, 6), human_digits(pool, fit->objective, 6))
+                     : furthest <= SAME_POINT
+                         ? pool_format(pool, "NLopt (%s) finds the same minimum", names)
+                         : pool_format(pool, "NLopt (%s) finds no lower minimum; not all of its minimisers came as far", names));
+}
+
 static struct table *table_of_history(struct pool *pool, const rotid_identification *fit)
 {
     struct table *table = table_open(pool, "Iterations");
@@ -116,7 +148,7 @@ static struct table *table_of_history(struct pool *pool, const rotid_identificat
         const rotid_history_entry *entry = &fit->history[i];
         table_row(table);
         number_column(table, "iteration", NULL, SHOW_COUNT, entry->iteration);
-        number_column(table, "objective", NULL, SHOW_DIGITS(11), entry->objective);
+        number_column(table, "objective", NULL, SHOW_DIGITS(4), entry->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(3), entry->gradient);
         number_column(table, "mu", NULL, SHOW_DIGITS(3), entry->mu);
         number_column(table, "gain", NULL, SHOW_FIXED(3), entry->gain_ratio);
@@ -228,8 +260,12 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     screen_heading(to, &result->head);
     print_head(to, fit);
     print_parameters(to, &result->head, fit);
-    if (fit->nbaseline)
+    int lower;
+    const char *beside = minimisers_sentence(to->pool, fit, &lower);
+    if (fit->nbaseline && (to->verbose || lower || !*beside))
         screen_table(to, table_of_minimisers(to->pool, fit));
+    if (*beside)
+        screen_say(to, "%s", beside);
     else if (baseline && !fit->nlopt)
         (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
     if (to->verbose)

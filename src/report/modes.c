@@ -98,13 +98,19 @@ static struct table *table_of_groups(struct pool *pool, const rotid_geometry *ge
     return table;
 }
 
+static void print_length(FILE *out, const char *what, double value, const char *more)
+{
+    const struct human_unit unit = human_unit(value, "m");
+    (void)fprintf(out, "%-16s%12.*f %s%s\n", what, unit.factor > 1 ? 3 : 6, value * unit.factor, unit.text, more);
+}
+
 static void print_check(const struct screen *to, const struct result *result, const struct job *job)
 {
     const rotid_check *check = result->check;
     FILE *out = to->out;
-    (void)fprintf(out, "length          %12.6f m\n", check->length_m);
+    print_length(out, "length", check->length_m, "");
     (void)fprintf(out, "mass            %12.4f kg\n", check->mass_kg);
-    (void)fprintf(out, "centre of mass  %12.6f m from the left end\n", check->center_of_mass_m);
+    print_length(out, "centre of mass", check->center_of_mass_m, " from the left end");
     (void)fprintf(out, "inertia         %12.4f kg.m2 about a diameter there\n", check->inertia_kg_m2);
     (void)fprintf(out, "mesh            %12d nodes, %d elements", check->nodes, check->elements);
     if (job->mesh_error > 0)
@@ -114,15 +120,17 @@ static void print_check(const struct screen *to, const struct result *result, co
         (void)fprintf(out, "solid           %12d unknowns, half band %d, %d slices\n", check->solid->unknowns,
                       check->solid->half_band, check->solid->slices);
         if (isfinite(check->solid->corner_m))
-            (void)fprintf(out, "corner element  %12.6f m, where the diameter steps\n", check->solid->corner_m);
-        (void)fprintf(out, "largest element %12.6f m\n", check->solid->largest_m);
+            print_length(out, "corner element", check->solid->corner_m, ", where the diameter steps");
+        print_length(out, "largest element", check->solid->largest_m, "");
     }
     (void)fprintf(out, "sensors         %12d\n", check->nsensors);
     (void)fprintf(out, "measured modes  %12d\n", check->measured_modes);
     (void)fprintf(out, "rigid-body modes%12d", check->rigid_modes);
+    const struct human_unit hz = human_unit(1, "Hz");
     for (int i = 0; i < check->nrigid_hz; i++)
-        (void)fprintf(out, "%s%.3f", i ? ", " : " (modes on the supports at ", check->rigid_hz[i]);
-    (void)fprintf(out, "%s\n", check->nrigid_hz ? " Hz)" : "");
+        (void)fprintf(out, "%s%.*f", i ? ", " : " (modes on the supports at ", hz.factor < 1 ? 6 : 3,
+                      check->rigid_hz[i] * hz.factor);
+    (void)fprintf(out, check->nrigid_hz ? " %s)\n" : "\n", hz.text);
     if (job->measurement.numbering.nsupport)
         (void)fprintf(out, "modes counted   %12s, from the lowest %s%s\n", job->rotor.count_all ? "ALL" : "ELASTIC",
                       job->rotor.count_all ? "vibration on the supports" : "mode that bends the rotor",
@@ -220,9 +228,10 @@ static struct table *table_of_shapes(struct pool *pool, const struct rotor *roto
 static void print_modes(const struct screen *to, const struct result *result, const struct job *job)
 {
     const rotid_spectrum *s = result->modes;
+    const struct human_unit hz = human_unit(1, "Hz");
     (void)job;
     for (int i = 0; i < s->nrigid_hz; i++)
-        (void)fprintf(to->out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
+        (void)fprintf(to->out, "rotor on its supports: %.*f %s\n", hz.factor < 1 ? 7 : 4, s->rigid_hz[i] * hz.factor, hz.text);
     screen_table(to, table_of_model_modes(to->pool, s));
     if (s->beside) {
         screen_table(to, table_of_beside_modes(to->pool, s->beside));

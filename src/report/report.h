@@ -139,6 +139,9 @@ struct human_unit {
     char text[24]; /* "GPa", "kN/m"; "" for a pure number */
 };
 struct human_unit human_unit(double value, const char *unit);
+/* Shows lengths and frequencies in the units of the deck of this result from now on; what a head does not state stays as it was,
+ * m and Hz at first. One setting for the program, which shows one deck, or one page. */
+void human_units_of(const struct result_head *head);
 
 /* Decimals that show three significant digits of `spread` (0 ... 8, of a value below 0.001 to 20); four significant digits of
  * value where there is no spread.
@@ -159,6 +162,10 @@ const char *human_trimmed(struct pool *pool, double value, int digits);
 
 /* "115.7 GPa", "60 GPa": four significant digits without zeros at the end. */
 const char *human_value(struct pool *pool, double value, const char *unit);
+/* "130 +- 3 GPa" by half an interval: one of its digits, two where the first is 1 or 2; NULL where there is no interval. */
+const char *human_quote(struct pool *pool, double value, const double ci[2], const char *unit);
+/* "88.59 to 624.6 Hz": five digits without zeros at the end. */
+const char *human_range(struct pool *pool, double from, double to, const char *unit);
 /* "115.7 GPa (95 %: 55.1 to 176.4)", without the bracket where there is no interval. */
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit);
 /* Half an interval in per cent of the value, NaN where there is none. */
@@ -370,6 +377,8 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
 struct table *table_of_parameters(struct pool *pool, const rotid_identification *fit);
 struct table *table_of_states(struct pool *pool, const rotid_identification *fit);
 struct table *table_of_minimisers(struct pool *pool, const rotid_identification *fit);
+/* "NLopt (LN_BOBYQA, LD_SLSQP) finds the same minimum", "" where nothing was minimised beside; *lower: it finds a lower one. */
+const char *minimisers_sentence(struct pool *pool, const rotid_identification *fit, int *lower);
 struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spectrum);
 struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);

@@ -139,6 +139,7 @@ static struct table *table_of_margins(struct pool *pool, const rotid_suggestion 
 
 static void print_places(const struct screen *to, const rotid_suggestion *s)
 {
+    const struct human_unit unit = human_unit(1, "m");
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *plan = &s->plans[i];
         struct wrap wrap;
@@ -149,7 +150,8 @@ static void print_places(const struct screen *to, const rotid_suggestion *s)
         wrap_open(&wrap, to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s:", plan->method);
         for (int k = 0; k < plan->nz_m; k++)
-            wrap_item(&wrap, "%.4g m (%.2g %%)%s", plan->z_m[k], plan->loss_percent[k], k + 1 < plan->nz_m ? "," : "");
+            wrap_item(&wrap, "%.4g %s (%.2g %%)%s", plan->z_m[k] * unit.factor, unit.text, plan->loss_percent[k],
+                      k + 1 < plan->nz_m ? "," : "");
         wrap_close(&wrap);
     }
 }

@@ -19,6 +19,19 @@ int table_rows(const struct table *table)
     return table->ncolumns ? table->ncells / table->ncolumns : 0;
 }
 
+/* Decimals move with the unit: 0.123456 m is 123.456 mm. */
+static void take_unit(struct pool *pool, struct table_column *column, struct human_unit unit)
+{
+    int decimals = (int)(column->show >> SHOW_DIGITS_FROM & SHOW_DIGITS_MOST), format = (int)(column->show & SHOW_FORMAT),
+        fewer = (int)lround(log10(unit.factor));
+    column->factor = unit.factor;
+    column->shown = *unit.text ? pool_copy_text(pool, unit.text) : NULL;
+    if (format != (SHOW_FIXED(0) & SHOW_FORMAT) && format != (SHOW_SIGNED(0) & SHOW_FORMAT))
+        return;
+    decimals = decimals < fewer ? 0 : decimals - fewer;
+    column->show = (column->show & ~((unsigned)SHOW_DIGITS_MOST << SHOW_DIGITS_FROM)) | (unsigned)decimals << SHOW_DIGITS_FROM;
+}
+
 /* The column of the next cell: of the first row a new one. NULL where memory is out, or was. */
 static struct table_column *next_column(struct table *table, const char *name, const char *unit, unsigned show)
 {
@@ -34,6 +47,8 @@ static struct table_column *next_column(struct table *table, const char *name, c
     }
     table->column = column;
     column[table->ncolumns] = (struct table_column){name, unit, unit, show, 1};
+    if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))
+        take_unit(table->pool, &column[table->ncolumns], human_unit(1, unit));
     return &column[table->ncolumns++];
 }
 
@@ -118,11 +133,8 @@ void number_column(struct table *table, const char *name, const char *unit, unsi
 void scaled_column(struct table *table, const char *name, const char *unit, unsigned show, double typical, double value)
 {
     struct table_column *column = next_column(table, name, unit && strcmp(unit, "1") != 0 ? unit : NULL, show);
-    if (column && table->nrows == 1) {
-        struct human_unit shown = human_unit(typical, unit);
-        column->factor = shown.factor;
-        column->shown = *shown.text ? pool_copy_text(table->pool, shown.text) : NULL;
-    }
+    if (column && table->nrows == 1)
+        take_unit(table->pool, column, human_unit(typical, unit));
     if (column)
         put_number(table, column, value);
 }
@@ -173,15 +185,17 @@ void table_write_csv(FILE *out, const struct table *table)
 /* What a terminal of any kind shows: the signs of people's numbers and units as ASCII; other letters stay. */
 static const char *ascii(struct pool *pool, const char *text)
 {
-    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "},
+    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "}, {"\xc2\xb1", "+-"},
                                            {"\xc2\xb7", "."}, {"\xc2\xb2", "2"},     {"\xc2\xb3", "3"}};
     char *copy = pool_copy_text(pool, text), *to = copy;
     for (const char *from = copy; from && *from;) {
         size_t s = 0, count = sizeof signs / sizeof *signs;
         while (s < count && strncmp(from, signs[s][0], strlen(signs[s][0])) != 0)
             s++;
-        *to++ = s < count ? *signs[s][1] : *from;
+        const char *put = s < count ? signs[s][1] : (char[]){*from, 0}; /* no longer than the sign */
         from += s < count ? strlen(signs[s][0]) : 1;
+        while (*put)
+            *to++ = *put++;
     }
     if (copy)
         *to = 0;

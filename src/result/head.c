@@ -28,6 +28,8 @@ static const struct record_field deck_fields[] = {
     TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
     STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
+    TEXT(struct result_head, length_unit, IF_KNOWN),
+    TEXT(struct result_head, frequency_unit, IF_KNOWN),
     {0},
 };
 const struct record deck_record = RECORD(struct result_head, deck_fields);

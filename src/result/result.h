@@ -115,6 +115,8 @@ struct result_head {
     const char **heading; /* lines of *HEADING without the references */
     int nreferences;
     rotid_reference *references; /* values that the heading of the deck gives to compare with */
+    const char *length_unit;     /* cm, mm or in of *UNITS, in which people are shown lengths; without the key m */
+    const char *frequency_unit;  /* kHz, rpm or rad/s of *UNITS, in which they are shown frequencies; without the key Hz */
 };
 
 /* The reference of this quantity, or NULL. */

@@ -168,6 +168,23 @@ double check_units(const struct job *job, const struct spectrum *spectrum, int r
     return 0;
 }
 
+const char *job_value_text(struct pool *pool, const struct job_units *units, int digits, double value, const char *unit)
+{
+    double in_si = 1;
+    if (!strcmp(unit, "m") && units->length) {
+        in_si = units->si[0];
+        unit = units->length;
+    } else if (!strcmp(unit, "Hz") && units->frequency) {
+        in_si = units->si[JOB_QUANTITIES - 1];
+        unit = units->frequency;
+    } else if (!strcmp(unit, "Pa") && fabs(value) >= 1e6) {
+        in_si = fabs(value) < 1e9 ? 1e6 : 1e9;
+        unit = fabs(value) < 1e9 ? "MPa" : "GPa";
+    }
+    const char *text = pool_format(pool, strcmp(unit, "1") ? "%.*g %s" : "%.*g", digits, value / in_si, unit);
+    return text ? text : "";
+}
+
 #define STEP_TOLD 0.01
 
 const char *doubt_steps(struct pool *pool, const struct job *job)
@@ -179,8 +196,8 @@ const char *doubt_steps(struct pool *pool, const struct job *job)
     return error < STEP_TOLD ? NULL
                              : pool_format(pool,
                                            "a beam is some %.2g %% too stiff (in frequency) at the step of the diameter by 1 : "
-                                           "%.2g at %.4g m; *FIT, MODEL=SOLID takes the same deck",
-                                           100 * error, ratio, z);
+                                           "%.2g at %s; *FIT, MODEL=SOLID takes the same deck",
+                                           100 * error, ratio, job_value_text(pool, &job->units, 4, z, "m"));
 }
 
 /* EI/L^3 of the stiffest element and of the softest section, where rounding of the one is not small beside the other */

@@ -136,8 +136,13 @@ struct job_place {
 /* The units that the deck states numbers in, in SI; 0: SI. The job itself is in SI. */
 #define JOB_QUANTITIES 8
 struct job_units {
-    double si[JOB_QUANTITIES]; /* of each quantity of *UNITS, in the order of src/deck */
+    double si[JOB_QUANTITIES];      /* of each quantity of *UNITS, in the order of src/deck */
+    const char *length, *frequency; /* names of the first and the last one as people write them; NULL: m, Hz */
 };
+
+/* "700 mm", "20 GPa": a value in SI with so many digits, in the unit of the deck where it is a length or a frequency, a modulus
+ * with its prefix. unit: of the value, "1" for a pure number. "" where memory is out, as the pool says. */
+const char *job_value_text(struct pool *pool, const struct job_units *units, int digits, double value, const char *unit);
 
 struct deck_origin;
 

@@ -81,13 +81,14 @@ static int take_fit(struct pool *pool, const struct sources *from, const struct 
     return rival->x && rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static const char *label_of(struct pool *pool, int count, const struct candidate *cause, double other_place)
+static const char *label_of(struct pool *pool, const struct job_units *units, int count, const struct candidate *cause,
+                            double other_place)
 {
     const char *text = candidate_label(pool, cause), *second = count > 1 ? candidate_label(pool, cause + 1) : NULL;
     if (!text || (count > 1 && !second))
         return NULL;
     return second                  ? pool_format(pool, "%s with %s", text, second)
-           : isfinite(other_place) ? pool_format(pool, "%s near %.3g m", text, other_place)
+           : isfinite(other_place) ? pool_format(pool, "%s near %s", text, job_value_text(pool, units, 3, other_place, "m"))
                                    : text;
 }
 
@@ -107,8 +108,10 @@ static int add(struct pool *pool, const struct sources *from, int count, const s
     }
     if (status)
         return status;
-    *rival =
-        (struct rival){.label = label_of(pool, count, cause, other_place), .ncause = count, .cause = cause, .share = probability};
+    *rival = (struct rival){.label = label_of(pool, &from->base->state[from->home].job.units, count, cause, other_place),
+                            .ncause = count,
+                            .cause = cause,
+                            .share = probability};
     rivals->n++;
     status = take_fit(pool, from, &refit, rival);
     rival->score = -2 * log(fmax(LEAST, probability));

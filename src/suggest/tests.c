@@ -25,13 +25,15 @@ const char *test_text(struct pool *pool, const struct job *job, const struct tes
     case TEST_NOISE:
         return pool_format(pool, "the same test, each point measured %d times", t->averages);
     case TEST_MASS:
-        return pool_format(pool, "with a known mass of %.3g kg at z = %.4g m", t->mass, t->z);
+        return pool_format(pool, "with a known mass of %.3g kg at z = %s", t->mass,
+                           job_value_text(pool, &job->units, 4, t->z, "m"));
     case TEST_STIFF:
         return pool_format(pool, "on supports about %g times as stiff", TEST_STIFFER);
     case TEST_FREE:
         return "free, on supports too soft to matter";
     case TEST_MOVED:
-        return pool_format(pool, "with the support%s%s at z = %.4g m", name ? " " : "", name ? name : "", t->z);
+        return pool_format(pool, "with the support%s%s at z = %s", name ? " " : "", name ? name : "",
+                           job_value_text(pool, &job->units, 4, t->z, "m"));
     }
     return "";
 }
