@@ -140,6 +140,44 @@ POOL_TEST(a_deck_reads_the_modes_back)
     assert_int_equal(program("check", "bar.inp"), 0);
 }
 
+/* Each step is said as the command that does it alone, and that command does the same. */
+UNIT_TEST(a_test_is_its_four_commands)
+{
+    static const char *const commands[] = {
+        "$ rotid ema bar.uff --band 40,2000 -o p_modes.unv --json p_ema.json\n",
+        "$ rotid identify bar.inp --set MEASURED.FILE=p_modes.unv --set FIT.FUNCTIONAL=LIKELIHOOD --json p_identify.json\n",
+        "$ rotid diagnose bar.inp --set MEASURED.FILE=p_modes.unv --set FIT.FUNCTIONAL=LIKELIHOOD --json p_diagnose.json\n",
+        "$ rotid report p_ema.json p_identify.json p_diagnose.json -o p.html\n"};
+    make_excerpt("bar.uff");
+    put_text("bar.inp", DECK "*IDENTIFY\nbar.E, 1e11, 3e11, 2e11\n");
+    int code = program("test", "bar.uff bar.inp -o p.html --band 40,2000 --set FIT.FUNCTIONAL=LIKELIHOOD"), worst = 0;
+    const char *at = uff_output;
+    for (int i = 0; i < 4; i++) {
+        at = strstr(at, commands[i]);
+        if (!at)
+            print_error("no %s in %s\n", commands[i], uff_output);
+        assert_non_null(at);
+    }
+    cJSON *json = json_of("p_identify.json");
+    const double e = number_of(cJSON_GetArrayItem(get(json, "parameters"), 0), "value");
+    assert_true(e > 1e11 && e < 3e11); /* the excerpt has no places: nothing of the truth */
+    cJSON_Delete(json);
+    for (int i = 0; i < 4; i++) {
+        char name[16], words[256];
+        assert_int_equal(sscanf(commands[i], "$ rotid %15s %255[^\n]", name, words), 2);
+        int own = program(name, words);
+        worst = own > worst ? own : worst;
+    }
+    assert_int_equal(code, worst);
+    json = json_of("p_identify.json");
+    assert_close(number_of(cJSON_GetArrayItem(get(json, "parameters"), 0), "value"), e, 0, 0);
+    cJSON_Delete(json);
+    assert_int_equal(program("test", "bar.uff"), 2);
+    assert_non_null(strstr(uff_output, "expected two files, the records of the test and the deck of the rotor"));
+    assert_int_equal(program("test", "none.uff bar.inp"), 2); /* and no step behind the one that fails */
+    assert_null(strstr(uff_output, "rotid identify"));
+}
+
 UNIT_TEST(picks_and_bands_choose)
 {
     make_excerpt("bar.uff");

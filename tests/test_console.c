@@ -19,7 +19,7 @@
 POOL_TEST(help_has_examples_that_the_command_takes)
 {
     for (const char *const *c = (const char *const[]){"check", "modes", "sensitivity", "identify", "diagnose", "frf", "ema",
-                                                      "export", "uff", "report", "study", NULL};
+                                                      "test", "export", "uff", "report", "study", NULL};
          *c; c++) {
         const char *help = shell(&test_pool, ROTID_PROGRAM " %s -h", *c), *line = strstr(help, "examples:\n"), *output;
         assert_string_equal(help, shell(&test_pool, ROTID_PROGRAM " %s --help", *c));

@@ -419,6 +419,7 @@ static int collect(struct command *command, int argc, char **argv)
     if (!options || !command->given || !command->override)
         return command_fail(command, ROTID_ERROR_MEMORY);
     (void)unsetenv("POSIXLY_CORRECT"); /* with it getopt takes the options behind COMMAND FILE for files */
+    optind = 1;                        /* a command of `test` is parsed after its own */
     opterr = 0;                        /* getopt prints what it was given as it is */
     while ((option = getopt_long(argc, argv, ":o:hV", options, NULL)) != -1) {
         if (option == '?' || option == ':')

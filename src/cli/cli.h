@@ -11,7 +11,7 @@
  *                       together, files that would be lost
  *   command_deck.c      command_read_deck: the deck by rotid_deck_read; states; command_fit_deck: fits before frf, export, ...
  *   command_NAME.c      command_check, _modes, _sensitivity, _speeds, _identify, _diagnose, _suggest, _frf, _ema, _uff, _report,
- * _export, _study: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command.c)
+ * _export, _study, _test: calls the library, shows the table (src/report), writes JSON (src/result) and CSV (command.c)
  *   command_table.c     the list of the commands; option_table.c: the options, a row each, from which `make tables` writes the
  *                       completions and the lists of docs/rotid.1
  *   command.c           messages, head of the result, failures, environment of a long call
@@ -172,6 +172,9 @@ void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
 
+/* A run of the program with these arguments, argv[0] its name: parsed, run, its memory given back. The exit code. */
+int command_line(int argc, char **argv);
+
 int command_check(struct command *command);
 int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
@@ -185,6 +188,7 @@ int command_uff(struct command *command);
 int command_report(struct command *command);
 int command_export(struct command *command);
 int command_study(struct command *command);
+int command_test(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

@@ -44,7 +44,8 @@ int command_fail(struct command *command, int status)
     }
     if (command->job)
         check_sections(command->job, status, &command->messages);
-    if (command->job && !command->messages.errors) /* no part of the deck is known to be the reason: its first line stands for all */
+    if (command->job &&
+        !command->messages.errors) /* no part of the deck is known to be the reason: its first line stands for all */
         message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", rotid_status_text(status));
     command_print_messages(command);
     if (!command->messages.errors)
@@ -206,5 +207,57 @@ int command_write_csv(struct command *command, const struct csv_part *part, cons
                              : ", ",
                       command->csv, part[i].suffix, last ? " are written\n" : "");
     }
+    return code;
+}
+
+/* ---- a run of the program */
+
+static int processors(void)
+{
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > THREADS_MOST ? THREADS_MOST : (int)online;
+}
+
+/* Whether the BLAS is called at all: not to read files and make pages of them. */
+static int computes(const struct command *command, const struct command_entry *c)
+{
+    return c->flags & (READS_DECK | PARALLEL) && !command->study.merge && !command->study.summary;
+}
+
+static int run(struct command *command)
+{
+    const struct command_entry *c = command_find(command->name);
+    int refused = arguments_refuse(command, c), parallel = c->flags & PARALLEL, asked = command->threads > 0;
+    if (refused >= 0)
+        return refused;
+    if (!asked)
+        command->threads = parallel ? processors() : 1;
+    if (computes(command, c)) {
+        int processes = c->run == command_study; /* each with an address space of its own */
+        int room = build_make_room(processes ? 1 : command->threads, asked);
+        if (!room)
+            return EXIT_INTERNAL;
+        command->threads = processes ? command->threads : room;
+    }
+    command_begin_head(command);
+    build_set_threads(parallel ? 1 : command->threads);
+    int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
+    if (code)
+        return code;
+    if (c->run != command_study) /* a study reads its decks itself */
+        command_watch_signals();
+    return c->run(command);
+}
+
+int command_line(int argc, char **argv)
+{
+    struct command command = {0};
+    pool_open(&command.pool, NULL);
+    message_open(&command.messages, &command.pool);
+    int code = arguments_parse(&command, argc, argv);
+    if (code < 0)
+        code = run(&command);
+    rotid_deck_free(command.read);
+    pool_close(&command.pool);
     return code;
 }

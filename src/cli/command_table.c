@@ -38,6 +38,11 @@ const struct command_entry command_table[] = {
      "rotid ema records.unv --band 200,3200 -o modes.unv\n"
      "rotid ema records.unv --pick 415,722 --per-point",
      "unv|uff|uf", command_ema, PARALLEL},
+    {"test",
+     "records of a hammer test and a deck to a page: ema, identify, diagnose, report, each said as the command that does it",
+     "rotid test records.unv rotor.inp -o page.html\n"
+     "rotid test records.unv rotor.inp -o page.html --band 200,3200",
+     "unv|uff|uf|inp", command_test, SEVERAL_FILES},
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG",
      "rotid export rotor.inp --format matrix-market -o rotor\n"
      "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",

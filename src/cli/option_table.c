@@ -10,17 +10,17 @@
 #define FROM(A, B)  .least = (A), .most = (B)
 #define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
 
-static const char *const estimators[] = {"H1", "H2", "HV", NULL},
-                         *const types[] = {"stated", "bending", "torsion", "axial", NULL};
+static const char *const estimators[] = {"H1", "H2", "HV", NULL}, *const types[] = {"stated", "bending", "torsion", "axial",
+                                                                                    NULL};
 
 /* clang-format off */
 const struct option_row option_table[] = {
     {.name = "quiet", .kind = OPTION_SWITCH, AT(quiet),
      .help = "no tables, no warnings and no progress; errors are always printed"},
-    {.name = "verbose", .commands = DECKS " ema uff", .kind = OPTION_SWITCH, AT(verbose),
+    {.name = "verbose", .commands = DECKS " ema uff test", .kind = OPTION_SWITCH, AT(verbose),
      .help = "more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)",
      .more = "What was skipped in universal files is listed as well."},
-    {.name = "threads", .commands = DECKS " ema study", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
+    {.name = "threads", .commands = DECKS " ema study test", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
      .help = "threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
      .more = "The result does not depend on it."},
     {.name = "seed", .commands = "sensitivity diagnose suggest speeds study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
@@ -31,7 +31,7 @@ const struct option_row option_table[] = {
 
     {.name = "json", .commands = DECKS " ema uff study", .kind = OPTION_WRITES, AT(json), .value = "FILE", .files = "json",
      .help = "the result as JSON; - for standard output, which then carries nothing else"},
-    {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
+    {.name = "set", .commands = DECKS " study test", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
      .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
 
     {.name = "csv", .commands = "modes identify uff study", .kind = OPTION_WRITES, AT(csv), .value = "NAME",
@@ -99,7 +99,7 @@ const struct option_row option_table[] = {
     {OUTPUT(.commands = "frf", .value = "FILE", .files = UNIVERSAL, .help = "the synthesised functions as a universal file")},
 
     {OUTPUT(.commands = "ema", .value = "FILE", .files = UNIVERSAL, .help = "the modes as a universal file, for *MEASURED")},
-    {.name = "band", .commands = "ema", .kind = OPTION_BAND, AT(ema.options), FROM(0, 1e7), .value = "LOW,HIGH",
+    {.name = "band", .commands = "ema test", .kind = OPTION_BAND, AT(ema.options), FROM(0, 1e7), .value = "LOW,HIGH",
      .help = "in hertz (default: all lines)"},
     {.name = "method", .commands = "ema", .kind = OPTION_WORD, AT(ema.options.method), .words = ema_method_words,
      .help = "how poles are found: least-squares complex frequency (default) or quadrature"},
@@ -111,9 +111,9 @@ const struct option_row option_table[] = {
      .help = "a frequency for each point as well, by which a roving accelerometer is weighed"},
     {.name = "no-refinement", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.options.no_refinement),
      .help = "poles as the least-squares complex frequency method leaves them"},
-    {.name = "reference", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.measurement.reference), FROM(1, 2147483647),
+    {.name = "reference", .commands = "ema test", .kind = OPTION_WHOLE, AT(ema.measurement.reference), FROM(1, 2147483647),
      .value = "NODE", .help = "only transfer functions over this node"},
-    {.name = "averages", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.measurement.averages), FROM(2, 1000000), .value = "K",
+    {.name = "averages", .commands = "ema test", .kind = OPTION_WHOLE, AT(ema.measurement.averages), FROM(2, 1000000), .value = "K",
      .help = "impacts behind the coherences of the file", .more = "They give the variance of its lines."},
     {.name = "estimator", .commands = "ema", .kind = OPTION_WORD, AT(ema.measurement.transfer.estimator), .words = estimators,
      .help = "time records: noise is on the response (default), on the force, or on both"},
@@ -149,6 +149,8 @@ const struct option_row option_table[] = {
             .help = "the page; a name that does not end in .html is a folder for index.html",
             .more = "A page of rotid is replaced, another file is left alone. A folder that is missing is made.")},
 
+    {OUTPUT(.commands = "test", .value = "FILE", .files = "html",
+            .help = "the page; modes and results of the steps stand beside it; the name of the deck with .html without this option")},
     {OUTPUT(.commands = "study", .value = "FILE", .files = "jsonl",
             .help = "the results, a line of JSON a run; where the file exists, what is missing in it is computed")},
     {.name = "shard", .commands = "study", .kind = OPTION_SHARD, AT(study), .value = "I/N",
