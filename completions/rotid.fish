@@ -11,7 +11,7 @@ complete -c rotid -n $none -a modes -d 'frequencies and shapes, full and condens
 complete -c rotid -n '__fish_seen_subcommand_from modes' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a sensitivity -d 'how the modes depend on parameters (Table 1 and Figure 5 of the paper)'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -k -a '(__fish_complete_suffix .inp; )'
-complete -c rotid -n $none -a identify -d 'fit the parameters of *IDENTIFY to the measured modes, NLopt beside it'
+complete -c rotid -n $none -a identify -d 'fit the parameters of *IDENTIFY to the measured modes, with NLopt as a check'
 complete -c rotid -n '__fish_seen_subcommand_from identify' -k -a '(__fish_complete_suffix .inp; )'
 complete -c rotid -n $none -a diagnose -d 'what the model gets wrong, the cause, the extended model, the gain, the detection limits'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -k -a '(__fish_complete_suffix .inp; )'

@@ -267,7 +267,7 @@ UNIT_TEST(runs_say_why_they_failed)
     assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
     assert_null(diagnosis);
-    assert_non_null(strstr(failure, "leave nothing to judge the model by, expected more modes"));
+    assert_non_null(strstr(failure, "leave no degree of freedom to test the model, expected more modes"));
     rotid_deck_free(deck);
 }
 

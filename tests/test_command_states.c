@@ -133,7 +133,7 @@ POOL_TEST(files_are_of_one_state)
         strstr(refused(pool_format(&test_pool, "export %s --format dmig -o %s", at, out)),
                ":1:1: the deck has 2 states and a file holds the model of one, expected --state short or another one\n"));
     assert_non_null(strstr(refused(pool_format(&test_pool, "frf %s -o %s", at, out)),
-                           "--output:1:1: a universal file says nothing of states and the deck has 2, expected --state short or "
+                           "--output:1:1: a universal file has no states and the deck has 2, expected --state short or "
                            "another one beside it\n"));
     assert_non_null(strstr(refused(pool_format(&test_pool, "frf %s --state x", at)),
                            "--state:1:1: state x is not defined, expected one of short, long one\n"));

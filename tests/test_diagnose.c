@@ -509,7 +509,7 @@ UNIT_TEST(fewer_data_than_parameters)
         (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_status(r.status, ROTID_ERROR_ARGUMENT);
-        assert_true(says(&r, "leave nothing to judge the model by"));
+        assert_true(says(&r, "leave no degree of freedom to test the model"));
         close_run(&r);
     }
     text[0] = 0;
@@ -533,7 +533,7 @@ UNIT_TEST(few_modes_carry_no_name)
         (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_honest(&r, NULL);
-        assert_true(says(&r, "cannot carry a name"));
+        assert_true(says(&r, "too few to name a cause"));
         close_run(&r);
     }
 }

@@ -26,8 +26,8 @@ static const struct {
     {"sensor_line:shift=0.01,scale=0.99", "sensor_line", {0}, 0.01, 0.002, "their origin is off by +"},
     {"sensor_line:scale=0.98", "sensor_line", {0}, 0.98, 0.002, "times the stated ones; all of them"},
     {"duplicate_channel:sensor=7,of=6", "duplicate_channel", {7, 6}, 0, 0, "records what sensor"},
-    {"mode_pairing:swap=2+3", "mode_pairing", {0}, 0, 0, "stand under each other's number"},
-    {"mode_pairing:swap=5+6", "mode_pairing", {0}, 0, 0, "stand under each other's number"},
+    {"mode_pairing:swap=2+3", "mode_pairing", {0}, 0, 0, "have their numbers exchanged"},
+    {"mode_pairing:swap=5+6", "mode_pairing", {0}, 0, 0, "have their numbers exchanged"},
     {"noise_level:block=SHAPE,factor=2", "noise_level", {0}, 2, 0.3, "noise"},
     {"noise_level:block=SHAPE,factor=0.5", "noise_level", {0}, 0.5, 0.075, "noise"},
 };

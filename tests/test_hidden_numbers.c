@@ -42,7 +42,7 @@ UNIT_TEST(numbers_are_put_right)
     } table[] = {
         {{1, 2, 3, 4, 5, 6, 7}, 0, 0, NULL},
         {{3, 4, 5, 6, 7, 8, 9}, 0, 0, NULL}, /* those of the sling were counted: COUNT=ALL, as the deck is read */
-        {{2, 3, 4, 5, 6, 7, 8}, 2, 1, "1 too high, as where modes of the rigid body are counted"},
+        {{2, 3, 4, 5, 6, 7, 8}, 2, 1, "1 too high: rigid-body modes were counted"},
         {{0, 1, 2, 3, 4, 5, 6}, 1, 2, "1 too low: the lowest modes were missed"},
         {{1, 2, 0, 3, 4, 5, 6}, 3, 4, "modes were missed below it"},
     };

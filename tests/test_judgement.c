@@ -30,9 +30,9 @@ UNIT_TEST(noise_explains_a_misfit_or_the_model_is_not_adequate)
     static const struct {
         double p;
         const char *says, *silent;
-    } cases[] = {{0.0095, "the model is not adequate for these data", "noise alone does as much"},
-                 {0.0105, "noise alone does as much in 1 % of such tests", "not adequate"},
-                 {0.3, "noise alone does as much in 30 % of such tests", "not adequate"}};
+    } cases[] = {{0.0095, "the model is not adequate for these data", "noise alone causes as much"},
+                 {0.0105, "noise alone causes as much in 1 % of tests", "not adequate"},
+                 {0.3, "noise alone causes as much in 30 % of tests", "not adequate"}};
     rotid_compared_mode mode = {.mode = 1, .measured_hz = 100, .predicted_hz = 101, .error_percent = 1};
     double error = 0;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -121,7 +121,7 @@ UNIT_TEST(an_interval_is_wide_from_15_per_cent_on)
     assert_ptr_equal(hidden_in(3, hidden, &p[0]), &hidden[0]);
     assert_null(hidden_in(3, hidden, &p[1])); /* within its interval */
     assert_non_null(
-        strstr(screen, "a cause that these data would not show may move core.E by up to 20 % (density of core): see rotid"));
+        strstr(screen, "possible bias by a cause below its detection limit: core.E by up to 20 % (density of core):"));
     free(screen);
 }
 

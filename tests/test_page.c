@@ -292,8 +292,9 @@ UNIT_TEST(a_modal_analysis_has_a_page)
     cJSON_ArrayForEach(channel, get(json, "channels")) if (cJSON_GetArraySize(get(channel, "doubts")))
     {
         channels++;
-        page_says(html, "node %.0f over node %.0f: %s", number_of(channel, "response_node"), number_of(channel, "reference_node"),
-                  get(channel, "doubts")->child->valuestring);
+        page_says(html, "%s at node %.0f over node %.0f (FRAC ",
+                  strcmp(get(channel, "doubts")->child->valuestring, "dead") ? "" : "no signal",
+                  number_of(channel, "response_node"), number_of(channel, "reference_node"));
     }
     assert_true(channels >= 1);
     page_says(html, "%d of the modes and %d of the channels", doubtful, channels);

@@ -164,12 +164,13 @@ UNIT_TEST(an_adequate_model_and_a_fault_of_the_data_are_told_apart)
         }
     assert_true(percent < 50 && widest > 15);
     page_says(html, "class=\"answer care\"");
-    page_says(html, "Adequate, but what these data do not show may move %s by up to %.2g %%", text_of(fitted, "name"), percent);
+    page_says(html, "Adequate; effects below the detection limits may shift %s by up to %.2g %%", text_of(fitted, "name"),
+              percent);
     page_says(html, "<section id=\"verdict-parameters\">");
     page_says(html, "<section id=\"hidden\">");
     page_says(html, "The model explains the data within their noise");
     page_says(html, "Next: read the detection limits");
-    page_says(html, "Nothing promised enough to be fitted.");
+    page_says(html, "No cause was likely enough to be fitted.");
     assert_null(strstr(html, "<section id=\"findings\">"));
     const cJSON *size = element(json, "detectable", 0);
     page_says(html, "<section id=\"limits\">");

@@ -95,7 +95,7 @@ POOL_TEST(a_wrong_deck_fails_alone)
     assert_null(study.deck[0].error);
     assert_non_null(strstr(study.deck[1].error, "wrong.inp:1:1: *SHAFT has no NAME"));
     assert_non_null(strstr(study.deck[2].error, "missing.inp:1:1: cannot read"));
-    assert_non_null(strstr(study.deck[3].error, "names nothing to identify"));
+    assert_non_null(strstr(study.deck[3].error, "has no *IDENTIFY"));
     assert_int_equal(study.runs, 4);
     cJSON *result = bench_result(&study, 2);
     assert_string_equal(cJSON_GetObjectItem(result, "status")->valuestring, "failed");

@@ -536,7 +536,7 @@ UNIT_TEST(a_named_cause_is_read_from_top_to_bottom)
     assert_says("core.E             GPa        116.78  114.44  119.11      114.60      112.31      116.89        -1.9\n");
     assert_says("joint       core|right  flexibility  rad/(N.m)   6.4e-11         -         -\n");
     assert_says("added_mass              mass         kg             0.11      2.03       9.6\n");
-    assert_says("No size within physical bounds would show: stiffness of right");
+    assert_says("Not detectable at any physical size: stiffness of right");
     assert_silent("nan");
     assert_silent("modes held out by the deck");
     int lines = 0;
@@ -555,10 +555,10 @@ UNIT_TEST(the_parameters_stand_at_the_top)
     s.d.result.nhidden = 2;
     s.d.result.hidden = hidden;
     show(0, 100);
-    assert_order("PARAMETERS  extended model, 95 % intervals; unseen: shift by a cause below its detection limit",
+    assert_order("PARAMETERS  extended model, 95 % intervals; possible bias: shift by an effect this test cannot show",
                  "core.E     GPa   114.60      112.31      116.89\n"
-                 "    unseen: up to 2 % by added_mass at z 0.61 m (mass 0.28 kg)\n");
-    assert_says("    unseen: more than 50 % by tie_shear of ties\n");
+                 "    possible bias: up to 2 % by added_mass at z 0.61 m (mass 0.28 kg)\n");
+    assert_says("    possible bias: more than 50 % by tie_shear of ties\n");
     s.d.result.verdict.adequate_after = 0;
     show(0, 100);
     assert_silent("unseen");
@@ -623,7 +623,7 @@ UNIT_TEST(each_verdict_says_its_own)
     show(0, 100);
     assert_says("VERDICT  ADEQUATE");
     assert_says("adequate model): 0.37\n");
-    assert_says("QUALITY  of the base model; nothing is added to it");
+    assert_says("QUALITY  of the base model, without a cause");
     assert_silent("FIT AS SPECIFIED");
     assert_silent("->");
     assert_silent("force resid"); /* it is noise */

@@ -70,7 +70,7 @@ UNIT_TEST(identify_shows_measured_predicted_error_and_the_papers_own)
     (void)line_with("core.E     GPa   115.7");
     (void)line_with("core.E = 120 +- 60 GPa, core.G = 32 +- 23 GPa (95 %)\n");
     (void)line_with(WITH_NLOPT ? "NLopt (LN_BOBYQA, LN_SBPLX, LD_SLSQP) finds the same minimum\n"
-                               : "no minimiser beside it: this rotid is built without NLopt");
+                               : "no check by NLopt: this rotid is built without it");
     (void)line_with("the hybrid quotient equals the frequency of the condensed model");
     for (int k = 1; k <= 6; k++) {
         assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 0.006); /* the error is that of the two beside it */

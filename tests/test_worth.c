@@ -102,7 +102,7 @@ POOL_TEST(the_share_of_the_unknowns_is_that_of_the_machine)
     assert_string_equal(c->variance_shares[0].source, "identified");
     assert_close(s->speed_rpm, c->speed_rpm, 1e-6, 0);
     assert_close(s->speed_identified, c->variance_shares[0].share, 1e-3, 0);
-    assert_non_null(strstr(s->sentence, "a run-up (*RUNUP) could"));
+    assert_non_null(strstr(s->sentence, "a run-up (*RUNUP) does"));
     rotid_suggestion_free(s);
     rotid_speeds_free(speeds);
     rotid_deck_free(deck);

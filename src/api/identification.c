@@ -10,7 +10,7 @@ static rotid_identification *keep(struct call *call, rotid_identification *made)
     return CALL_KEEP(call, &identification_whole_record, made);
 }
 
-/* What may hide in the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
+/* Possible bias of the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
  * memory is out. */
 static int find_hidden(struct call *call, const struct states *states, const struct identification *found,
                        const rotid_fit_result *fit, rotid_identification *out)

@@ -120,8 +120,7 @@ int arguments_refuse(const struct command *command, const struct command_entry *
     else if (command->changed && !is_pair(command->changed))
         return arguments_wrong("--changed %s: expected BEFORE,AFTER, the names of two states of the deck", command->changed);
     else if (command->changed && command->extended)
-        return arguments_wrong("--extended %s does not go with --changed, which holds the model that it says nothing of",
-                               command->extended);
+        return arguments_wrong("--extended %s does not go with --changed, which does not determine the model", command->extended);
     return refused >= 0 ? refused : refuse_files(command);
 }
 

@@ -152,7 +152,7 @@ int command_judge_fit(struct command *command, const struct command_fit *fit, co
     int doubtful = fit->fit->n && (!fit->fit->converged || fit->fit->any_at_bound || fit->fit->any_undetermined);
     if (doubtful)
         message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
+                    "the identification is not reliable (not converged, at a bound or undetermined): see rotid identify");
     for (int i = 0; i < fit->count; i++)
         identify_warn_of_reduction(fit->state[i].job, &fit->state[i].identified, done, &command->messages);
     return doubtful ? EXIT_DOUBTFUL : EXIT_DONE;

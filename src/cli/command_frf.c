@@ -129,7 +129,7 @@ int command_frf(struct command *command)
     int code;
     if (command->output && command->read->nstate && !command->state) {
         message_add(&command->messages, SEVERITY_ERROR, "--output", 1, 1,
-                    "a universal file says nothing of states and the deck has %d, expected --state %s or another one beside it",
+                    "a universal file has no states and the deck has %d, expected --state %s or another one beside it",
                     command->read->nstate, command->read->state_name[0]);
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }

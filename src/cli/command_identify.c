@@ -20,7 +20,7 @@ static int show(struct command *command, rotid_identification *found)
     if (fit->status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted after %d iterations; the result is the best point so far\n", fit->iterations);
     } else if (command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted; the fit was complete, what comes after it is not\n");
+        terminal_say("rotid: interrupted; the fit is complete, the rest is not\n");
         code = EXIT_DOUBTFUL;
     }
     int written = command_write_csv(command, csv_identify_parts, found, code);
@@ -35,7 +35,7 @@ int command_identify(struct command *command)
     rotid_identification *found;
     if (!command->read->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
-                    "the deck names nothing to identify, expected a card *IDENTIFY");
+                    "the deck has no *IDENTIFY, expected the parameters to identify");
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }
     int refused = command_refuse_csv(command, csv_identify_parts);

@@ -13,7 +13,8 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
         return code;
     if (!s->ntests || !s->tests[0].cards) {
         terminal_say("rotid: %s is not written: %s\n", command->extended,
-                     s->ntests ? "no deck can say the first of the tests: name its supports" : "there is no test to propose");
+                     s->ntests ? "the first test cannot be written as a deck: give its supports names"
+                               : "there is no test to propose");
         return EXIT_DOUBTFUL;
     }
     int status = deck_propose(&command->pool, deck_states_of(command->read), s->state, &s->tests[0], &command->messages, &text);

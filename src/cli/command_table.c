@@ -14,7 +14,7 @@ const struct command_entry command_table[] = {
      "rotid sensitivity rotor.inp\n"
      "rotid sensitivity rotor.inp --at core.E=8e10,core.G --step 0.001",
      "inp", command_sensitivity, READS_DECK},
-    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it",
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, with NLopt as a check",
      "rotid identify rotor.inp\n"
      "rotid identify rotor.inp --set FIT.HOLDOUT=5,6 --json result.json",
      "inp", command_identify, READS_DECK},

@@ -110,7 +110,7 @@ int scan_solid(struct pool *pool, const struct states *states, const int *number
         if (!status && unknowns > MOST_UNKNOWNS) {
             if (notes)
                 message_add(notes, SEVERITY_NOTE, NULL, 0, 0,
-                            "the rotor as a solid has %d unknowns, too many to be a rival here (at most %d): see rotid modes "
+                            "the rotor as a solid has %d unknowns, too many to be tested here (at most %d): see rotid modes "
                             "--compare, and diagnose the deck with MODEL=SOLID on *FIT",
                             unknowns, MOST_UNKNOWNS);
             return ROTID_OK;

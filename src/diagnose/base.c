@@ -143,11 +143,11 @@ int base_note_reduction(struct engine *engine)
     double ratio = against_noise(engine->job, engine->number, s->reduction_error_percent, s->count, &at);
     if (!(ratio > 1))
         return ROTID_OK;
-    return add_numerical(engine, "guyan_reduction", s->count, s->reduction_error_percent,
-                         pool_format(engine->pool,
-                                     "the condensation onto %d masters moves mode %d by %+.2f %%, %.1f times its noise; the full "
-                                     "model is judged",
-                                     s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
+    return add_numerical(
+        engine, "guyan_reduction", s->count, s->reduction_error_percent,
+        pool_format(engine->pool,
+                    "the condensation onto %d masters moves mode %d by %+.2f %%, %.1f times its noise; the full model is used",
+                    s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
 }
 
 int base_identify(struct engine *engine, const struct states *states, struct message_list *notes, struct identification **each,
@@ -305,7 +305,7 @@ static int is_judgeable(struct engine *engine)
     if (engine->fit->dof >= 1)
         return ROTID_OK;
     message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
-                "%d residuals for %d parameters leave nothing to judge the model by, expected more modes or shapes",
+                "%d residuals for %d parameters leave no degree of freedom to test the model, expected more modes or shapes",
                 engine->fit->nresidual, engine->fit->n);
     return ROTID_ERROR_ARGUMENT;
 }
@@ -335,9 +335,9 @@ int base_prepare(struct engine *engine)
             status = add_numerical(
                 engine, "mesh", s->count, s->mesh_error_percent,
                 ratio > 1
-                    ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
+                    ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer mesh is used",
                                   at + 1, s->mesh_error_percent[at], ratio)
-                    : pool_format(engine->pool, "the mesh alone is worth %.2g of chi2; a finer one is judged", worth));
+                    : pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", worth));
         engine->job->rotor = finer.rotor;
         if (!status)
             status = fit_base(engine, 0);

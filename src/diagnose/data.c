@@ -214,8 +214,8 @@ static void judge_amount(struct engine *engine, int fitted)
     if (fitted < LEAST_MODES) {
         *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", fitted,
-                    fitted == 1 ? "" : "s", LEAST_MODES);
+                    "%d fitted mode%s are too few to name a cause, expected at least %d", fitted, fitted == 1 ? "" : "s",
+                    LEAST_MODES);
     }
     if (engine->out->result.noise.frequency_assumed) {
         *confident = 0;
@@ -276,10 +276,11 @@ int data_prepare(struct engine *engine, const struct states *states)
     }
     engine_look_at(engine, 0);
     if (!shapes && fitted <= nparameter) {
-        message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
-                    "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "
-                    "SHAPE=",
-                    fitted, fitted == 1 ? "frequency" : "frequencies", nparameter);
+        message_add(
+            engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
+            "%d %s for %d parameters leave no degree of freedom to test the model, expected more modes, or shapes with *NOISE, "
+            "SHAPE=",
+            fitted, fitted == 1 ? "frequency" : "frequencies", nparameter);
         return ROTID_ERROR_ARGUMENT;
     }
     judge_amount(engine, fitted);

@@ -144,7 +144,7 @@ static int suffices(const struct state *state, struct message_list *notes)
 static void leave_out_clash(struct job *job, int k, const char *name, struct message_list *notes)
 {
     message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                "measured mode %d of state %s at %.6g Hz looks like no mode of the model and is left out",
+                "measured mode %d of state %s at %.6g Hz has the shape of no mode of the model and is left out",
                 job->measurement.number[k], name, job->measurement.frequency_hz[k]);
     data_remove_mode(job, k);
 }

@@ -21,12 +21,11 @@ int pairing_drop(struct engine *engine, int k)
     }
     engine->dropped++;
     if (!status)
-        status =
-            data_add_pairing(engine, job->measurement.number[k], 0,
-                             pool_format(engine->pool,
-                                         "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the "
-                                         "shape that belongs to its number; it is left out",
-                                         job->measurement.number[k], job->measurement.frequency_hz[k]));
+        status = data_add_pairing(engine, job->measurement.number[k], 0,
+                                  pool_format(engine->pool,
+                                              "measured mode %d (%.6g Hz) has the shape of no mode of the model, and another one "
+                                              "has the shape of its number; it is left out",
+                                              job->measurement.number[k], job->measurement.frequency_hz[k]));
     if (!status)
         data_remove_mode(job, k);
     return status;
@@ -40,7 +39,7 @@ int pairing_note(struct engine *engine, const int *number)
             continue;
         int status = data_add_pairing(
             engine, number[k], engine->number[k],
-            pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
+            pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model and is paired with it",
                         number[k], job->measurement.frequency_hz[k], engine->number[k]));
         if (status)
             return status;
@@ -229,11 +228,11 @@ static int exchange(struct engine *engine, const struct round_result *result, co
     engine->number = best.number;
     engine->dropped = 0;
     take_back(engine);
-    return data_add_pairing(engine, best.number[at], best.number[at + 1],
-                            pool_format(engine->pool,
-                                        "the shapes of measured modes %d and %d (%.6g and %.6g Hz) stand under each other's "
-                                        "number; they are exchanged",
-                                        best.number[at], best.number[at + 1], best.frequency_hz[at], best.frequency_hz[at + 1]));
+    return data_add_pairing(
+        engine, best.number[at], best.number[at + 1],
+        pool_format(engine->pool,
+                    "the shapes of measured modes %d and %d (%.6g and %.6g Hz) have their numbers exchanged; they are put right",
+                    best.number[at], best.number[at + 1], best.frequency_hz[at], best.frequency_hz[at + 1]));
 }
 
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)

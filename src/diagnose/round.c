@@ -115,8 +115,9 @@ static int noise_settle(struct engine *engine, const struct posterior *p, int *c
     double factor = coloured ? shared : level;
     const char *text = pool_format(
         engine->pool,
-        coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
-                 : "the noise of the shapes is %.2f times the stated one, which is used",
+        coloured
+            ? "the noise of neighbouring sensors is correlated: its smooth part is %.2f times the stated level, which is used"
+            : "the noise of the shapes is %.2f times the stated one, which is used",
         factor);
     engine->coloured |= coloured;
     *changed = 1;

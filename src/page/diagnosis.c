@@ -45,10 +45,10 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
 {
     switch (d->verdict.kind) {
     case ROTID_ADEQUATE:
-        return *shifts ? pool_format(pool, "Adequate, but what these data do not show may move %s", shifts) : "Adequate";
+        return *shifts ? pool_format(pool, "Adequate; effects below the detection limits may shift %s", shifts) : "Adequate";
     case ROTID_NAMED:
-        return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "",
-                           shifts);
+        return pool_format(pool, "Named: %s%s%s", names(pool, d),
+                           *shifts ? "; effects below the detection limits may shift " : "", shifts);
     case ROTID_AMBIGUOUS:
         return pool_format(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
     case ROTID_UNEXPLAINED:
@@ -90,15 +90,16 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
     if (round && isfinite(d->verdict.p_value))
         reasons_add(reasons, TONE_NONE,
                     pool_format(pool,
-                                "A model that is right misses the measurement so far or further %s tests: the "
-                                "misfit \xcf\x87\xc2\xb2 is %s, where a right model has about %d.",
+                                "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, "
+                                "where a correct model has about %d.",
                                 words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
     if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
-        reasons_add(reasons, TONE_NONE,
-                    pool_format(pool,
-                                "No cause of the catalogue promises to lower it by more than %s; chance alone reaches %s in 3 of "
-                                "100 tests.",
-                                human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
+        reasons_add(
+            reasons, TONE_NONE,
+            pool_format(pool,
+                        "No cause of the catalogue is expected to lower it by more than %s; chance alone reaches %s in 3 of "
+                        "100 tests.",
+                        human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
     if (assumed)
         reasons_add(reasons, TONE_NONE,
                     "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
@@ -115,12 +116,12 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
         tried += d->candidates[i].refitted;
     for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
         reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "%s%s%s is there with %s %%.", plain_cause(pool, v->marginals[i].id),
+                    pool_format(pool, "%s%s%s: probability %s %%.", plain_cause(pool, v->marginals[i].id),
                                 *v->marginals[i].target ? " of " : "", v->marginals[i].target,
                                 human_digits(pool, 100 * v->marginals[i].probability, 3)));
     if (v->nexplanations && v->something_else > 0.01)
         reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "Something outside of the catalogue is there with %s %%.",
+                    pool_format(pool, "Probability of something outside of the catalogue: %s %%.",
                                 human_digits(pool, 100 * v->something_else, 2)));
     if (tried && v->kind != ROTID_ADEQUATE)
         reasons_add(reasons, TONE_NONE,
@@ -303,7 +304,7 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
                 : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
         number_column(table, "z", "m", SHOW_TRIMMED(3), hidden[i].z_m);
     }
-    document_section(document, "hidden", "What may hide in the parameters");
+    document_section(document, "hidden", "Possible bias of the parameters");
     document_paragraph(
         document, "The model explains the measurement, and so would a model with one of these causes in it, of a size below its "
                   "detection limit. The fit without the cause moves the parameter as far as this. The size is the smallest "
@@ -332,11 +333,11 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     if (!v->nexplanations)
         return;
     document_section(document, "explanations", "Explanations");
-    document_paragraph(document,
-                       "Before the data were seen, nothing was wrong with %s %%; after them with %s %%. Something outside of the "
-                       "catalogue: %s %%.",
-                       human_digits(document->pool, 100 * v->nothing_prior, 2), human_digits(document->pool, 100 * v->nothing, 2),
-                       human_digits(document->pool, 100 * v->something_else, 2));
+    document_paragraph(
+        document,
+        "Probability that nothing is wrong: %s %% before the data, %s %% after. Something outside of the catalogue: %s %%.",
+        human_digits(document->pool, 100 * v->nothing_prior, 2), human_digits(document->pool, 100 * v->nothing, 2),
+        human_digits(document->pool, 100 * v->something_else, 2));
     document_table(document, table_of_explanations(document->pool, d, 1));
 }
 
@@ -358,7 +359,7 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
                            isfinite(round->threshold) ? human_digits(pool, round->threshold, 3) : "",
                            isfinite(round->threshold) ? " in 3 of 100 tests" : "");
         if (!fitted) {
-            document_paragraph(document, "Nothing promised enough to be fitted.");
+            document_paragraph(document, "No cause was likely enough to be fitted.");
             continue;
         }
         struct table *table = table_of_candidates(pool, d, i, 1);

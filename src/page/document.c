@@ -199,7 +199,7 @@ static void write_head(FILE *out, const struct document *document)
 static void write_answer(FILE *out, const struct document *document, const struct answer *answer)
 {
     static const char *const words[] = {"plain", "good", "care", "bad"};
-    static const char *const says[] = {NULL, "Can be relied on", "To be used with care", "Not to be relied on as it stands"};
+    static const char *const says[] = {NULL, "Can be relied on", "To be used with care", "Not reliable"};
     const char *headline = answer->headline ? answer->headline : says[answer->tone];
     (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer%s", words[answer->tone], answer->of ? ": " : "");
     html_text(out, answer->of ? answer->of : "");

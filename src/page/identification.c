@@ -90,7 +90,7 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
             pool_format(
                 pool,
                 "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
-                "model lacks something, and its parameters have absorbed it. rotid diagnose %s looks for the cause.",
+                "model lacks something, and its parameters are biased by that. rotid diagnose %s looks for the cause.",
                 human_digits(pool, sqrt(fit->chi2_per_dof), 2), human_digits(pool, fit->chi2, 3), fit->dof, deck));
     else
         reasons_add(reasons, TONE_GOOD,
@@ -196,9 +196,8 @@ void answer_identify(struct document *document, const struct result *result)
     document->now.text = values(pool, fit);
     document->now.tone = reasons_of(pool, result).tone;
     if (document->now.tone == TONE_GOOD)
-        document->now.headline = *shifts
-                                     ? pool_format(pool, "Can be relied on, but what these data do not show may move %s", shifts)
-                                     : "Can be relied on as far as the model is right";
+        document->now.headline = *shifts ? pool_format(pool, "Reliable; effects below the detection limits may shift %s", shifts)
+                                         : "Reliable if the model is right";
     for (int p = 0; p < fit->nparameters && p < TILES_MOST - 3; p++)
         tile_parameter(document, &fit->parameters[p],
                        fit->parameters[p].at_bound        ? "at its bound"

@@ -125,7 +125,7 @@ void answer_ema(struct document *document, const struct result *result)
                     ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
                     doubtful ? or_nothing(pool_format(pool, "%d of the modes and %d of the channels %s doubtful, see below.",
                                                       modes, channels, modes + channels == 1 ? "is" : "are"))
-                             : "Nothing about the modes and the channels looks doubtful.");
+                             : "No mode and no channel is doubtful.");
     for (int k = 0; k < ema->nmodes && k < TILES_MOST; k++)
         document_tile(document, pool_format(pool, "mode %d [Hz]", ema->modes[k].mode),
                       human_digits(pool, ema->modes[k].frequency_hz, 6),
@@ -160,8 +160,8 @@ void section_ema(struct document *document, const struct result *result)
     if (!ema->ncurves)
         return;
     document_section(document, "functions", "Measured and synthesised functions");
-    document_paragraph(document, "Synthesised is what the modes make of a function, with a term for what lies below and one for "
-                                 "what lies above the band. FRAC is 1 where both are the same but for a factor.");
+    document_paragraph(document, "Synthesised: the modes of the result, with one term for the modes below and one for those "
+                                 "above the band. FRAC is 1 where both are the same but for a factor.");
     document_figures(document, "ema-functions");
 }
 

@@ -73,8 +73,9 @@ void answer_study(struct document *document, const struct result *result)
         text = pool_format(pool, "%s Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", text, sum.intervals,
                            human_fixed(pool, 100 * sum.held / sum.intervals, 1));
     if (sum.scored > 0 && text)
-        text = pool_format(pool, "%s Of %.0f diagnoses %.0f are right, in the set, or rightly quiet; %.0f name something else.",
-                           text, sum.scored, sum.good, sum.false_alarm);
+        text = pool_format(
+            pool, "%s Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
+            text, sum.scored, sum.good, sum.false_alarm);
     if (s->plan)
         document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan));
     document->now.tone = s->done < s->runs || s->failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;

@@ -157,8 +157,8 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
         if (strcmp(hidden->parameter, p->name) != 0)
             continue;
         text = pool_format(pool, "%s%s %s by %s%s%s", text,
-                           *text ? ";" : "unseen:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure), hidden->id,
-                           before_target(hidden->target), hidden->target);
+                           *text ? ";" : "possible bias:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure),
+                           hidden->id, before_target(hidden->target), hidden->target);
         if (isfinite(hidden->z_m) && text)
             text = pool_format(pool, "%s at z %s", text, human_value(pool, hidden->z_m, "m"));
         if (strcmp(hidden->component, "presence") != 0 && text)
@@ -315,7 +315,7 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
         const rotid_detectable *d = &list[i];
         double neutral = falls_from(d->id), shown = isfinite(neutral) ? neutral - d->smallest : d->smallest;
         if (d->beyond || !isfinite(d->smallest)) {
-            beyond = pool_format(pool, "%s%s %s%s%s", beyond, *beyond ? ";" : "No size within physical bounds would show:", d->id,
+            beyond = pool_format(pool, "%s%s %s%s%s", beyond, *beyond ? ";" : "Not detectable at any physical size:", d->id,
                                  before_target(d->target), d->target);
             continue;
         }
@@ -447,7 +447,7 @@ static void print_misfit(const struct screen *to, const rotid_diagnosis *d)
     if (!base)
         return;
     if (d->before)
-        (void)fprintf(to->out, "\nWHAT CHANGED  %s beside the model that fits %s, less what that misses there", d->after,
+        (void)fprintf(to->out, "\nWHAT CHANGED  %s against the model fitted to %s, less its residuals there", d->after,
                       d->before);
     else
         (void)fprintf(to->out, "\nWHAT IS WRONG  full model, likelihood");
@@ -511,7 +511,7 @@ static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
         return;
     (void)fprintf(to->out, "\nPARAMETERS  %s, 95 %% intervals%s\n", d->extended ? "extended model" : "model of the deck",
                   d->nhidden && (v->kind == ROTID_ADEQUATE || v->adequate_after)
-                      ? "; unseen: shift by a cause below its detection limit"
+                      ? "; possible bias: shift by an effect this test cannot show"
                       : "");
     struct table *table = table_of_verdict_values(to->pool, d, to->verbose);
     if (table)
@@ -594,7 +594,7 @@ static void print_today(const struct screen *to, const rotid_diagnosis *d)
         return;
     int as_judged = !strcmp(fit->functional, "LIKELIHOOD") && !strcmp(fit->reduction, "NONE");
     (void)fprintf(to->out, "\nFIT AS SPECIFIED  %s, reduction %s: %s\n", fit->functional, fit->reduction,
-                  as_judged ? "as it is judged below" : "what that choice alone costs");
+                  as_judged ? "as it is tested below" : "the error of that choice");
     for (int i = 0; i < fit->nparameters; i++) {
         const rotid_fitted_parameter *p = &fit->parameters[i];
         const struct human_unit unit = human_unit(p->value, p->unit);
@@ -617,7 +617,7 @@ static void print_today(const struct screen *to, const rotid_diagnosis *d)
 static void print_numerical(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->nnumerical_findings)
-        (void)fprintf(to->out, "\nNUMBERS  errors of the numbers themselves; the model that is judged is free of them\n");
+        (void)fprintf(to->out, "\nNUMBERS  numerical errors, removed from the model that is tested\n");
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *finding = &d->numerical_findings[i];
         struct wrap wrap;
@@ -636,7 +636,7 @@ static void print_numerical(const struct screen *to, const rotid_diagnosis *d)
 static void print_data(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->ndata_findings)
-        (void)fprintf(to->out, "\nDATA  faults of the measurement, taken out before the physics is judged\n");
+        (void)fprintf(to->out, "\nDATA  faults of the measurement, removed before causes are sought\n");
     for (int i = 0; i < d->ndata_findings; i++) {
         const rotid_data_finding *finding = &d->data_findings[i];
         const struct human_unit unit = human_unit(finding->value, finding->unit);
@@ -709,7 +709,7 @@ static void print_gain(const struct screen *to, const rotid_diagnosis *d)
     if (!d->base || !d->verdict.sentence) /* interrupted before it was measured */
         return;
     (void)fprintf(to->out, "\n%s\n",
-                  d->extended ? "GAIN  base model -> extended model" : "QUALITY  of the base model; nothing is added to it");
+                  d->extended ? "GAIN  base model -> extended model" : "QUALITY  of the base model, without a cause");
     struct table *quality = table_of_quality(to->pool, d);
     if (quality)
         quality->caption = "";
@@ -725,8 +725,7 @@ static void print_gain(const struct screen *to, const rotid_diagnosis *d)
 static void print_detection_limits(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->ndetectable)
-        (void)fprintf(to->out,
-                      "\nDETECTION LIMITS  smallest change that shows (9 times in 10, false alarm 3 %%); less stays hidden\n");
+        (void)fprintf(to->out, "\nDETECTION LIMITS  smallest effect that is detected (9 tests in 10, false alarms 3 %%)\n");
     table_write_text(to->out, table_of_detectable(to->pool, d->ndetectable, d->detectable, ""), to->width);
 }
 

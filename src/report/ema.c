@@ -70,6 +70,9 @@ static const char *doubts_in_words(struct pool *pool, int doubts, const char *co
 
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count)
 {
+    static const char *const said[] = {
+        "no signal",     "duplicate", "noise", "residual above noise", "values not finite, left out",
+        "low coherence", NULL}; /* ema_channel_doubts */
     const char **text = POOL_ARRAY(pool, const char *, ema->nmodes + ema->nchannels + 1);
     *count = 0;
     for (int k = 0; k < ema->nmodes && text; k++) {
@@ -83,11 +86,11 @@ const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *co
     for (int c = 0; c < ema->nchannels && text; c++) {
         const struct ema_channel_result *of = &ema->channels[c];
         if (of->doubts)
-            text[(*count)++] = pool_format(pool, "node %d over node %d: %s; FRAC %s", of->response_node, of->reference_node,
-                                           doubts_in_words(pool, of->doubts, ema_channel_doubts), human_fixed(pool, of->frac, 3));
+            text[(*count)++] = pool_format(pool, "%s at node %d over node %d (FRAC %s)", doubts_in_words(pool, of->doubts, said),
+                                           of->response_node, of->reference_node, human_fixed(pool, of->frac, 4));
     }
     if (text && !*count && ema->nmodes)
-        text[(*count)++] = "Nothing about the modes and the channels looks doubtful.";
+        text[(*count)++] = "No mode and no channel is doubtful.";
     for (int i = 0; i < *count; i++)
         text[i] = text[i] ? text[i] : "";
     return text;

@@ -183,13 +183,12 @@ static void print_intervals(const struct screen *to, const struct result_head *h
     if (wide > 1 && fit_is_inadequate(fit))
         screen_say(to, "the misfit is %.3g times the stated noise: the intervals are widened by that", wide);
     else if (wide > 1) /* half of all adequate models have a misfit above the noise */
-        screen_say(
-            to,
-            "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone does as much in %.0f %% "
-            "of such tests",
-            wide, 100 * fit_p_value(fit));
+        screen_say(to,
+                   "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone causes as much in "
+                   "%.0f %% of tests",
+                   wide, 100 * fit_p_value(fit));
     if (fit_is_inadequate(fit)) {
-        (void)fputs("the model is not adequate for these data: its parameters have absorbed what it lacks; rotid diagnose ", out);
+        (void)fputs("the model is not adequate for these data: its parameters are biased by what it lacks; rotid diagnose ", out);
         name_cell(out, 0, head->deck ? head->deck : "DECK");
         (void)fputs(" looks for the cause\n", out);
     }
@@ -206,7 +205,7 @@ static void print_hidden(const struct screen *to, const rotid_identification *fi
         if (!hidden)
             continue;
         if (!shown++)
-            wrap_open(&wrap, to->out, 2, to->width, "a cause that these data would not show may move ");
+            wrap_open(&wrap, to->out, 2, to->width, "possible bias by a cause below its detection limit: ");
         wrap_item(&wrap, "%s%s by %s", shown > 1 ? ", " : "", value->name,
                   linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
         wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);
@@ -267,7 +266,7 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     if (*beside)
         screen_say(to, "%s", beside);
     else if (baseline && !fit->nlopt)
-        (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
+        (void)fprintf(out, "\nno check by NLopt: this rotid is built without it (WITH_NLOPT=0)\n");
     if (to->verbose)
         screen_table(to, table_of_history(to->pool, fit));
     for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {

@@ -201,9 +201,9 @@ void screen_speeds(const struct screen *to, const struct result *result)
             screen_say(to, "%s", text);
     }
     if (isfinite(s->stability.onset_rpm))
-        screen_say(to, "Mode %d grows from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
+        screen_say(to, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
     else if (s->ncampbell)
-        screen_say(to, "No mode grows up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
+        screen_say(to, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));

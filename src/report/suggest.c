@@ -92,7 +92,7 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
     if (table && s->ntests)
         table->note =
             pool_format(pool,
-                        "First what lowers the entropy of the shares of the rivals most (now %.2f); %s is known best after test "
+                        "Sorted by how far the entropy of the shares of the rivals falls (now %.2f); %s is known best after test "
                         "%d. +-: half of the 95 %% interval, averaged over the rivals; margin: lead of rival 1 that is expected, "
                         "were it true, over the closest other one; a set-up costs as much as %g points.",
                         s->entropy, s->nparameters ? s->parameters[0].name : "nothing", narrow + 1, s->set_up_cost);

@@ -213,7 +213,7 @@ static void say_why_not(const struct job *fitted, const rotid_fit_result *fit, s
                     fitted->measurement.nmode, fitted->unknowns.bounds[at].name, fit->x[at] / fitted->unknowns.bounds[at].start);
     else
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "what a beam would find cannot be said: %d frequencies of the solid do not determine %d moduli",
+                    "the moduli of an equivalent beam are not determined: %d frequencies of the solid for %d moduli",
                     fitted->measurement.nmode, fitted->unknowns.nparameter);
 }
 

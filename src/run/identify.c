@@ -424,7 +424,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
     for (int s = 0, paired_anew = 0; s < count; s++)
         if (pairs_moved(&run[s]) && !paired_anew++)
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                        "the pairing of the modes still changes with the fitted model: do not trust this result");
+                        "the pairing of the modes still changes with the fitted model: the result is not reliable");
     for (int s = 0; s < count; s++) {
         const struct job *job = &run[s].state->job;
         run[s].out->shapes_fitted = uses_shapes(job) && !(job->options.fit.functional != ROTID_LIKELIHOOD &&

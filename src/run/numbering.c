@@ -136,8 +136,7 @@ const char *numbering_text(struct pool *pool, const struct states *states, const
                ? pool_format(pool, "from measured mode %d (%.6g Hz)%s on the numbers are %d too low: modes were missed below it",
                              measured->number[r->from], measured->frequency_hz[r->from], of, r->shift)
            : r->shift < 0
-               ? pool_format(pool, "the numbers of all modes%s are %d too high, as where modes of the rigid body are counted", of,
-                             -r->shift)
+               ? pool_format(pool, "the numbers of all modes%s are %d too high: rigid-body modes were counted", of, -r->shift)
                : pool_format(pool, "the numbers of all modes%s are %d too low: the lowest modes were missed", of, r->shift);
 }
 

@@ -209,8 +209,8 @@ static const char *conclude(struct pool *pool, const rotid_suggestion *s, const 
         return pool_format(pool, "No test at rest of these determines what %s depends on.", what);
     if (s->speed_identified < HARDLY)
         return pool_format(pool,
-                           "%.0f %% of the variance of %s, %.0f rpm, is of bearings, losses and pull: no test at rest takes that "
-                           "away, a run-up (*RUNUP) could.",
+                           "%.0f %% of the variance of %s, %.0f rpm, comes from bearings, losses and pull: no test at rest "
+                           "reduces it, a run-up (*RUNUP) does.",
                            100 * (1 - s->speed_identified), what, s->speed_rpm);
     return pool_format(pool, "Measure %s: the standard deviation of %s, %.0f rpm, is then expected to be %.3g rpm%s.", best->test,
                        what, s->speed_rpm, best->std_rpm,
@@ -238,7 +238,7 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
     int status = w.gradient && w.known && w.information && w.work && what ? machine_nominal(pool, machine, x, &search.values)
                                                                           : ROTID_ERROR_MEMORY;
     if (!status && !w.at_rest) {
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "nothing is to be identified at rest, expected *IDENTIFY");
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no *IDENTIFY of the rotor at rest, expected one");
         status = ROTID_ERROR_ARGUMENT;
     }
     if (!status)

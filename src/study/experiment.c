@@ -423,7 +423,7 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
     draw_values(study, replicate, truth);
     int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
     if (status == ROTID_ERROR_ARGUMENT)
-        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift puts the sensor onto another one");
     for (int k = 0; k < job->measurement.nmode; k++)
         highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     if (!status)

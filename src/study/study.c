@@ -287,7 +287,7 @@ static void check_states(const struct plan *plan, const struct states *states, s
             message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
                         states->nstate > 1 ? " in state " : "", states->nstate > 1 ? states->state[s].name : "");
     if (!states->nparameter && plan->command == PLAN_IDENTIFY)
-        message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
+        message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck has no *IDENTIFY, expected the parameters to identify");
 }
 
 static int check_deck(struct checker *c, int d)

@@ -438,7 +438,7 @@ static const char *needed(struct pool *pool, const rotid_suggestion *r)
     if (r->sensors_needed != ROTID_NONE)
         return pool_format(pool, "%d modes with shapes at the %d best points determine all parameters to %g %%", r->plan_modes,
                            r->sensors_needed, r->wanted_percent);
-    return pool_format(pool, "no number of modes and sensors that was tried determines all parameters to %g %%: less noise would",
+    return pool_format(pool, "no number of modes and sensors that was tried determines all parameters to %g %%: reduce the noise",
                        r->wanted_percent);
 }
 
@@ -489,9 +489,9 @@ static const char *advice_sentence(struct pool *pool, const struct suggestion *s
     if (r->ntests)
         return tests(pool, s);
     const char *more = plan(pool, r);
-    const char *open = s->rivals.left_out ? "What is open is no matter of causes that a test of this kind tells apart"
+    const char *open = s->rivals.left_out ? "No test of this kind distinguishes the explanations that are left"
                        : s->found.result.verdict.kind == ROTID_UNEXPLAINED
-                           ? "No cause of the catalogue explains the data, so no test can be chosen to tell causes apart"
+                           ? "No cause of the catalogue explains the data: there are no causes to distinguish by a test"
                            : "The diagnosis is settled: no cause is left to distinguish";
     return more ? pool_format(pool, "%s. %s", open, more) : NULL;
 }
@@ -697,7 +697,7 @@ int suggest_states(struct pool *pool, const struct states *states, const rotid_s
     *out = (struct suggestion){.result = {.noise = {.frequency = NAN, .shape = NAN}}};
     if (!status && !states->nparameter && !states_modes(states, states->nstate)) {
         message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1,
-                    "the deck asks for nothing, expected *IDENTIFY with the parameters that a test is to determine");
+                    "the deck has no *IDENTIFY, expected the parameters that a test is to determine");
         return ROTID_ERROR_ARGUMENT;
     }
     for (; begun < states->nstate && !status; begun++) {

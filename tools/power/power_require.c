@@ -42,7 +42,7 @@ static const struct {
     int bad;
     double least, most;
 } table[LINES] = {
-    [FALSE_ALARM] = {"nothing hidden: reported all the same", 1, 0.01, 0.05},
+    [FALSE_ALARM] = {"nothing hidden: false alarms", 1, 0.01, 0.05},
     [WRONG_NAME] = {"one effect or fault worth 30: wrong name", 1, 0, 0.005},
     [NAMED] = {"one effect worth 150: named, and it alone", 0, 0.95, 1},
     [PAIR_BOTH] = {"two effects worth 150 each: both named", 0, 0.70, 1},

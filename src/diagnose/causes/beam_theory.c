@@ -1,5 +1,5 @@
-/* The rotor is no beam: a step of the diameter, which a beam cannot know, a short section, a section that warps. It acts on no
- * hook and has no parameter: the remedy is the same rotor as a solid, with what is identified fitted anew. */
+/* The rotor is no beam: a step of the diameter, at which beam theory is too stiff, a short section, a section that warps. It acts
+ * on no hook and has no parameter: the remedy is the same rotor as a solid, with what is identified fitted anew. */
 #include "diagnose/causes/causes.h"
 
 static const struct effect_kind kind = {.id = "beam_theory"};
