@@ -67,7 +67,8 @@ static int pair_beside(struct engine *engine, const struct refit *refit, const s
     job.measurement = *measured;
     *pairing = (struct pairing){.rate = INFINITY};
     int status = spectrum_compute_parts(engine->pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter,
-                                        refit->fit->x, ROTID_GUYAN, comparison_candidates(&job), SPECTRUM_MASS, &spectrum);
+                                        refit->fit->x, ROTID_GUYAN, comparison_candidates(&job),
+                                        SPECTRUM_MASS | (job.options.solid ? SPECTRUM_COARSE : 0), &spectrum);
     if (!status)
         status = comparison_make(engine->pool, &job, &spectrum, &quiet, &compared);
     int same = !status && measured->nmode == engine->job->measurement.nmode &&
