@@ -686,11 +686,11 @@ int finalise(struct engine *engine, const struct round_result *last);
 int hidden_shifts(struct engine *engine, const struct round_result *last);
 
 /* The same of a fit that no diagnosis made: of the states, whose noise is stated, at the values of their unknowns in `fit`, the
- * full model by the likelihood; number of all modes as paired by that fit. The threshold of the scan is extrapolated from few
- * replicates.
+ * full model by the likelihood; found [nstate] and number of all modes as paired: what that fit gave. A solid is scanned on its
+ * coarse mesh, held by the spectrum of `found`. The threshold of the scan is extrapolated from few replicates.
  * list [*n] on the pool; none where there is nothing to judge by. Statuses of scan_run and bootstrap_run. */
-int hidden_of_fit(struct pool *pool, const struct states *states, const int *number, const rotid_fit_result *fit,
-                  const rotid_environment *environment, int *n, rotid_hidden **list);
+int hidden_of_fit(struct pool *pool, const struct states *states, const struct identification *found, const int *number,
+                  const rotid_fit_result *fit, const rotid_environment *environment, int *n, rotid_hidden **list);
 
 /* ----------------------------------------------------------------------------------------------------------------- items */
 

@@ -102,8 +102,29 @@ int hidden_shifts(struct engine *engine, const struct round_result *last)
     return fill(&from, &out->nhidden, &out->hidden);
 }
 
-int hidden_of_fit(struct pool *pool, const struct states *states, const int *number, const rotid_fit_result *fit,
-                  const rotid_environment *environment, int *n, rotid_hidden **list)
+/* The scan of a solid on its coarse mesh, which the fit has held to the one that counts. */
+static int scan_fit(struct pool *pool, const struct states *given, const struct identification *found, const int *number,
+                    const int *holdout, const double *x, struct scan *scan)
+{
+    struct states states;
+    int begun = 0, status = states_copy(pool, given, &states);
+    for (double moved; begun < states.nstate && !status; begun++) {
+        struct job *job = &states.state[begun].job;
+        job->models = models_for_run(pool, job->models);
+        status = !job->models         ? ROTID_ERROR_MEMORY
+                 : job->options.solid ? mesh_hold(pool, job, &found[begun].spectrum, &moved)
+                                      : ROTID_OK;
+    }
+    if (!status)
+        status = scan_run(pool, &states, number, holdout, x, scan);
+    for (int s = 0; s < begun; s++)
+        if (states.state[s].job.models)
+            models_end_run(pool, states.state[s].job.models, given->state[s].job.models);
+    return status;
+}
+
+int hidden_of_fit(struct pool *pool, const struct states *states, const struct identification *found, const int *number,
+                  const rotid_fit_result *fit, const rotid_environment *environment, int *n, rotid_hidden **list)
 {
     struct scan scan = {0};
     struct bootstrap bootstrap = {0};
@@ -114,7 +135,7 @@ int hidden_of_fit(struct pool *pool, const struct states *states, const int *num
     for (int s = 0, at = 0; s < states->nstate; s++)
         for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++)
             holdout[at] = states->state[s].job.measurement.holdout && states->state[s].job.measurement.holdout[k];
-    int status = scan_run(pool, states, number, holdout, fit->x, &scan);
+    int status = scan_fit(pool, states, found, number, holdout, fit->x, &scan);
     if (status || scan.dof < 1 || !scan.nitem)
         return status;
     status = bootstrap_run(pool, &scan, REPLICATES, 1, 1, environment, &bootstrap);
