@@ -182,8 +182,8 @@ static void mutate(const cJSON *root, cJSON *at, int depth)
 static void shorten(cJSON *at)
 {
     for (cJSON *item = at->child; item; item = item->next) {
-        while (cJSON_IsArray(item) && cJSON_GetArraySize(item) > 8)
-            cJSON_DeleteItemFromArray(item, 8);
+        while (cJSON_IsArray(item) && cJSON_GetArraySize(item) > 3)
+            cJSON_DeleteItemFromArray(item, 3);
         shorten(item);
     }
 }
