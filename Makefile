@@ -13,7 +13,7 @@
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
 #   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
-#   make check-solid3d   solids by CalculiX (calculix-ccx) beside rotid modes with MODEL=SOLID
+#   make check-solid3d   solids by CalculiX (calculix-ccx) beside rotid modes with MODEL=SOLID, and one in rotation beside rotid speeds
 #   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
@@ -333,6 +333,7 @@ check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && ec
 .PHONY: check-solid3d
 check-solid3d: all
 	@$(PYTHON) tools/solid3d/check.py $(BUILD)/rotid
+	@$(PYTHON) tools/solid3d/rotation.py $(BUILD)/rotid
 
 # Effects hidden in solids by elements that share nothing with src, and what becomes of them; POWER as above, such as "--cases 60
 # --seed 2". NumPy and SciPy go into the build folder, which needs the network once.

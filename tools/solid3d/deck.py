@@ -116,6 +116,7 @@ def read(path):
     """Deck of a file. Layers and springs come last: they name groups that may follow them."""
     deck, name = Deck(), None
     found = cards(path)
+    found = found[:next((i for i, c in enumerate(found) if c[1] == "RUNNING"), len(found))]  # what follows is the machine in operation
     for number, card, options, lines in sorted(found, key=lambda c: (c[1] in ("LAYER", "SPRING"), c[0])):
         if card not in KNOWN | OTHER:
             raise DeckError(f"{path}:{number}: *{card} is not supported by a solid of bricks")
