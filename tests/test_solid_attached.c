@@ -356,7 +356,7 @@ POOL_TEST(what_has_no_meaning_is_refused_with_its_place)
     assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, NULL, 1, &solid, &failed), ROTID_ERROR_SECTION);
     assert_int_equal(failed, 2);
     slender(&b, 1);
-    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 2e-4, 0}, 1, &solid, &failed),
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){.largest = 2e-4}, 1, &solid, &failed),
                   ROTID_ERROR_SECTION);
     assert_int_equal(failed, 1);
 }

@@ -50,12 +50,12 @@ POOL_TEST(errors_at_a_corner_fall_as_its_singularity_says)
     double hz[3], least;
     rig_two_steps(&b);
     for (int i = 0; i < 3; i++)
-        rig_solid(&b.rotor, &(struct solid_rule){0.008 / (1 << i), 0.025, 1}, 1, 2, 1, &hz[i]);
+        rig_solid(&b.rotor, &(struct solid_rule){.corner = 0.008 / (1 << i), .largest = 0.025, .straight = 1}, 1, 2, 1, &hz[i]);
     double order = log2((hz[0] - hz[1]) / (hz[1] - hz[2]));
     print_message("order at a corner %.3f\n", order);
     assert_close(order, 1.089, 0.06, 0);
     /* nodes at the quarter: less than half of that error on the same lines */
-    rig_solid(&b.rotor, &(struct solid_rule){0.008, 0.025, 0}, 1, 2, 1, &least);
+    rig_solid(&b.rotor, &(struct solid_rule){.corner = 0.008, .largest = 0.025}, 1, 2, 1, &least);
     double truth = limit(719.886, 719.707);
     print_message("straight %.3f, quarter %.3f, truth %.3f\n", hz[0], least, truth);
     assert_true(fabs(least - truth) < 0.5 * fabs(hz[0] - truth));
@@ -68,7 +68,7 @@ POOL_TEST(errors_of_a_smooth_rotor_fall_with_the_fourth_power)
     rig_begin(&b, 1);
     rig_section(&b, 0, 0.8, 0.2);
     for (int i = 0; i < 3; i++)
-        rig_solid(&b.rotor, &(struct solid_rule){0, 0.05 / (1 << i), 0}, 1, 2, 3, hz[i]);
+        rig_solid(&b.rotor, &(struct solid_rule){.largest = 0.05 / (1 << i)}, 1, 2, 3, hz[i]);
     for (int j = 0; j < 3; j++) {
         double order = log2((hz[0][j] - hz[1][j]) / (hz[1][j] - hz[2][j]));
         print_message("order of mode %d: %.3f\n", j + 1, order);
@@ -225,7 +225,7 @@ POOL_TEST(a_cylinder_between_held_ends_bends_in_exact_waves)
     int failed;
     rig_begin(&b, 1);
     rig_section(&b, 0, length, 2 * a);
-    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 0.02, 0}, 1, &solid, &failed), ROTID_OK);
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){.largest = 0.02}, 1, &solid, &failed), ROTID_OK);
     const struct solid_mesh *mesh = &solid.mesh;
     assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &k), ROTID_OK);
     assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &m), ROTID_OK);

@@ -2,11 +2,6 @@
 #include "beam/beam.h"
 #include "linalg/linalg.h"
 
-/* c and j of beam.h of an element, and its length; as a direction: their derivatives */
-struct bar {
-    double stiffness, mass, length;
-};
-
 static void add_between(rotid_matrix *a, int first, int second, const double *e)
 {
     const int dof[2] = {first, second};
@@ -97,49 +92,12 @@ static struct bar axis_direction_of(const struct beam *beam, struct parameter pa
     return d;
 }
 
-/* A bundle between its ends, from its modulus E, the shear modulus, the tension of a rod and its density, which may be
- * derivatives of these. */
-static struct bar bundle(const struct beam *beam, const struct tierod *rod, double length, double e, double g, double tension,
-                         double rho)
+static struct bar tierod_bar(const struct beam *beam, int i, const struct parameter *by)
 {
-    double area, own, pitch, radius = rod->pitch;
-    section_rods(rod->number, rod->diameter, radius, &area, &own, &pitch);
-    if (beam->type == MODE_AXIAL)
-        return (struct bar){e * area, rho * area, length};
-    double pulled = beam->elastic_only ? 0 : rod->number * tension * radius * radius;
-    return (struct bar){2 * g * own + pulled + 12 * e * own * radius * radius / (length * length),
-                        rho * (2 * own + area * radius * radius), length};
-}
-
-static struct bar tierod_bar(const struct beam *beam, int i)
-{
-    const struct tierod *rod = &beam->rotor.tierod[i];
     const struct chain *chain = &beam->mesh.tierod[i];
-    const struct effect_bundle f = effects_on_tierod(&beam->rotor, i);
-    return bundle(beam, rod, beam->mesh.z[chain->last_end] - beam->mesh.z[chain->first_end], rod->material.e * f.young,
-                  material_shear_modulus(&rod->material) * f.young, rod->tension * f.tension, rod->material.rho);
-}
-
-static struct bar tierod_direction_of(const struct beam *beam, struct parameter parameter, int i)
-{
-    const struct tierod *rod = &beam->rotor.tierod[i];
-    struct effect_bundle f = effects_on_tierod(&beam->rotor, i), rate = {0, 0, 0};
-    double length = tierod_bar(beam, i).length, shear = material_shear_modulus(&rod->material);
-    if (parameter.kind == PARAMETER_EFFECT) {
-        if (!effects_tierod_derivative(&beam->rotor, parameter, i, &rate))
-            return (struct bar){0, 0, length};
-        return bundle(beam, rod, length, rod->material.e * rate.young, shear * rate.young, rod->tension * rate.tension, 0);
-    }
-    if (parameter.kind == PARAMETER_TIEROD_E && parameter.index == i)
-        return bundle(beam, rod, length, f.young, rod->material.isotropic ? shear / rod->material.e * f.young : 0, 0, 0);
-    return bundle(beam, rod, length, 0, 0, parameter.kind == PARAMETER_TENSION && parameter.index == i ? f.tension : 0, 0);
-}
-
-static double bars_inertia(const struct beam *beam, const struct bars *bars)
-{
-    double area, own, pitch;
-    section_rods(bars->number, bars->diameter, bars->pitch, &area, &own, &pitch);
-    return bars->material.rho * bars->length * (beam->type == MODE_TORSION ? 2 * own + area * bars->pitch * bars->pitch : area);
+    double length = beam->mesh.z[chain->last_end] - beam->mesh.z[chain->first_end];
+    return by ? bundle_of_tierod_by(&beam->rotor, beam->type, beam->elastic_only, i, length, *by)
+              : bundle_of_tierod(&beam->rotor, beam->type, beam->elastic_only, i, length);
 }
 
 /* What a mass of an effect adds to its element: as a ring of the surface, like that of a solid */
@@ -210,12 +168,12 @@ void bar_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_mat
         add_bar(&bar, mesh->z[e + 1] - mesh->z[e], e, e + 1, k, m);
     }
     for (int i = 0; i < rotor->ntierod; i++) {
-        struct bar bar = tierod_bar(beam, i);
+        struct bar bar = tierod_bar(beam, i, NULL);
         add_bar(&bar, bar.length, mesh->tierod[i].first_end, mesh->tierod[i].last_end, k, m);
     }
     for (int i = 0; i < rotor->nbars; i++) {
         int node = mesh->bars[2 * (ptrdiff_t)i].first_end;
-        matrix_add(m, node, node, bars_inertia(beam, &rotor->bars[i]));
+        matrix_add(m, node, node, bundle_of_bars(rotor, beam->type, i));
     }
     for (int i = 0; i < rotor->ndisk; i++)
         matrix_add(m, mesh->disk_node[i], mesh->disk_node[i], twist ? rotor->disk[i].polar : rotor->disk[i].mass);
@@ -234,7 +192,7 @@ void bar_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_m
             add_bar(&d, mesh->z[e + 1] - mesh->z[e], e, e + 1, dk, dm);
     }
     for (int i = 0; i < beam->rotor.ntierod; i++) {
-        struct bar d = tierod_direction_of(beam, parameter, i);
+        struct bar d = tierod_bar(beam, i, &parameter);
         add_bar(&d, d.length, mesh->tierod[i].first_end, mesh->tierod[i].last_end, dk, dm);
     }
     if (parameter.kind == PARAMETER_DISK_MASS && beam->type == MODE_AXIAL)

@@ -45,7 +45,7 @@ const struct option_row option_table[] = {
 
     {.name = "type", .commands = "modes", .kind = OPTION_WORD, AT(mode_type), .words = types,
      .help = "of the modes, of which *MODES states one by TYPE= (default: stated)",
-     .more = "Torsion and axial motion are those of bars, with the polar inertia and the mass of the disks."},
+     .more = "With MODEL=BEAM torsion and axial motion are those of bars; disks have their polar inertia and mass."},
 
     {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
      .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},

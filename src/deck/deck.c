@@ -347,9 +347,6 @@ static void note_assumptions(struct deck_reader *reader)
     const struct rotor *rotor = &reader->job->rotor;
     int shear = -1, holes = -1;
     const struct job *job = reader->job;
-    if (job->options.type != MODE_BENDING && job->options.solid)
-        deck_note(reader, reader->modes_card->place, "modes of type %s are those of bars, MODEL=SOLID is of bending",
-                  mode_type_words[job->options.type]);
     for (int d = 0; d < rotor->ndisk && job->options.type == MODE_TORSION; d++)
         if (rotor->disk[d].mass > 0 && !(rotor->disk[d].polar > 0))
             deck_note(reader, reader->modes_card->place,

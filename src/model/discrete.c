@@ -7,16 +7,34 @@
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 
+int discretisation_is_solid(enum discretisation as)
+{
+    return as == AS_SOLID || as == AS_SOLID_TORSION || as == AS_SOLID_AXIAL;
+}
+
+static enum mode_type motion_of(enum discretisation as)
+{
+    return as == AS_BEAM || as == AS_SOLID              ? MODE_BENDING
+           : as == AS_TORSION || as == AS_SOLID_TORSION ? MODE_TORSION
+                                                        : MODE_AXIAL;
+}
+
 int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed)
 {
+    const struct solid_rule rule = {.type = motion_of(as)};
     *discrete = (struct discrete){.as = as};
-    if (as == AS_SOLID)
-        return solid_build(pool, rotor, nparameter, parameter, NULL, refine, &discrete->solid, failed);
+    if (discretisation_is_solid(as))
+        return solid_build(pool, rotor, nparameter, parameter, &rule, refine, &discrete->solid, failed);
     int status = beam_build(pool, rotor, nparameter, parameter, refine, &discrete->beam, failed);
     if (as != AS_BEAM && !status)
-        status = bar_open(pool, as == AS_TORSION ? MODE_TORSION : MODE_AXIAL, &discrete->beam);
+        status = bar_open(pool, rule.type, &discrete->beam);
     return status;
+}
+
+static int is_solid(const struct discrete *discrete)
+{
+    return discretisation_is_solid(discrete->as);
 }
 
 static int is_bar(const struct discrete *discrete)
@@ -32,7 +50,7 @@ static int node_dof(const struct discrete *discrete, int node)
 
 const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, int failed)
 {
-    if (as == AS_SOLID)
+    if (discretisation_is_solid(as))
         return solid_refusal(rotor, failed);
     return failed < rotor->ngroup
                ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
@@ -44,27 +62,27 @@ int discrete_of_shape(struct pool *pool, const struct discrete *built, const str
                       const struct parameter *parameter, struct discrete *discrete)
 {
     *discrete = (struct discrete){.as = built->as};
-    return built->as == AS_SOLID ? solid_of_shape(pool, &built->solid, rotor, nparameter, parameter, &discrete->solid)
-                                 : beam_of_shape(pool, &built->beam, rotor, nparameter, parameter, &discrete->beam);
+    return is_solid(built) ? solid_of_shape(pool, &built->solid, rotor, nparameter, parameter, &discrete->solid)
+                           : beam_of_shape(pool, &built->beam, rotor, nparameter, parameter, &discrete->beam);
 }
 
 const struct rotor *discrete_rotor(const struct discrete *discrete)
 {
-    return discrete->as == AS_SOLID ? &discrete->solid.rotor : &discrete->beam.rotor;
+    return is_solid(discrete) ? &discrete->solid.rotor : &discrete->beam.rotor;
 }
 
 void discrete_structure(const struct discrete *discrete, rotid_matrix *structure)
 {
     const struct mesh *beam = &discrete->beam.mesh;
     const struct solid *solid = &discrete->solid;
-    *structure = discrete->as == AS_SOLID
+    *structure = is_solid(discrete)
                      ? (rotid_matrix){.n = solid->mesh.ndof, .kd = solid->mesh.kd, .nfar = solid->nfar, .far = solid->far}
                      : (rotid_matrix){.n = beam->ndof, .kd = beam->kd, .nfar = beam->nfar, .far = beam->far};
 }
 
 void discrete_set(struct discrete *discrete, const double *x)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_set(&discrete->solid, x);
     else
         beam_set(&discrete->beam, x);
@@ -72,7 +90,7 @@ void discrete_set(struct discrete *discrete, const double *x)
 
 void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_assemble(&discrete->solid, x, k, m);
     else if (is_bar(discrete))
         bar_assemble(&discrete->beam, x, k, m);
@@ -82,7 +100,7 @@ void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix 
 
 void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_differentiate(&discrete->solid, p, dk, dm);
     else if (is_bar(discrete))
         bar_differentiate(&discrete->beam, p, dk, dm);
@@ -92,7 +110,7 @@ void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix
 
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_mass_properties(&discrete->solid, properties);
     else
         beam_mass_properties(&discrete->beam, properties);
@@ -100,7 +118,7 @@ void discrete_mass_properties(const struct discrete *discrete, struct mass_prope
 
 void discrete_gyroscopic(const struct discrete *discrete, rotid_matrix *p)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_gyroscopic(&discrete->solid, p);
     else
         beam_gyroscopic(&discrete->beam, p);
@@ -108,7 +126,7 @@ void discrete_gyroscopic(const struct discrete *discrete, rotid_matrix *p)
 
 void discrete_spread(const struct discrete *discrete, int group, double stiffness, rotid_matrix *s)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_spread(&discrete->solid, group, stiffness, s);
     else
         beam_spread(&discrete->beam, group, stiffness, s);
@@ -119,7 +137,7 @@ void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
     rotid_matrix structure;
     discrete_structure(discrete, &structure);
     memset(v, 0, (size_t)structure.n * sizeof *v);
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_spring_motion(&discrete->solid, i, v);
     else
         v[2 * (ptrdiff_t)discrete->beam.mesh.spring_node[i]] = 1;
@@ -127,13 +145,13 @@ void discrete_spring_motion(const struct discrete *discrete, int i, double *v)
 
 int discrete_rigid_motions(const struct discrete *discrete, double *u)
 {
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         solid_rigid_motions(&discrete->solid, u);
     else if (!is_bar(discrete))
         beam_rigid_motions(&discrete->beam, u);
     for (int i = 0; i < discrete->beam.mesh.ndof && is_bar(discrete); i++)
         u[i] = 1;
-    return is_bar(discrete) ? 1 : 2;
+    return motion_of(discrete->as) == MODE_BENDING ? 2 : 1;
 }
 
 static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_matrix *a)
@@ -172,7 +190,7 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     rotid_matrix structure, k, elastic_k, m;
     discrete_structure(discrete, &structure);
     int n = structure.n, wanted = n < 4 ? n : 4, all = discrete_rotor(discrete)->count_all;
-    int *elastic_only = discrete->as == AS_SOLID ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
+    int *elastic_only = is_solid(discrete) ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
     struct eigen_full eigen;
     double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, 6 * (size_t)n);
     int status = phi && work ? new_matrix(pool, &structure, &k) : ROTID_ERROR_MEMORY;
@@ -232,42 +250,42 @@ int discrete_count_rigid(const struct pool *pool, struct discrete *discrete, con
 
 int discrete_places(const struct discrete *discrete)
 {
-    return discrete->as == AS_SOLID ? 2 * discrete->solid.mesh.nslice + 1 : discrete->beam.mesh.naxis;
+    return is_solid(discrete) ? 2 * discrete->solid.mesh.nslice + 1 : discrete->beam.mesh.naxis;
 }
 
 const double *discrete_place_z(const struct discrete *discrete)
 {
-    return discrete->as == AS_SOLID ? discrete->solid.mesh.surface_z : discrete->beam.mesh.z;
+    return is_solid(discrete) ? discrete->solid.mesh.surface_z : discrete->beam.mesh.z;
 }
 
 int discrete_place_dof(const struct discrete *discrete, int i)
 {
     const struct solid_mesh *mesh = &discrete->solid.mesh;
-    return discrete->as == AS_SOLID ? mesh->node[mesh->surface[i]].dof[0] : node_dof(discrete, i);
+    return is_solid(discrete) ? mesh->node[mesh->surface[i]].dof[mesh->type] : node_dof(discrete, i);
 }
 
 int discrete_sensor_dof(const struct discrete *discrete, int sensor)
 {
-    return discrete->as == AS_SOLID ? discrete->solid.mesh.sensor_dof[sensor]
-                                    : node_dof(discrete, discrete->beam.mesh.sensor_node[sensor]);
+    return is_solid(discrete) ? discrete->solid.mesh.sensor_dof[sensor]
+                              : node_dof(discrete, discrete->beam.mesh.sensor_node[sensor]);
 }
 
 double discrete_sensor_z(const struct discrete *discrete, int sensor)
 {
     const struct mesh *beam = &discrete->beam.mesh;
-    return discrete->as == AS_SOLID ? discrete->solid.rotor.sensor[sensor].position : beam->z[beam->sensor_node[sensor]];
+    return is_solid(discrete) ? discrete->solid.rotor.sensor[sensor].position : beam->z[beam->sensor_node[sensor]];
 }
 
 int discrete_place_joints(struct pool *pool, struct discrete *discrete)
 {
-    return discrete->as == AS_SOLID ? ROTID_OK : hinge_place(pool, &discrete->beam); /* a beam's hinges go with its mesh */
+    return is_solid(discrete) ? ROTID_OK : hinge_place(pool, &discrete->beam); /* a beam's hinges go with its mesh */
 }
 
 int discrete_member_elements(const struct discrete *discrete, int i)
 {
     const struct mesh *beam = &discrete->beam.mesh;
     int bars = i - discrete_rotor(discrete)->ntierod, from, to;
-    if (discrete->as == AS_SOLID) {
+    if (is_solid(discrete)) {
         solid_mesh_member(&discrete->solid.rotor, &discrete->solid.mesh, i, &from, &to);
         return to - from;
     }
@@ -277,7 +295,7 @@ int discrete_member_elements(const struct discrete *discrete, int i)
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v)
 {
     int bars = i - discrete->beam.rotor.ntierod;
-    if (discrete->as == AS_SOLID)
+    if (is_solid(discrete))
         members_deflection(&discrete->solid, i, u, npoint, z, v);
     else if (is_bar(discrete))
         bar_member_motion(&discrete->beam, i, u, npoint, z, v);
@@ -288,23 +306,29 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
 }
 
 #define OF_CORNER                                                                                                                \
-    0.1656              /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28    \
-                         */
-#define OF_FINER  0.284 /* 1/(4^1.089 - 1) */
-#define OF_SMOOTH (1.0 / 15) /* 1/(2^4 - 1): a frequency by elements of the second order, all twice as large */
+    0.1656 /* 1/(6^1.089 - 1): corners six times as large, of a right angle. Beside refined meshes: 0.08 to 0.28                 \
+            */
+#define OF_FINER       0.284      /* 1/(4^1.089 - 1) */
+#define OF_TWIST       0.1009     /* 1/(6^(4/3) - 1): torsion has the exponent 2/3 at a right angle */
+#define OF_FINER_TWIST 0.1871     /* 1/(4^(4/3) - 1) */
+#define OF_SMOOTH      (1.0 / 15) /* 1/(2^4 - 1): a frequency by elements of the second order, all twice as large */
 
 /* A beam's error falls as the square of the size of its elements, and is left to it. A solid's comes from the re-entrant corners,
  * which no mesh of a reasonable size resolves; where there are none, from the elements. */
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor)
 {
-    if (as != AS_SOLID)
+    if (!discretisation_is_solid(as))
         return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0};
-    int corners = solid_has_corners(rotor);
-    return (struct mesh_limit){COARSE_MESH, corners ? OF_CORNER : OF_SMOOTH, 1, 4, corners ? OF_FINER : OF_SMOOTH};
+    int twist = as == AS_SOLID_TORSION;
+    if (!solid_has_corners(rotor))
+        return (struct mesh_limit){COARSE_MESH, OF_SMOOTH, 1, 4, OF_SMOOTH};
+    return (struct mesh_limit){COARSE_MESH, twist ? OF_TWIST : OF_CORNER, 1, 4, twist ? OF_FINER_TWIST : OF_FINER};
 }
 
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)
 {
+    if (from->as != to->as || from->as == AS_SOLID_TORSION || from->as == AS_SOLID_AXIAL)
+        return 0;
     if (from->as == AS_SOLID)
         solid_transfer(&from->solid, u, &to->solid, v);
     else if (!is_bar(from) && to->beam.mesh.nelement > from->beam.mesh.nelement)

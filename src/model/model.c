@@ -46,7 +46,7 @@ static int count_rigid(struct pool *pool, struct models *models, const struct ro
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < nparameter; p++)
         x[p] = *parameter_value(model->rotor, model->parameter[p]);
-    if (coarse.as == AS_SOLID)
+    if (discretisation_is_solid(coarse.as))
         status = models_discretise(pool, models, rotor, nparameter, model->parameter, COARSE_MESH, &coarse, &known, &failed);
     if (status)
         return status;

@@ -28,7 +28,9 @@
 
 /* A discretised rotor: a beam or a solid, the one place that knows there are two. */
 
-enum discretisation { AS_BEAM, AS_SOLID, AS_TORSION, AS_AXIAL }; /* the last two: a beam in these motions, src/beam/bar.c */
+/* in bending; in torsion and along the axis, src/beam/bar.c and harmonic 0 of a solid */
+enum discretisation { AS_BEAM, AS_SOLID, AS_TORSION, AS_AXIAL, AS_SOLID_TORSION, AS_SOLID_AXIAL };
+int discretisation_is_solid(enum discretisation as);
 
 struct discrete {
     enum discretisation as;

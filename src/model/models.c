@@ -56,7 +56,7 @@ static int counted(const struct models *models, const struct rotor *rotor)
 {
     for (; models; models = models->older)
         for (const struct built_model *e = models->first; e; e = e->next) {
-            int solid = models->as == AS_SOLID;
+            int solid = discretisation_is_solid(models->as);
             struct rotor known = e->rotor, asked = *rotor;
             if (solid)
                 known.neffect = asked.neffect = 0;

@@ -8,6 +8,7 @@
  *   sling          copy.c (rotor_set_sling): end springs (44) from mass and centre of mass
  *   sections       section.c (section_of_segment, section_of_ring): S, I of annulus or rectangle less N holes, each
  *                  pi d^4/64 + S e^2/2; section_rods: S = N pi d^2/4, I = I_0 + S e^2/2 of a bundle (7)
+ *   bundles        bundle.c (bundle_of_tierod, bundle_of_bars): rods in torsion and along the axis
  *   parameters     parameter.c: parameter_find resolves a name ("core.E", "front.k", "cause.depth"); parameters_set writes x
  *   effects        hooks of struct effect_kind, implemented in src/diagnose/causes: field (factors on E, G, rho along z), section
  *                  (EI, kGS of a beam), tierod, spring, point (mass or ground spring), joint. Each returns its value or the
@@ -365,6 +366,21 @@ int section_perforate(int number, double d, double e, double stiff_outer, struct
 /* Area and second moment of `number` round rods of diameter d at pitch radius e: S = N pi d^2/4, own = N pi d^4/64,
  * pitch = S e^2/2; own + pitch is the inertia of (7), corrected. */
 void section_rods(int number, double d, double e, double *area, double *own, double *pitch);
+
+/* In torsion and along the axis: stiffness c and inertia j per length of an element or a bundle, and its length; as a direction:
+ * their derivatives. K = c/l [1 -1; -1 1], M = j l/6 [2 1; 1 2]. */
+struct bar {
+    double stiffness, mass, length;
+};
+
+/* Of a bundle of rods between its ends, type MODE_TORSION or MODE_AXIAL: c = N(G J_0 + T R^2 + 12 E I_0 R^2/l^2),
+ * j = N rho S (R^2 + d^2/8), or N E S, N rho S; the derivative with respect to a parameter. elastic_only: without T R^2. */
+struct bar bundle_of_tierod(const struct rotor *rotor, enum mode_type type, int elastic_only, int i, double length);
+struct bar bundle_of_tierod_by(const struct rotor *rotor, enum mode_type type, int elastic_only, int i, double length,
+                               struct parameter parameter);
+
+/* Inertia of bars, which move with the section at their centre [kg.m2; kg]. */
+double bundle_of_bars(const struct rotor *rotor, enum mode_type type, int i);
 
 /* The section of a segment without its layers, and of a ring of a layer; each with the holes of its own group. ROTID_OK or
  * ROTID_ERROR_SECTION. */

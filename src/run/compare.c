@@ -114,7 +114,7 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
 void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spectrum, const struct comparison *comparison,
                              struct message_list *notes)
 {
-    int worst = -1, solid = job_discretisation(job) == AS_SOLID;
+    int worst = -1, solid = job->options.solid;
     if (spectrum->apart) {
         struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */

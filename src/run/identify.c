@@ -10,7 +10,7 @@
 /* Whether fits of the job run on the coarse mesh. */
 static int mesh_is_held(const struct job *job)
 {
-    return job_discretisation(job) == AS_SOLID && job->options.fit.reduction == ROTID_REDUCTION_NONE;
+    return job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE;
 }
 
 int mesh_hold_as_it_is(struct pool *pool, const struct job *job, int count)

@@ -44,8 +44,10 @@ int job_fits_shapes(const struct job *job)
 
 enum discretisation job_discretisation(const struct job *job)
 {
-    const enum discretisation in_bending = job->options.solid ? AS_SOLID : AS_BEAM;
-    return job->options.type == MODE_BENDING ? in_bending : job->options.type == MODE_TORSION ? AS_TORSION : AS_AXIAL;
+    static const enum discretisation of[][2] = {[MODE_BENDING] = {AS_BEAM, AS_SOLID},
+                                                [MODE_TORSION] = {AS_TORSION, AS_SOLID_TORSION},
+                                                [MODE_AXIAL] = {AS_AXIAL, AS_SOLID_AXIAL}};
+    return of[job->options.type][job->options.solid != 0];
 }
 
 int job_of_type(struct pool *pool, const struct job *job, enum mode_type type, struct job *other)

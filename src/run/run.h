@@ -123,7 +123,7 @@ struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
     int solid;           /* the rotor as a solid of revolution, not as a beam */
-    enum mode_type type; /* of the modes; but for bending by bars, whatever `solid` says */
+    enum mode_type type; /* of the modes */
     struct frf_request frf;
 };
 

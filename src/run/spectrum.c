@@ -20,7 +20,7 @@
 static int mass_is_positive(const struct models *models, const struct rotor *rotor, int nparameter,
                             const struct parameter *parameter)
 {
-    int only_moduli = models_discretisation(models) == AS_SOLID && !rotor->neffect;
+    int only_moduli = discretisation_is_solid(models_discretisation(models)) && !rotor->neffect;
     for (int p = 0; p < nparameter; p++)
         only_moduli &= parameter[p].kind == PARAMETER_E || parameter[p].kind == PARAMETER_G;
     return only_moduli;

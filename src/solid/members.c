@@ -153,10 +153,33 @@ static void add_chain(const struct solid *solid, const struct member *member, in
     }
 }
 
+/* In torsion and along the axis: bars between the sections at their ends, or masses at their centre. */
+static void assemble_bundles(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct solid_mesh *mesh = &solid->mesh;
+    int from, to;
+    for (int i = 0; i < rotor->ntierod; i++) {
+        solid_mesh_member(rotor, mesh, i, &from, &to);
+        double length = mesh->z[to] - mesh->z[from];
+        struct bar bar = p < 0 ? bundle_of_tierod(rotor, mesh->type, solid->elastic_only, i, length)
+                               : bundle_of_tierod_by(rotor, mesh->type, solid->elastic_only, i, length, solid->parameter[p]);
+        add_stretch(solid, i, bar.stiffness / length, bar.mass * length, k, m);
+    }
+    for (int i = 0; i < rotor->nbars && m && p < 0; i++) {
+        const struct motion *at = &solid->line[solid_mesh_line(mesh, rotor->bars[i].center)].v;
+        motion_add(m, bundle_of_bars(rotor, mesh->type, i), at, at);
+    }
+}
+
 void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;
+    if (mesh->type != MODE_BENDING) {
+        assemble_bundles(solid, p, k, m);
+        return;
+    }
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
         struct member member = member_of(solid, i);
         struct element d;
@@ -253,8 +276,14 @@ void members_deflection(const struct solid *solid, int i, const double *u, int n
     const struct solid_mesh *mesh = &solid->mesh;
     int from, to;
     solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
+    const struct motion *ends = i < solid->rotor.ntierod ? &solid->stretch[2 * (ptrdiff_t)i] : NULL,
+                        *center = &solid->line[(from + to) / 2].v;
     for (int p = 0; p < npoint; p++) {
-        z[p] = mesh->z[from] + (mesh->z[to] - mesh->z[from]) * p / (npoint - 1);
-        v[p] = members_deflection_at(solid, i, u, z[p]);
+        double x = (double)p / (npoint - 1);
+        z[p] = mesh->z[from] + (mesh->z[to] - mesh->z[from]) * x;
+        if (mesh->type == MODE_BENDING)
+            v[p] = members_deflection_at(solid, i, u, z[p]);
+        else
+            v[p] = ends ? (1 - x) * motion_value(&ends[0], u) + x * motion_value(&ends[1], u) : motion_value(center, u);
     }
 }

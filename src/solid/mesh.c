@@ -178,13 +178,24 @@ static void widen(struct solid_mesh *mesh, int low, int high)
     mesh->kd = high - low > mesh->kd ? high - low : mesh->kd;
 }
 
-/* first and last degree of freedom of the nodes of a line */
+/* *low and *high: to the first and last degree of freedom of a node, where it has any */
+static void reach_node(const struct solid_node *node, int *low, int *high)
+{
+    for (int c = 0; c < 3; c++)
+        if (node->dof[c] >= 0) {
+            *low = node->dof[c] < *low ? node->dof[c] : *low;
+            *high = node->dof[c] > *high ? node->dof[c] : *high;
+        }
+}
+
+/* of the nodes of a line */
 static void line_dofs(const struct solid_mesh *mesh, int line, int *low, int *high)
 {
     const int *of = mesh->line + 2 * (ptrdiff_t)line;
-    const struct solid_node *first = &mesh->node[of[0]], *last = &mesh->node[of[1] - 1];
-    *low = first->dof[0];
-    *high = last->dof[2] < 0 ? last->dof[0] : last->dof[2];
+    *low = mesh->ndof;
+    *high = 0;
+    for (int n = of[0]; n < of[1]; n++)
+        reach_node(&mesh->node[n], low, high);
 }
 
 static void find_band(const struct rotor *rotor, struct solid_mesh *mesh)
@@ -192,8 +203,11 @@ static void find_band(const struct rotor *rotor, struct solid_mesh *mesh)
     int low, high;
     mesh->kd = 0;
     for (int e = 0; e < mesh->nelement; e++) {
-        const int *node = mesh->element[e].node;
-        widen(mesh, mesh->node[node[0]].dof[0], mesh->node[node[2]].dof[2]); /* nodes 0 and 2 are the first and the last */
+        low = mesh->ndof;
+        high = 0;
+        for (int a = 0; a < SOLID_NODES; a++)
+            reach_node(&mesh->node[mesh->element[e].node[a]], &low, &high);
+        widen(mesh, low, high);
     }
     for (int l = 0; l <= mesh->nslice; l++) {
         line_dofs(mesh, l, &low, &high);
@@ -215,6 +229,14 @@ static void find_band(const struct rotor *rotor, struct solid_mesh *mesh)
     }
 }
 
+/* Whether component c of a node is an unknown of its own. */
+static int is_unknown(const struct solid_mesh *mesh, const struct solid_node *node, int c)
+{
+    if (mesh->type == MODE_BENDING)
+        return c == 0 || node->r > 0;
+    return mesh->type == MODE_TORSION ? c == 1 && node->r > 0 : c == 2 || (c == 0 && node->r > 0);
+}
+
 static int number_dofs(struct pool *pool, const struct rotor *rotor, struct solid_mesh *mesh)
 {
     int lines = mesh->nslice + 1, members = rotor->ntierod + rotor->nbars, next = 0;
@@ -226,14 +248,13 @@ static int number_dofs(struct pool *pool, const struct rotor *rotor, struct soli
     for (int l = 0; l < 2 * lines - 1; l++) {
         int nodes = mesh->line[l + 1] - mesh->line[l];
         for (int n = 0; n <= nodes; n++) {
-            if (l % 2 == 0)
+            if (l % 2 == 0 && mesh->type == MODE_BENDING)
                 number_members(rotor, mesh, l / 2, n, &next);
             if (n == nodes)
                 break;
             struct solid_node *node = &mesh->node[mesh->line[l] + n];
-            int on_axis = node->r == 0;
             for (int c = 0; c < 3; c++)
-                node->dof[c] = on_axis && c == 1 ? node->dof[0] : on_axis && c == 2 ? -1 : next++;
+                node->dof[c] = is_unknown(mesh, node, c) ? next++ : mesh->type == MODE_BENDING && c == 1 ? node->dof[0] : -1;
         }
     }
     mesh->ndof = next;
@@ -257,13 +278,13 @@ static int place_sensors(struct pool *pool, const struct rotor *rotor, struct so
         int line = solid_mesh_line(mesh, z), slice = solid_mesh_slice(mesh, z);
         struct solid_element *element = &mesh->element[solid_mesh_outermost(mesh, slice)];
         if (element->sensor >= 0 || fabs(mesh->z[line] - z) <= AT_LINE * (mesh->z[slice + 1] - mesh->z[slice])) {
-            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * (ptrdiff_t)line]].dof[0];
+            mesh->sensor_dof[s] = mesh->node[mesh->surface[2 * (ptrdiff_t)line]].dof[mesh->type];
             continue;
         }
         const double edge[3] = {mesh->node[element->node[1]].z, mesh->node[element->node[5]].z, mesh->node[element->node[2]].z};
         shape_of_edge(edge, z, element->at_sensor, NULL);
         element->sensor = s;
-        mesh->sensor_dof[s] = mesh->node[element->node[5]].dof[0];
+        mesh->sensor_dof[s] = mesh->node[element->node[5]].dof[mesh->type];
         mesh->surface_z[2 * slice + 1] = z;
     }
     return ROTID_OK;
@@ -298,7 +319,7 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
                      struct solid_mesh *mesh, int *failed)
 {
     struct grid grid;
-    *mesh = (struct solid_mesh){0};
+    *mesh = (struct solid_mesh){.type = rule->type};
     for (int s = 0; s < rotor->nsegment; s++) {
         *failed = rotor->segment[s].group;
         if (rotor->segment[s].rectangular || (s > 0 && !outline_touch(rotor, s)))

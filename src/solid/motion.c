@@ -59,13 +59,17 @@ int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line
             inertia += w * r * r;
             for (int i = 0; i < 3; i++) {
                 const struct solid_node *node = &mesh->node[n + i];
+                if (mesh->type != MODE_BENDING) {
+                    add_term(v, node->dof[mesh->type], w * shape[i] * (mesh->type == MODE_TORSION ? r * r : 1));
+                    continue;
+                }
                 add_term(v, node->dof[0], w * shape[i] / 2);
                 add_term(v, node->dof[1], -sign_of(node, 1) * w * shape[i] / 2);
                 add_term(theta, node->dof[2], w * r * shape[i]);
             }
         }
     for (int i = 0; i < v->count && !status; i++)
-        v->weight[i] /= area;
+        v->weight[i] /= mesh->type == MODE_TORSION ? inertia : area;
     for (int i = 0; i < theta->count && !status; i++)
         theta->weight[i] /= inertia;
     return status;
@@ -75,31 +79,32 @@ int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, dou
 {
     int first = mesh->line[2 * line], end = mesh->line[2 * line + 1], status = motion_new(pool, end - first, w);
     double inertia = 0;
+    int bends = mesh->type == MODE_BENDING;
     for (int n = first; n + 2 < end && !status; n += 2) {
         const double edge[3] = {mesh->node[n].r, mesh->node[n + 1].r, mesh->node[n + 2].r};
         double low = fmax(pitch - reach, edge[0]), high = fmin(pitch + reach, edge[2]), shape[3];
         for (int g = 0; g < 3 && low < high; g++) {
-            double r = (low + high) / 2 + (high - low) / 2 * place[g], share = weight[g] * (high - low) * r * r;
+            double r = (low + high) / 2 + (high - low) / 2 * place[g], share = weight[g] * (high - low) * r * (bends ? r : 1);
             shape_of_edge(edge, r, shape, NULL);
-            inertia += share * r;
+            inertia += share * (bends ? r : 1);
             for (int i = 0; i < 3; i++)
-                add_term(w, mesh->node[n + i].dof[2], share * shape[i]);
+                add_term(w, mesh->node[n + i].dof[bends ? 2 : mesh->type], share * shape[i]);
         }
     }
     for (int i = 0; i < w->count && !status; i++)
-        w->weight[i] *= pitch / inertia;
+        w->weight[i] *= (bends ? pitch : 1) / inertia;
     return status ? status : inertia > 0 ? ROTID_OK : ROTID_ERROR_SECTION;
 }
 
-/* U of node 5 of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
+/* U of node 5 (V/r, W) of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
 static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component,
                              double w, struct motion *motion)
 {
     const double *at = element->at_sensor;
-    if (component == 0 && node == 5 && element->sensor >= 0) {
-        add_term(motion, mesh->node[element->node[5]].dof[0], w / at[1]);
-        add_term(motion, mesh->node[element->node[1]].dof[0], -w * at[0] / at[1]);
-        add_term(motion, mesh->node[element->node[2]].dof[0], -w * at[2] / at[1]);
+    if (component == (int)mesh->type && node == 5 && element->sensor >= 0) {
+        add_term(motion, mesh->node[element->node[5]].dof[component], w / at[1]);
+        add_term(motion, mesh->node[element->node[1]].dof[component], -w * at[0] / at[1]);
+        add_term(motion, mesh->node[element->node[2]].dof[component], -w * at[2] / at[1]);
         return;
     }
     const struct solid_node *own = &mesh->node[element->node[node]];

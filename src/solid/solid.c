@@ -68,27 +68,37 @@ static void integrals_of(const struct solid_mesh *mesh, const struct solid_eleme
     }
 }
 
-/* Adds to k [24 * 24] the stiffness of one share, constants c, and of an axial stress [Pa], tension positive; both triangles. */
-static void integrals_add_stiffness(const struct integrals *integrals, int share, const struct elasticity *c, double stress,
-                                    double *k)
+/* Adds to k [24 * 24] the stiffness of one share, constants c, and of an axial stress [Pa], tension positive; both triangles.
+ * harmonic: 1, or 0, of which everything is twice as much: int cos^2 t dt is pi or 2 pi. */
+static void integrals_add_stiffness(const struct integrals *integrals, int share, int harmonic, const struct elasticity *of,
+                                    double stress, double *k)
 {
+    const double turn = harmonic ? 1 : 2;
+    const struct elasticity twice = {turn * of->c11, turn * of->c12, turn * of->c13,
+                                     turn * of->c33, turn * of->c44, turn * of->c66},
+                            *c = &twice;
     const double(*sum)[SOLID_NODES * SOLID_NODES] = integrals->value[share];
     for (int b = 0; b < SOLID_NODES; b++)
         for (int a = 0; a < SOLID_NODES; a++) {
             int ab = a + SOLID_NODES * b, ba = b + SOLID_NODES * a;
             double rr = sum[BY_R_R][ab], nn = sum[BY_N_N][ab], zz = sum[BY_Z_Z][ab], rn = sum[BY_R_N][ab], nr = sum[BY_R_N][ba],
                    rz = sum[BY_R_Z][ab], zr = sum[BY_R_Z][ba], nz = sum[BY_N_Z][ab], zn = sum[BY_N_Z][ba];
-            double prestress = stress * zz, twist = c->c66 * (nn - rn), back = c->c66 * (nn - nr);
+            double prestress = turn * stress * zz, twist = c->c66 * (nn - rn), back = c->c66 * (nn - nr);
             double *block = k + 3 * a + (ptrdiff_t)SOLID_DOFS * 3 * b;
-            block[0] += c->c11 * (rr + nn) + c->c12 * (rn + nr) + c->c44 * zz + c->c66 * nn + prestress;
-            block[SOLID_DOFS] += c->c12 * rn + c->c11 * nn + back;
+            block[0] += c->c11 * (rr + nn) + c->c12 * (rn + nr) + c->c44 * zz + prestress;
             block[2 * SOLID_DOFS] += c->c13 * (rz + nz) + c->c44 * zr;
-            block[1] += c->c12 * nr + c->c11 * nn + twist;
-            block[1 + SOLID_DOFS] += c->c11 * nn + c->c66 * (rr - rn - nr + nn) + c->c44 * zz + prestress;
-            block[1 + 2 * SOLID_DOFS] += c->c13 * nz - c->c44 * zn;
+            block[1 + SOLID_DOFS] += c->c66 * (rr - rn - nr + nn) + c->c44 * zz + prestress;
             block[2] += c->c13 * (zr + zn) + c->c44 * rz;
+            block[2 + 2 * SOLID_DOFS] += c->c33 * zz + c->c44 * rr + prestress;
+            if (!harmonic)
+                continue;
+            block[0] += c->c66 * nn;
+            block[SOLID_DOFS] += c->c12 * rn + c->c11 * nn + back;
+            block[1] += c->c12 * nr + c->c11 * nn + twist;
+            block[1 + SOLID_DOFS] += c->c11 * nn;
+            block[1 + 2 * SOLID_DOFS] += c->c13 * nz - c->c44 * zn;
             block[2 + SOLID_DOFS] += c->c13 * zn - c->c44 * nz;
-            block[2 + 2 * SOLID_DOFS] += c->c33 * zz + c->c44 * (rr + nn) + prestress;
+            block[2 + 2 * SOLID_DOFS] += c->c44 * nn;
         }
 }
 
@@ -307,13 +317,14 @@ static const struct solid_line *line_at(const struct solid *solid, double z)
 static int disk_of(const struct solid *solid, int i, int p, double *mass, double *inertia)
 {
     const struct disk *disk = &solid->rotor.disk[i];
-    *mass = disk->mass;
-    *inertia = disk->diametral;
+    enum mode_type type = solid->mesh.type;
+    *mass = type == MODE_TORSION ? disk->polar : disk->mass;
+    *inertia = type == MODE_BENDING ? disk->diametral : 0;
     if (p < 0)
         return 1;
     struct parameter parameter = solid->parameter[p];
-    *mass = parameter.kind == PARAMETER_DISK_MASS;
-    *inertia = parameter.kind == PARAMETER_DISK_INERTIA;
+    *mass = parameter.kind == PARAMETER_DISK_MASS && type != MODE_TORSION;
+    *inertia = parameter.kind == PARAMETER_DISK_INERTIA && type == MODE_BENDING;
     return parameter.index == i && *mass + *inertia != 0;
 }
 
@@ -359,7 +370,11 @@ static void add_ground(const struct solid *solid, const struct effect_point *poi
 static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
 {
     const struct rotor *rotor = &solid->rotor;
-    for (int i = 0; i < rotor->nspring; i++) {
+    enum mode_type type = solid->mesh.type;
+    for (int i = 0; i < rotor->nspring && p < 0 && type != MODE_BENDING; i++)
+        add_to_section(k, line_at(solid, rotor->spring[i].position),
+                       type == MODE_TORSION ? rotor->spring[i].torsional : rotor->spring[i].axial, 0);
+    for (int i = 0; i < rotor->nspring && type == MODE_BENDING; i++) {
         struct effect_point point, d;
         double line = solid->mesh.z[solid_mesh_line(&solid->mesh, rotor->spring[i].position)];
         if (p >= 0 && !effects_spring_derivative(rotor, solid->parameter[p], i, &d))
@@ -370,8 +385,9 @@ static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
     }
 }
 
-/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass
- * has beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
+/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W, in torsion all of it in V, along the
+ * axis in U and W. What inertia about a diameter a mass has beyond that of a ring of the surface's radius acts on the slope W/R
+ * of the surface. */
 
 int solid_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
 {
@@ -392,6 +408,8 @@ static void add_ring(const struct solid *solid, double z, double mass, double in
     for (int c = 0; c < 3; c++) {
         struct motion at, slope;
         double half = mass / 2 + (c == 2 ? inertia / (radius * radius) : 0);
+        if (mesh->type != MODE_BENDING)
+            half = mesh->type == MODE_AXIAL ? mass : mass * radius * radius + 2 * inertia;
         motion_of_surface(mesh, z, c, 0, dof[0], w[0], &at);
         if (dz == 0) {
             motion_add(m, half, &at, &at);
@@ -415,7 +433,7 @@ static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_
         int rate = p >= 0 && parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d);
         if (p >= 0 && !rate)
             continue;
-        if (k && !solid->elastic_only &&
+        if (k && !solid->elastic_only && solid->mesh.type == MODE_BENDING &&
             (point.lateral != 0 || point.rotational != 0 || (rate && (d.lateral != 0 || d.rotational != 0))))
             add_ground(solid, &point, p < 0 ? NULL : &d, k);
         if (m && p < 0)
@@ -609,24 +627,27 @@ void solid_set(struct solid *solid, const double *x)
 
 /* ------------------------------------------------------------------------------------------------ elements */
 
-/* On the axis V = -U and W = 0; a sensor stands for U of node 5: U5 = (sensor - n1 U1 - n2 U2)/n5. The rows and columns of the
- * element follow, and those that are no unknowns are left out when it is added. */
+/* On the axis V = -U and W = 0; in torsion V is r times the unknown; a sensor stands for U of node 5 (or its V/r, its W):
+ * U5 = (sensor - n1 U1 - n2 U2)/n5. The rows and columns of the element follow, and those that are no unknowns are left out when
+ * it is added. */
 static void tie_columns(const struct solid *solid, const struct solid_element *element, double *a, int stride, int step)
 {
+    enum mode_type type = solid->mesh.type;
     for (int n = 0; n < SOLID_NODES; n++) {
-        if (solid->mesh.node[element->node[n]].r != 0)
-            continue;
-        for (int i = 0; i < SOLID_DOFS; i++)
-            a[3 * n * stride + i * step] -= a[(3 * n + 1) * stride + i * step];
+        double r = solid->mesh.node[element->node[n]].r, *u = &a[3 * n * stride], *v = u + stride;
+        for (int i = 0; i < SOLID_DOFS && type == MODE_BENDING && r == 0; i++)
+            u[i * step] -= v[i * step];
+        for (int i = 0; i < SOLID_DOFS && type == MODE_TORSION; i++)
+            v[i * step] *= r;
     }
     if (element->sensor < 0)
         return;
     const double *at = element->at_sensor;
     for (int i = 0; i < SOLID_DOFS; i++) {
-        double *middle = &a[15 * stride + i * step];
+        double *outer = &a[(int)type * stride + i * step], *middle = outer + 15 * (ptrdiff_t)stride;
         *middle /= at[1];
-        a[3 * stride + i * step] -= at[0] * *middle;
-        a[6 * stride + i * step] -= at[2] * *middle;
+        outer[3 * (ptrdiff_t)stride] -= at[0] * *middle;
+        outer[6 * (ptrdiff_t)stride] -= at[2] * *middle;
     }
 }
 
@@ -637,7 +658,7 @@ void solid_add_element(const struct solid *solid, const struct solid_element *el
     tie_columns(solid, element, e, 1, SOLID_DOFS);
     for (int i = 0; i < SOLID_DOFS; i++) {
         const struct solid_node *node = &solid->mesh.node[element->node[i / 3]];
-        dof[i] = node->r == 0 && i % 3 ? -1 : node->dof[i % 3];
+        dof[i] = node->r == 0 && i % 3 == 1 ? -1 : node->dof[i % 3];
     }
     for (int j = 0; j < SOLID_DOFS; j++)
         for (int i = 0; i < SOLID_DOFS && dof[j] >= 0; i++)
@@ -662,17 +683,18 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
     double mass[SOLID_NODES * SOLID_NODES] = {0};
     memset(k, 0, SOLID_DOFS * SOLID_DOFS * sizeof *k);
     *has_k = *has_m = 0;
+    int harmonic = solid->mesh.type == MODE_BENDING;
     for (int s = 0; s < SHARES; s++) {
         if (p < 0)
             solid_field_of_share(solid, element, s, &share);
         else if (!field_derivative(solid, element, s, solid->parameter[p], &share))
             continue;
         if (share.elasticity.c33 != 0 || share.elasticity.c44 != 0 || share.stress != 0) {
-            integrals_add_stiffness(&solid->integrals[index], s, &share.elasticity, share.stress, k);
+            integrals_add_stiffness(&solid->integrals[index], s, harmonic, &share.elasticity, share.stress, k);
             *has_k = 1;
         }
         if (share.rho != 0) {
-            solid_add_mass(&solid->integrals[index], s, share.rho, mass);
+            solid_add_mass(&solid->integrals[index], s, harmonic ? share.rho : 2 * share.rho, mass);
             *has_m = 1;
         }
     }
@@ -741,14 +763,22 @@ void solid_element_motion(const struct solid *solid, const struct solid_element 
         int dof = node->dof[i % 3];
         local[i] = dof < 0 ? 0 : node->r == 0 && i % 3 == 1 ? -u[dof] : u[dof];
     }
+    double *outer = local + solid->mesh.type;
     if (element->sensor >= 0)
-        local[15] = (local[15] - element->at_sensor[0] * local[3] - element->at_sensor[2] * local[6]) / element->at_sensor[1];
+        outer[15] = (outer[15] - element->at_sensor[0] * outer[3] - element->at_sensor[2] * outer[6]) / element->at_sensor[1];
+    for (int n = 0; n < SOLID_NODES && solid->mesh.type == MODE_TORSION; n++)
+        local[3 * n + 1] *= solid->mesh.node[element->node[n]].r;
 }
 
 void solid_rigid_motions(const struct solid *solid, double *u)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     double *turn = u + mesh->ndof;
+    for (int i = 0; i < mesh->nnode && mesh->type != MODE_BENDING; i++)
+        if (mesh->node[i].dof[mesh->type] >= 0)
+            u[mesh->node[i].dof[mesh->type]] = 1;
+    if (mesh->type != MODE_BENDING)
+        return;
     for (int i = 0; i < mesh->nnode; i++) {
         const struct solid_node *node = &mesh->node[i];
         for (int c = 2; c >= 0; c--) /* U last: on the axis V has its degree of freedom */

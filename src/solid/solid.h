@@ -17,6 +17,7 @@
  *                  stretch by W at the pitch radius (motion_axial)
  *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
  *   spin           gyroscopic.c (solid_gyroscopic): P of the first harmonic; solid_spread: a stiffness spread over a group
+ *   harmonic 0     axisymmetric.c: what is attached in torsion and along the axis, where a section has one motion, v
  *   transfer       transfer.c (solid_transfer): a motion on another mesh, to begin an eigensolution with
  *
  * Callers: src/model; export reads the mesh. The room must not know modes, data, or the limit of two meshes. */
@@ -61,11 +62,13 @@ struct elasticity elasticity_by_factors(const struct material *material, const s
 /* ------------------------------------------------------------------------------------------------------------------ mesh */
 
 /* The meridian of a rotor as a mesh of eight-node quadrilaterals, and what its nodes do in bending: u_r = U cos t, u_t = V sin t,
- * u_z = W cos t. Nodes lie on lines of constant z, the ends of a slice, and half-way between; degrees of freedom are numbered
- * line by line, so that the band is as wide as two lines and what lies between them.
+ * u_z = W cos t; in torsion u_t = V alone, along the axis u_r = U and u_z = W. Nodes lie on lines of constant z, the ends of a
+ * slice, and half-way between; degrees of freedom are numbered line by line, so that the band is as wide as two lines and what
+ * lies between them.
  *
- * On the axis V = -U and W = 0. A re-entrant corner of the outline is a singularity like a crack's, of exponent 0.545: the
- * half-way nodes of the edges that meet there lie at a quarter of their length, by which an element follows a square root. */
+ * On the axis V = -U and W = 0 in bending, V = 0 in torsion, U = 0 along it. A re-entrant corner of the outline is a singularity
+ * like a crack's, of exponent 0.545: the half-way nodes of the edges that meet there lie at a quarter of their length, by which
+ * an element follows a square root. */
 
 #define SOLID_NODES 8 /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
 #define SOLID_DOFS  (3 * SOLID_NODES) /* U, V, W of each */
@@ -75,11 +78,12 @@ struct solid_rule {
     double corner;  /* m: elements at a re-entrant corner */
     double largest; /* m */
     int straight;   /* nonzero: edges at a corner keep their half-way nodes half-way */
+    enum mode_type type;
 };
 
 struct solid_node {
     double r, z;
-    int dof[3]; /* of U, V, W; -1: none. On the axis V has that of U, and the sign is -1 */
+    int dof[3]; /* of U, V, W; -1: none. In bending V of the axis has that of U, and the sign is -1; in torsion V is V/r */
 };
 
 struct solid_element {
@@ -87,11 +91,12 @@ struct solid_element {
     int slice, segment, group; /* group: that of the material */
     double share;              /* of its volume that is not holes */
     double extra;              /* m2: cross section outside the stiffness diameter, which has mass only, on the outer edge */
-    int sensor;                /* that U of node 5, half-way along the outer edge, stands for, or -1: see solid_mesh.sensor_dof */
+    int sensor;                /* that U of node 5, half-way along the outer edge, stands for (V/r, W), or -1: sensor_dof */
     double at_sensor[3];       /* share of the nodes 1, 5, 2 in the motion of the sensor */
 };
 
 struct solid_mesh {
+    enum mode_type type; /* of its degrees of freedom; what is measured is component `type` of U, V, W */
     int nslice;
     double *z;    /* [nslice + 1] lines */
     int *segment; /* [nslice] */
@@ -142,7 +147,8 @@ int solid_mesh_outermost(const struct solid_mesh *mesh, int slice);
 /* What of an element does not depend on its material: integrals over its area, from which K and M of any transversely isotropic
  * material follow as sums. With n = N/r and strains e_rr = U,r; e_tt = (U + V)/r; e_zz = W,z; g_rz = U,z + W,r;
  * g_rt = V,r - (U + V)/r; g_tz = V,z - W/r:
- *   K = pi int B' C B r dr dz,  M = pi rho int N'N r dr dz. */
+ *   K = pi int B' C B r dr dz,  M = pi rho int N'N r dr dz;
+ * in torsion and along the axis twice that of the harmonic 0: e_tt = U/r, g_rt = V,r - V/r, g_tz = V,z. */
 
 #define SHARES 3 /* Gauss points along z: causes act on the share of each with factors of its own */
 
@@ -165,12 +171,14 @@ struct motion {
 };
 
 /* Of the section at a line as a whole: the means over its area, as of a plate that spreads a load and adds no stiffness,
- *   v = int (U - V)/2 r dr / int r dr,  theta = int W r^2 dr / int r^3 dr.
+ *   v = int (U - V)/2 r dr / int r dr,  theta = int W r^2 dr / int r^3 dr;
+ * in torsion v = int V r^2 dr / int r^3 dr, along the axis v = int W r dr / int r dr, and no theta.
  * ROTID_OK or ROTID_ERROR_MEMORY. */
 int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta);
 
 /* W of a line at a pitch radius as the annulus pitch -+ reach tilts: pitch int W r^2 dr / int r^3 dr, which is theta pitch where
- * the section stays plane. A load on a circle would sink in without limit. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION
+ * the section stays plane; in torsion and along the axis the mean of V/r and W there. A load on a circle would sink in without
+ * limit. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION
  * where the section does not reach there. */
 int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w);
 
@@ -239,7 +247,7 @@ void solid_mass_properties(const struct solid *solid, struct mass_properties *pr
 /* U, V, W [24] of the nodes of an element in the motion u [ndof]. */
 void solid_element_motion(const struct solid *solid, const struct solid_element *element, const double *u, double *local);
 
-/* u [2 ndof]: U = 1, V = -1, W = 0, and U = -z, V = z, W = r. */
+/* u [2 ndof]: U = 1, V = -1, W = 0, and U = -z, V = z, W = r; in torsion and along the axis [ndof] V/r or W = 1. */
 void solid_rigid_motions(const struct solid *solid, double *u);
 
 /* Strain energy [J] of each element in the motion u [ndof], for the amplitude u: energy [nelement]. */
