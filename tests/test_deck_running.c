@@ -295,6 +295,7 @@ POOL_TEST(lines_of_excitation)
     assert_int_equal(running_case_open(SHAFT TWO "*OPERATION, POLES=4\n1000, 1500\n", 3000, 3, 0, &c), ROTID_OK);
     assert_close(c.speeds.excitation[2].per_revolution, 2, 0, 0); /* a converter */
     assert_close(c.speeds.excitation[2].hz, 0, 0, 0);
+    assert_close(c.speeds.excitation[3].per_revolution, 4, 0, 0);
     running_case_close(&c);
 }
 

@@ -109,7 +109,8 @@ POOL_TEST(damping_and_peaks_have_their_derivatives_and_bands)
     for (int i = 0; i < c.speeds.campbell[4].nmodes; i++) { /* by the linear prediction normal */
         const rotid_campbell_mode *m = &c.speeds.campbell[4].modes[i];
         seen += fabs(m->log_decrement / delta - 1) < 2e-3 &&
-                fabs((m->log_decrement_ci95[1] - m->log_decrement) / (1.96 * sigma * delta) - 1) < 3e-3;
+                fabs((m->log_decrement_ci95[1] - m->log_decrement) / (1.96 * sigma * delta) - 1) < 3e-3 &&
+                fabs((m->log_decrement - m->log_decrement_ci95[0]) / (1.96 * sigma * delta) - 1) < 3e-3;
     }
     assert_int_equal(seen, 2);
     running_case_close(&c);
