@@ -330,6 +330,10 @@
       const [y0, y1] = y.range();
       content.append(known(mark.x) ? line(x(mark.x), y0, x(mark.x), y1, mark.color || 'muted', { 'stroke-dasharray': '4 3' })
         : line(x0, y(mark.y), x1, y(mark.y), mark.color || 'muted', { 'stroke-dasharray': mark.solid ? null : '4 3' }));
+    } else if (mark.type === 'interval' && mark.area) {
+      const least = Math.min(...y.domain());
+      const shape = d3.area().defined(([, low, high]) => known(low) && known(high)).x(([a]) => x(a)).y0(([, low]) => y(Math.max(low, least))).y1(([, , high]) => y(Math.max(high, least)));
+      content.append(sv('path', { d: shape(mark.points) || '', fill: tint, opacity: 0.16 }));
     } else if (mark.type === 'interval') {
       for (const [a, low, high] of mark.points) if (known(low) && known(high)) content.append(line(x(a), y(low), x(a), y(high), mark.color, { 'stroke-width': mark.width || 1.5, opacity: mark.opacity }));
     } else if (mark.type === 'stems') {
@@ -351,11 +355,10 @@
       const y = scaleOf(panel.y, box[3], box[1]);
       is.scale = x;
       const inside = sv('g');
-      if (is.range) {
-        const clip = `clip-${++clips}`;
-        content.append(sv('clipPath', { id: clip }, sv('rect', { x: left, y: box[1] - 4, width: right - left, height: panel.height + 8 })));
-        inside.setAttribute('clip-path', `url(#${clip})`);
-      }
+      const clip = `clip-${++clips}`;
+      const edge = is.range ? 0 : 8; /* for dots on the edge */
+      content.append(sv('clipPath', { id: clip }, sv('rect', { x: left - edge, y: box[1] - 4 - edge / 2, width: right - left + 2 * edge, height: panel.height + 8 + edge })));
+      inside.setAttribute('clip-path', `url(#${clip})`);
       for (const mark of panel.marks) if (mark.type === 'band') drawMark(inside, mark, x, y);
       axes(content, panel, x, y, box);
       for (const mark of panel.marks) if (mark.type !== 'band') drawMark(inside, mark, x, y);
@@ -996,29 +999,31 @@
     const excited = (r.excitation || []).filter((e) => !(e.hz === 0 && e.per_revolution === r.harmonic)).map((e) => ({ type: 'line', name: e.name, color: 'steel', width: 1, points: [0, last].map((x) => [x, at(e.hz, e.per_revolution)(x)]) }));
     const running = known(r.low_rpm) ? [{ type: 'rule', x: r.low_rpm }, { type: 'rule', x: r.high_rpm }] : [];
     const first = r.critical_speeds[0];
-    const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed; dots: critical speeds; intervals of the frequencies by the linear prediction; dashed lines: the running range.' }, [
+    const damping = (n) => Math.min(...of(n, (m) => m.log_decrement).map(([, v]) => v).filter(known));
+    const leastDamped = [...numbers].sort((a, b) => damping(a) - damping(b)).slice(0, 2);
+    const list = [panels({ id: 'campbell', title: first ? `${r.critical_speeds.length} critical speeds up to ${num(last)} rpm, the first at ${num(first.speed_rpm)} rpm` : `No critical speed up to ${num(last)} rpm`, caption: 'Campbell diagram: frequencies in the fixed frame, F forward, B backward, M mixed; dots: critical speeds; shaded: 95 % intervals by the linear prediction, of the log decrement those of the two least damped modes; dashed lines: the running range.' }, [
       { height: 300, x: rpm, y: { label: `frequency [${HZ}]`, domain: [0, top] }, marks: [
         ...running,
-        ...numbers.map((n, i) => ({ type: 'interval', color: COLORS[i % COLORS.length], opacity: 0.45, legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m && known(m.ci95[0])).map(([x, m]) => [x, m.ci95[0], m.ci95[1]]) })).filter((mark) => mark.points.length > 1),
+        ...numbers.map((n, i) => ({ type: 'interval', area: true, color: COLORS[i % COLORS.length], legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m && known(m.ci95[0])).map(([x, m]) => [x, m.ci95[0], m.ci95[1]]) })).filter((mark) => mark.points.length > 1),
         ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], points: of(n, (m) => m.frequency_hz) })),
         { type: 'line', name: `${r.harmonic === 1 ? '' : `${num(r.harmonic)} times the `}speed`, color: 'muted', points: [[0, 0], [last, last / 60 * r.harmonic]] },
         ...excited,
         { type: 'dots', name: 'critical speeds', color: 'vermilion', points: r.critical_speeds.map((c) => [c.speed_rpm, c.speed_rpm / 60 * r.harmonic]) }] },
-      { height: 130, x: rpm, y: { label: 'log decrement', domain: range([0, ...numbers.flatMap((n) => of(n, (m) => m.log_decrement).map(([, v]) => v)).filter(known)]) }, marks: [...numbers.map((n, i) => ({ type: 'interval', color: COLORS[i % COLORS.length], opacity: 0.45, legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m?.log_decrement_ci95 && known(m.log_decrement_ci95[0])).map(([x, m]) => [x, ...m.log_decrement_ci95]) })).filter((mark) => mark.points.length > 1), ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], legend: false, points: of(n, (m) => m.log_decrement) }))] }])];
+      { height: 130, x: rpm, y: { label: 'log decrement', domain: range([0, ...numbers.flatMap((n) => of(n, (m) => m.log_decrement).map(([, v]) => v)).filter(known)]) }, marks: [...leastDamped.map((n) => ({ type: 'interval', area: true, color: COLORS[numbers.indexOf(n) % COLORS.length], legend: false, points: r.campbell.map((c) => [c.speed_rpm, c.modes.find((m) => m.mode === n)]).filter(([, m]) => m?.log_decrement_ci95 && known(m.log_decrement_ci95[0])).map(([x, m]) => [x, ...m.log_decrement_ci95]) })).filter((mark) => mark.points.length > 1), ...numbers.map((n, i) => ({ type: 'line', name: `mode ${n} ${whirl(n)}`, color: COLORS[i % COLORS.length], legend: false, points: of(n, (m) => m.log_decrement) }))] }])];
     if (r.unbalance.length) {
       const most = Math.max(...r.unbalance.flatMap((u) => u.amplitude_m).filter(known)) * 1e6;
       const upper = Math.max(...r.unbalance.flatMap((u) => [...u.amplitude_m, ...(u.to_m || [])]).filter(known)) * 1e6;
-      list.push(panels({ id: 'response', title: `Unbalance response: up to ${num(most, 3)} \u00b5m`, caption: 'Amplitude zero to peak and lag at the probes; bars: 95 % intervals.' }, [
-        { height: 200, x: rpm, y: { label: 'amplitude [\u00b5m]', domain: [0, upper * 1.05] }, marks: [...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'interval', color: COLORS[i], opacity: 0.35, legend: false, points: u.speed_rpm.map((x, k) => [x, u.from_m?.[k] * 1e6, u.to_m?.[k] * 1e6]).filter((p) => known(p[1])) })).filter((mark) => mark.points.length > 1), ...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], points: u.speed_rpm.map((x, k) => [x, known(u.amplitude_m[k]) ? u.amplitude_m[k] * 1e6 : NaN]) }))] },
+      list.push(panels({ id: 'response', title: `Unbalance response: up to ${num(most, 3)} \u00b5m`, caption: 'Amplitude zero to peak and lag at the probes; shaded: 95 % intervals.' }, [
+        { height: 200, x: rpm, y: { label: 'amplitude [\u00b5m]', domain: [0, upper * 1.05] }, marks: [...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'interval', area: true, color: COLORS[i], legend: false, points: u.speed_rpm.map((x, k) => [x, u.from_m?.[k] * 1e6, u.to_m?.[k] * 1e6]).filter((p) => known(p[1])) })).filter((mark) => mark.points.length > 1), ...r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], points: u.speed_rpm.map((x, k) => [x, known(u.amplitude_m[k]) ? u.amplitude_m[k] * 1e6 : NaN]) }))] },
         { height: 130, x: rpm, y: { label: 'lag [\u00b0]', domain: [0, 360] }, marks: r.unbalance.slice(0, 5).map((u, i) => ({ type: 'line', name: u.probe, color: COLORS[i], legend: false, points: u.speed_rpm.map((x, k) => [x, known(u.phase_deg[k]) ? u.phase_deg[k] : NaN]) })) }]));
     }
     const rows = r.map.filter((row) => row.speed_rpm.length);
     if (rows.length > 1) {
       const count = Math.min(8, Math.max(...rows.map((row) => row.speed_rpm.length)));
       const all = rows.flatMap((row) => row.speed_rpm.slice(0, count));
-      list.push(panels({ id: 'speed-map', title: `Critical speed map: the first from ${num(rows[0].speed_rpm[0])} to ${num(rows[rows.length - 1].speed_rpm[0])} rpm`, caption: 'Undamped forward critical speeds over the stiffness of all bearings, the stated one being 1; bars: 95 % intervals by what else is uncertain.' }, [
+      list.push(panels({ id: 'speed-map', title: `Critical speed map: the first from ${num(rows[0].speed_rpm[0])} to ${num(rows[rows.length - 1].speed_rpm[0])} rpm`, caption: 'Undamped forward critical speeds over the stiffness of all bearings, the stated one being 1; shaded: 95 % intervals by what else is uncertain.' }, [
         { height: 220, x: { label: 'stiffness of the bearings over that stated', log: true, domain: range(rows.map((row) => row.stiffness_factor)) }, y: { label: 'critical speed [rpm]', log: true, domain: [Math.min(...all) / 1.3, Math.max(...all) * 1.3] },
-          marks: [...Array.from({ length: count }, (_, k) => ({ type: 'interval', color: COLORS[k % COLORS.length], opacity: 0.45, legend: false, points: rows.filter((row) => row.speed_rpm.length > k && known(row.from_rpm?.[k])).map((row) => [row.stiffness_factor, row.from_rpm[k], row.to_rpm[k]]) })).filter((mark) => mark.points.length > 1), ...Array.from({ length: count }, (_, k) => ({ type: 'line', name: `${k + 1}`, color: COLORS[k % COLORS.length], log: true, points: rows.filter((row) => row.speed_rpm.length > k).map((row) => [row.stiffness_factor, row.speed_rpm[k]]) }))] }]));
+          marks: [...Array.from({ length: count }, (_, k) => ({ type: 'interval', area: true, color: COLORS[k % COLORS.length], legend: false, points: rows.filter((row) => row.speed_rpm.length > k && known(row.from_rpm?.[k])).map((row) => [row.stiffness_factor, row.from_rpm[k], row.to_rpm[k]]) })).filter((mark) => mark.points.length > 1), ...Array.from({ length: count }, (_, k) => ({ type: 'line', name: `${k + 1}`, color: COLORS[k % COLORS.length], log: true, points: rows.filter((row) => row.speed_rpm.length > k).map((row) => [row.stiffness_factor, row.speed_rpm[k]]) }))] }]));
     }
     if (first) {
       const shown = r.critical_speeds.slice(0, 6);
