@@ -127,7 +127,10 @@ POOL_TEST(a_deck_reads_the_modes_back)
         }
     }
     size_t said = messages.count;
-    assert_non_null(strstr(messages.item[said - 1].text, "0.02 % of frequencies and 0.2 % of shapes are added"));
+    assert_non_null(
+        strstr(messages.item[said - 1].text,
+               "scatter within one test; 0.02 % of frequencies (the least that is taken) and 0.2 % of shapes (the least "
+               "that is taken) are added"));
     put_text("bar.inp", DECK "*MEASURED, FILE=modes.uff\n*NOISE, FLOOR_FREQUENCY=0\n"); /* as the user says */
     message_open(&messages, &test_pool);
     assert_status(deck_read(&test_pool, path_of("bar.inp"), 0, NULL, &messages, &job), ROTID_OK);
@@ -265,7 +268,8 @@ UNIT_TEST(wrong_usage_is_refused)
         {"bar.uff --json bar.uff", "is the file that is read"},
         {"bar.uff -o same --json same", "is the file of --json as well"},
         {"bar.uff --extended x.inp", "--extended is no option of ema, but of diagnose suggest"},
-        {"bar.uff more.uff", "more.uff is one argument too many"},
+        {"bar.uff more.uff", "more.uff:1:1: cannot be opened"},
+        {"bar.uff bar.uff --json both.json", "--json both.json: expected one file"},
         {"", "no file given"},
         {"missing.uff", "missing.uff:1:1: cannot be opened"},
         {".", "cannot be read"},

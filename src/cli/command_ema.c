@@ -59,35 +59,33 @@ static int is_moving(const struct frf_set *set, const struct ema *ema)
     return felt && points && ema->npoint >= LEAST_POINTS;
 }
 
-int command_ema(struct command *command)
+/* Modes of one file. An exit code, EXIT_DONE to go on; *options: with --per-point where the data ask for it. */
+static int extract_modes(struct command *command, struct ema_options *options, struct measurement *measurement, struct ema *ema)
 {
-    struct measurement measurement;
-    struct ema ema;
-    double last = 0, started = clock_seconds();
+    double last = 0;
     const rotid_environment environment = command_environment(command, &last);
     struct measurement_options from = command->ema.measurement;
-    struct ema_options options = command->ema.options;
-    from.threads = options.threads = command->threads;
-    from.low_hz = options.low_hz;
-    from.high_hz = options.high_hz;
-    int status = measurement_read(&command->pool, command->deck, &from, &command->messages, &measurement);
+    from.threads = options->threads = command->threads;
+    from.low_hz = options->low_hz;
+    from.high_hz = options->high_hz;
+    int status = measurement_read(&command->pool, command->deck, &from, &command->messages, measurement);
     if (!status && command_cancelled(NULL))
         status = ROTID_STOP_CANCELLED;
-    if (!status && refuse_options(command, &measurement))
+    if (!status && refuse_options(command, measurement))
         status = ROTID_ERROR_ARGUMENT;
-    for (int i = 0; i < options.npick && !status; i++)
-        if (options.pick_hz[i] < measurement.set.frequency_hz[0] ||
-            options.pick_hz[i] > measurement.set.frequency_hz[measurement.set.nline - 1]) {
+    const struct frf_set *set = &measurement->set;
+    for (int i = 0; i < options->npick && !status; i++)
+        if (options->pick_hz[i] < set->frequency_hz[0] || options->pick_hz[i] > set->frequency_hz[set->nline - 1]) {
             message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
-                        "--pick %.6g Hz, expected a frequency from %.6g to %.6g Hz", options.pick_hz[i],
-                        measurement.set.frequency_hz[0], measurement.set.frequency_hz[measurement.set.nline - 1]);
+                        "--pick %.6g Hz, expected a frequency from %.6g to %.6g Hz", options->pick_hz[i], set->frequency_hz[0],
+                        set->frequency_hz[set->nline - 1]);
             status = ROTID_ERROR_ARGUMENT;
         }
     if (!status)
-        status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
-    if (!status && !options.per_point && is_moving(&measurement.set, &ema)) {
-        options.per_point = 1;
-        status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
+        status = ema_compute(&command->pool, set, options, &environment, ema);
+    if (!status && !options->per_point && is_moving(set, ema)) {
+        options->per_point = 1;
+        status = ema_compute(&command->pool, set, options, &environment, ema);
         message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
                     "frequencies differ from point to point, as with one accelerometer that goes round: they are taken at each "
                     "point as well (--per-point), and identify and diagnose allow for its mass");
@@ -103,29 +101,80 @@ int command_ema(struct command *command)
             &command->messages, SEVERITY_ERROR, command->deck, 1, 1,
             "%d transfer functions of %d lines from %.6g to %.6g Hz, expected at least one that is not dead with at least 16 "
             "lines in the band",
-            measurement.set.nfrf, measurement.set.nline, measurement.set.nline ? measurement.set.frequency_hz[0] : 0,
-            measurement.set.nline ? measurement.set.frequency_hz[measurement.set.nline - 1] : 0);
+            set->nfrf, set->nline, set->nline ? set->frequency_hz[0] : 0, set->nline ? set->frequency_hz[set->nline - 1] : 0);
     if (status)
         return command_fail(command, status);
     command_print_messages(command);
-    int code = is_doubtful(&ema) ? EXIT_DOUBTFUL : EXIT_DONE;
+    return EXIT_DONE;
+}
+
+/* The file of the modes, where --output asks for it and there is one. */
+static int write_output(struct command *command, const struct measurement *measurement, const struct ema *ema)
+{
+    if (command->output && !ema->nmode)
+        terminal_say("rotid: %s: not written, there is no mode\n", command->output);
+    return command->output && ema->nmode ? write_modes(command, measurement, ema) : EXIT_DONE;
+}
+
+/* Several tests of one structure: their mean, and the scatter between them. */
+static int command_ema_tests(struct command *command)
+{
+    int count = command->nfile, code = EXIT_DONE;
+    struct measurement *measurement = POOL_ARRAY(&command->pool, struct measurement, count);
+    struct ema *test = POOL_ARRAY(&command->pool, struct ema, count), mean;
+    struct ema_scatter scatter;
+    if (!measurement || !test)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    if (command->json)
+        return arguments_wrong("--json %s: expected one file, of several tests --output holds the means", command->json);
+    for (int t = 0; t < count; t++) {
+        struct ema_options options = command->ema.options;
+        command->deck = command->file[t];
+        int failed = extract_modes(command, &options, &measurement[t], &test[t]);
+        if (failed)
+            return failed;
+        code = is_doubtful(&test[t]) ? EXIT_DOUBTFUL : code;
+    }
+    command->deck = command->file[0];
+    int status = ema_average(&command->pool, count, test, &mean, &scatter);
+    if (status)
+        return command_fail(command, status);
+    code = mean.nmode ? code : EXIT_DOUBTFUL;
+    int failed = write_output(command, measurement, &mean);
+    if (failed)
+        return failed;
+    if (command_wants_table(command)) {
+        const struct screen to = command_screen(command);
+        screen_scatter(&to, count, (const char *const *)command->file, test, &mean, &scatter,
+                       mean.nmode ? command->output : NULL);
+    }
+    return code;
+}
+
+int command_ema(struct command *command)
+{
+    if (command->nfile > 1)
+        return command_ema_tests(command);
+    struct measurement measurement;
+    struct ema ema;
+    struct ema_options options = command->ema.options;
+    double started = clock_seconds();
+    int code = extract_modes(command, &options, &measurement, &ema);
+    if (code)
+        return code;
     const struct ema_report report = {.file = command->deck,
                                       .output = command->output && ema.nmode ? command->output : NULL,
                                       .measurement = &measurement,
                                       .options = &options,
                                       .ema = &ema,
                                       .seconds = clock_seconds() - started};
-    if (report.output) {
-        int failed = write_modes(command, &measurement, &ema);
-        if (failed)
-            return failed;
-    }
-    if (command->output && !report.output)
-        terminal_say("rotid: %s: not written, there is no mode\n", command->output);
+    int failed = write_output(command, &measurement, &ema);
+    if (failed)
+        return failed;
     if (command_wants_table(command)) {
         const struct screen to = command_screen(command);
         screen_ema(&to, &report);
     }
     struct result result = {.head = command->head, .ema = command->json ? ema_result_of(&command->pool, &report, 1) : NULL};
-    return command_write_result(command, &result, code);
+    return command_write_result(command, &result, is_doubtful(&ema) ? EXIT_DOUBTFUL : EXIT_DONE);
 }

@@ -36,8 +36,9 @@ const struct command_entry command_table[] = {
      "inp", command_frf, READS_DECK},
     {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED",
      "rotid ema records.unv --band 200,3200 -o modes.unv\n"
-     "rotid ema records.unv --pick 415,722 --per-point",
-     "unv|uff|uf", command_ema, PARALLEL},
+     "rotid ema records.unv --pick 415,722 --per-point\n"
+     "rotid ema first.unv second.unv third.unv -o modes.unv",
+     "unv|uff|uf", command_ema, PARALLEL | SEVERAL_FILES},
     {"test",
      "records of a hammer test and a deck to a page: ema, identify, diagnose, report, each said as the command that does it",
      "rotid test records.unv rotor.inp -o page.html\n"

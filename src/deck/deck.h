@@ -194,6 +194,7 @@ struct deck_reader {
     double length;            /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     int states_floor; /* *NOISE has a floor */
+    int impacts;      /* behind the standard deviations of the file, the fewest; 0: not known. Below 0: so many tests */
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
     int tie;                   /* FIT, TIE=E:G */
     int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
@@ -297,9 +298,9 @@ typedef void deck_card_reader(struct deck_reader *reader, const struct card *car
 /* What no row says of an item of a list; it may complete it. 0, or 1 after an error. */
 typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
-    deck_preload, deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise,
-    deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing, deck_pedestal,
-    deck_operation;
+    deck_preload, deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured,
+    deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing,
+    deck_pedestal, deck_operation;
 deck_item_check deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change, deck_check_runup,
     deck_check_unknown;
 
@@ -371,10 +372,10 @@ void deck_set_lengths(struct deck_reader *reader);
  * `path`, after its modes: chosen [count] are the sets behind the modes of the job, component is the value of a node that
  * DIRECTION asks for where there are several. Sets 55 of analysis type 0, behind a mode n of the file, by their first line of
  * text: ROTID STANDARD DEVIATION OF MODE n: of the components, in their unit; the second line of text is FREQUENCY_HZ value
- * DAMPING value, standard deviations as well; ROTID FREQUENCY AT POINT OF MODE n: Hz, with the accelerometer at each node, less
- * what a second line ABOVE_HZ value says; ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE n: Hz. They fill frequency_std,
- * shape_std and the frequencies at single sensors of the job. Zero stands for what is not known; sets with other texts are left
- * alone. Anything malformed is an error of the deck. */
+ * DAMPING value, standard deviations as well, the third IMPACTS n or TESTS n; ROTID FREQUENCY AT POINT OF MODE n: Hz, with the
+ * accelerometer at each node, less what a second line ABOVE_HZ value says; ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE
+ * n: Hz. They fill frequency_std, shape_std and the frequencies at single sensors of the job. Zero stands for what is not known;
+ * sets with other texts are left alone. Anything malformed is an error of the deck. */
 void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff_file *file, int count,
                   const struct uff_shape *const *chosen, int component);
 

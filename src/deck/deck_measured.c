@@ -323,10 +323,22 @@ static void average_readings(struct deck_reader *reader, int k)
                   job->measurement.number[k], mean.dropped, mean.readings);
 }
 
-/* The scatter between impacts of one test is less than what the next test would show, and a model judged by it alone is refused
- * for 0.001 %. Small beside the first, as good tests repeat: 0.02 % of a frequency, 0.2 % of the largest component. */
+/* The standard deviations of one test are of means over its impacts, less than what the next test would show, and a model judged
+ * by them alone is refused for 0.001 %. The next test differs by the scatter of one impact at least, std * sqrt(impacts), and by
+ * no less than good tests repeat: 0.02 % of a frequency, 0.2 % of the largest component. */
 #define USUAL_FLOOR_FREQUENCY 2e-4
 #define USUAL_FLOOR_SHAPE     2e-3
+
+/* Median of the values that are known, times factor; 0 of none. */
+static double known_median(struct deck_reader *reader, ptrdiff_t count, const double *value, double factor)
+{
+    double *known = POOL_ARRAY(reader->pool, double, count);
+    size_t n = 0;
+    for (ptrdiff_t i = 0; i < count && known; i++)
+        if (isfinite(value[i]))
+            known[n++] = factor * value[i];
+    return n ? double_of_rank(n, n / 2, known) : 0;
+}
 
 static void take_usual_floor(struct deck_reader *reader)
 {
@@ -339,12 +351,21 @@ static void take_usual_floor(struct deck_reader *reader)
         of_test |= isfinite(m->shape_std[i]);
     if (!reader->measured_card || reader->states_floor || !of_test)
         return;
-    reader->floor_frequency = USUAL_FLOOR_FREQUENCY;
-    reader->floor_shape = USUAL_FLOOR_SHAPE;
+    int tests = reader->impacts < 0; /* their scatter is known: it counts, unless it is less than good tests repeat */
+    double root = sqrt(abs(reader->impacts)), hz = known_median(reader, m->nmode, m->frequency_std, root),
+           shape = components ? known_median(reader, components, m->shape_std, root) : 0;
+    reader->floor_frequency = tests && hz > USUAL_FLOOR_FREQUENCY ? 0 : fmax(USUAL_FLOOR_FREQUENCY, hz);
+    reader->floor_shape = tests && shape > USUAL_FLOOR_SHAPE ? 0 : fmax(USUAL_FLOOR_SHAPE, shape);
+    if (!reader->floor_frequency && !reader->floor_shape)
+        return;
     deck_note(reader, reader->measured_card->place,
-              "the file states the scatter within one test; %g %% of frequencies and %g %% of shapes are added for what differs "
+              "the file states the scatter %s; %.2g %% of frequencies (%s) and %.2g %% of shapes (%s) are added for what differs "
               "between tests; *NOISE, FLOOR_FREQUENCY=, FLOOR_SHAPE= state it for yours, 0 for none",
-              100 * USUAL_FLOOR_FREQUENCY, 100 * USUAL_FLOOR_SHAPE);
+              tests ? pool_format(reader->pool, "between %d tests", -reader->impacts) : "within one test",
+              100 * reader->floor_frequency,
+              hz > USUAL_FLOOR_FREQUENCY ? tests ? "it is measured" : "scatter of single impacts" : "the least that is taken",
+              100 * reader->floor_shape,
+              shape > USUAL_FLOOR_SHAPE ? tests ? "it is measured" : "scatter of single impacts" : "the least that is taken");
 }
 
 void deck_complete_noise(struct deck_reader *reader)
@@ -439,6 +460,11 @@ static void read_frequency(const struct extra *extra)
                    text);
         return;
     }
+    int tests, count = uff_extra_count(extra->set, &tests);
+    if (count)
+        extra->reader->impacts = tests                                                      ? -count
+                                 : extra->reader->impacts && extra->reader->impacts < count ? extra->reader->impacts
+                                                                                            : count;
     if (hz > 0)
         job->measurement.frequency_std[extra->mode] = hz / job->measurement.frequency_hz[extra->mode];
 }

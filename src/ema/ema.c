@@ -776,5 +776,8 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
         status = extract(&job, &table);
     if (status == ROTID_OK)
         status = finish(&job);
+    for (int c = 0; c < set->nfrf; c++)
+        if (!c || set->frf[c].averages < out->impacts)
+            out->impacts = set->frf[c].averages;
     return status;
 }

@@ -15,9 +15,11 @@
  *   refine.c         refine_poles: all poles by variable projection, Levenberg-Marquardt; covariance C of the poles = inverse of
  *                    the information, wider where the scores of the channels scatter more
  *   modes.c          modes_of_pole: std of frequency and damping from C; modes_judge: quality flags, MAC
+ *   tests.c          ema_average: modes of several tests, and the scatter between them
  *   poles.c          residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
  *   per_point.c      per_point_frequencies: a pole for each channel (local_fit) where the channels disagree
  *   modes.c          shapes_of_mode: A_cr to a real shape (mode_axis), its std, MPC, MPD, modal mass
+ *   tests.c          ema_average: modes of several tests, and the scatter between them
  *   poles.c          ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
  *
  * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
@@ -157,7 +159,22 @@ struct ema { /* everything on the pool */
     struct ema_channel *channel;   /* [nfrf] */
     int refined;                   /* iterations of the last refinement */
     int std_from_impacts;          /* 1: from the variance of the lines; 0: from what the modes leave over */
+    int impacts;                   /* behind each function, the fewest; 0: not known */
+    int tests;                     /* ema_average: means over so many tests; else 0 */
 };
+
+/* What several tests of one structure say of their repeatability. */
+struct ema_scatter {
+    int tests, missing;      /* modes of the first test that another one does not have */
+    double *std_hz;          /* [mean.nmode] of one test, by each mode's own few */
+    double frequency, shape; /* of one test, over all modes: relative; of the largest component. NaN without a mode */
+};
+
+/* Modes of count >= 2 tests as one: a mode of the first test counts where every other has one of its shape (MAC above 0.8 over
+ * the points of both, frequency within 5 %). mean: frequencies and shapes (each at the scale that is nearest to the first)
+ * averaged, their standard deviations s/sqrt(count) of the scatter s of one test, which is pooled over all modes and points since
+ * few tests tell little of a single one; the rest as in the first test. ROTID_OK, ROTID_ERROR_MEMORY. */
+int ema_average(struct pool *pool, int count, const struct ema test[], struct ema *mean, struct ema_scatter *scatter);
 
 /* Modes of a set of transfer functions: stabilisation table by least-squares complex frequency domain (Guillaume, Verboven,
  * Vanlanduit 1998; Peeters, Van der Auweraer, Guillaume, Leuridan 2004), shapes by least squares with residuals, then all poles

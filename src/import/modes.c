@@ -130,6 +130,9 @@ static int write_companion(struct writing *w, int number, const char *what, cons
     if (mode)
         (void)snprintf(shape.id[1], sizeof shape.id[1], "FREQUENCY_HZ %.10e DAMPING %.10e", mode->frequency_std,
                        isfinite(mode->damping_std) ? mode->damping_std : 0);
+    if (mode && (w->ema->tests || (w->ema->impacts && w->ema->std_from_impacts)))
+        (void)snprintf(shape.id[2], sizeof shape.id[2], w->ema->tests ? "TESTS %d" : "IMPACTS %d",
+                       w->ema->tests ? w->ema->tests : w->ema->impacts);
     return write_values(w, &shape, value);
 }
 

@@ -224,3 +224,34 @@ void screen_ema(const struct screen *to, const struct ema_report *r)
     if (r->output)
         (void)fprintf(to->out, "\n%d %s written to %s\n", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"), r->output);
 }
+
+void screen_scatter(const struct screen *to, int count, const char *const *file, const struct ema test[], const struct ema *mean,
+                    const struct ema_scatter *scatter, const char *output)
+{
+    struct table *table = table_open(to->pool, "Modes of all tests: the mean, and the scatter of one test about it");
+    for (int t = 0; t < count; t++)
+        screen_say(to, "%s: %d %s, %d points", file[t], test[t].nmode, human_plural(test[t].nmode, "mode", "modes"),
+                   test[t].npoint);
+    for (int k = 0; k < mean->nmode; k++) {
+        const struct ema_mode *mode = &mean->mode[k];
+        table_row(table);
+        number_column(table, "mode", NULL, SHOW_COUNT, k + 1);
+        number_column(table, "frequency", "Hz", SHOW_DIGITS(8), mode->frequency_hz);
+        number_column(table, "scatter", "Hz", SHOW_DIGITS(2), scatter->std_hz[k]);
+        number_column(table, "scatter", "%", SHOW_DIGITS(2), 100 * scatter->std_hz[k] / mode->frequency_hz);
+    }
+    screen_table(to, table);
+    if (scatter->missing)
+        screen_say(to, "%d %s of %s left out: not in every test", scatter->missing,
+                   human_plural(scatter->missing, "mode", "modes"), file[0]);
+    if (mean->nmode)
+        screen_say(to,
+                   "between tests frequencies repeat within %.2g %%, shapes within %.2g %% of the largest component:\n*NOISE, "
+                   "FREQUENCY=%.2g, SHAPE=%.2g",
+                   100 * scatter->frequency, 100 * scatter->shape, scatter->frequency, scatter->shape);
+    else
+        screen_say(to, "no mode is in every test");
+    if (output)
+        screen_say(to, "\n%d %s written to %s, the means of %d tests with their standard deviations", mean->nmode,
+                   human_plural(mean->nmode, "mode", "modes"), output, count);
+}

@@ -447,6 +447,9 @@ void screen_uff(const struct screen *to, const char *path, const struct listing 
                 const char *const *summary);
 /* Modes, what is doubtful, stabilisation table as a picture, MAC of the result with itself, worst channels. */
 void screen_ema(const struct screen *to, const struct ema_report *report);
+/* Several tests [count] of the files, and what they say together; output: the file of the means, or NULL. */
+void screen_scatter(const struct screen *to, int count, const char *const *file, const struct ema test[], const struct ema *mean,
+                    const struct ema_scatter *scatter, const char *output);
 /* Behind a heading. */
 void screen_frf(const struct screen *to, const struct frf_view *view, const struct transfer_result *of);
 

@@ -535,6 +535,13 @@ enum uff_extra uff_extra_of(const struct uff_shape *set, int *number)
     return kind;
 }
 
+int uff_extra_count(const struct uff_shape *set, int *tests)
+{
+    int count;
+    *tests = sscanf(set->id[2], "TESTS %d", &count) == 1;
+    return (*tests || sscanf(set->id[2], "IMPACTS %d", &count) == 1) && count > 0 ? count : 0;
+}
+
 int uff_extra_frequency_std(const struct uff_shape *set, double *hz)
 {
     double damping; /* nothing needs its deviation yet, but it has to be one */

@@ -213,6 +213,9 @@ double uff_real_shape(const struct uff_shape *mode, int component, double *value
  * the text names none. */
 enum uff_extra uff_extra_of(const struct uff_shape *set, int *number);
 
+/* How many impacts, or tests, such a standard deviation rests on, in its third line of text; 0: it does not say. */
+int uff_extra_count(const struct uff_shape *set, int *tests);
+
 /* The standard deviation of the frequency [Hz], zero where it is not known, in the second line of a UFF_EXTRA_SHAPE_STD. 0, or 1
  * where the line has another form. */
 int uff_extra_frequency_std(const struct uff_shape *set, double *hz);
