@@ -34,16 +34,16 @@ const struct command_entry command_table[] = {
      "rotid frf rotor.inp\n"
      "rotid frf rotor.inp --set FRF.FILE=measured.unv -o synthesised.unv",
      "inp", command_frf, READS_DECK},
-    {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED",
+    {"ema", "time records or transfer functions (58, 58b, or a table of an analyser) to modes for *MEASURED",
      "rotid ema records.unv --band 200,3200 -o modes.unv\n"
      "rotid ema records.unv --pick 415,722 --per-point\n"
      "rotid ema first.unv second.unv third.unv -o modes.unv",
-     "unv|uff|uf", command_ema, PARALLEL | SEVERAL_FILES},
+     "unv|uff|uf|csv", command_ema, PARALLEL | SEVERAL_FILES},
     {"test",
      "records of a hammer test and a deck to a page: ema, identify, diagnose, report, each said as the command that does it",
      "rotid test records.unv rotor.inp -o page.html\n"
      "rotid test records.unv rotor.inp -o page.html --band 200,3200",
-     "unv|uff|uf|inp", command_test, SEVERAL_FILES},
+     "unv|uff|uf|csv|inp", command_test, SEVERAL_FILES},
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG",
      "rotid export rotor.inp --format matrix-market -o rotor\n"
      "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",

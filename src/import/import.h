@@ -192,6 +192,17 @@ struct measurement {
 int measurement_read(struct pool *pool, const char *path, const struct measurement_options *options,
                      struct message_list *messages, struct measurement *out);
 
+/* ---- Transfer functions as an analyser writes them into a table (analyser.c): .csv, .txt or .tsv. */
+
+int analyser_is(const char *path);
+
+/* First row: frequency [Hz] or [kHz], then for each function two columns in any order, real and imaginary or magnitude and phase,
+ * named as "12/1 real [m/s2/N]": response, reference (of one number: options->reference), part, unit. Cells are apart by
+ * semicolons where the first row has one, else tabs, else commas; not in the last case a decimal comma is one. Lines outside of
+ * the band are left out. No points and no variances. Statuses of measurement_read. */
+int analyser_read(struct pool *pool, const char *path, const struct measurement_options *options, struct message_list *messages,
+                  struct measurement *out);
+
 /* ---- The modes of a test as a universal file that `identify` and `diagnose` take: docs/uff.md, "Modes with standard
  * deviations". */
 

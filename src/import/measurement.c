@@ -700,6 +700,8 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
     struct loader l = {.pool = pool, .path = path, .contents = &contents, .options = options, .messages = messages, .out = out};
     struct pool scratch;
     *out = (struct measurement){0};
+    if (analyser_is(path))
+        return analyser_read(pool, path, options, messages, out);
     pool_open(&scratch, pool->allocator);
     int status = uff_open(&scratch, path, messages, &l.reader);
     if (!status && !uff_can_return(l.reader)) {

@@ -1,0 +1,130 @@
+/* Tables of an analyser: the transfer functions of a formula, written in every way they come, and the mistakes in them. */
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "folder.h"
+#include "import/import.h"
+#include "support.h"
+
+#define LINES 50
+
+/* Acceleration over force of a mass on a spring, of point p. */
+static double complex exact(int p, double hz)
+{
+    double w = 2 * 3.141592653589793 * hz;
+    return -w * w * (0.5 + p) / (1e6 - w * w + 0.04 * I * w * 1e3);
+}
+
+static int read_table(const char *text, const struct measurement_options *options, struct measurement *out, const char **said)
+{
+    static const struct measurement_options none;
+    struct message_list messages;
+    message_open(&messages, &test_pool);
+    int status = analyser_read(&test_pool, folder_write("table.csv", text), options ? options : &none, &messages, out);
+    *said = messages.count ? pool_format(&test_pool, "%d:%d: %s", messages.item[messages.count - 1].line,
+                                         messages.item[messages.count - 1].column, messages.item[messages.count - 1].text)
+                           : "";
+    return status;
+}
+
+/* Written with two columns a function; polar: magnitude and phase. comma: the decimal sign. */
+static const char *table_of(const char *head, char separator, char comma, int polar, double in_hz, double in_si, double degrees)
+{
+    const char *text = pool_format(&test_pool, "%s\r\n", head);
+    for (int i = 0; i < LINES; i++) {
+        double hz = 100 + 2.0 * i, cell[5] = {hz / in_hz};
+        for (int p = 0; p < 2; p++) {
+            double complex h = exact(p, hz) / in_si;
+            cell[1 + 2 * p] = polar ? cabs(h) : creal(h);
+            cell[2 + 2 * p] = polar ? carg(h) * degrees : cimag(h);
+        }
+        for (int c = 0; c < 5; c++) {
+            char *number = pool_format(&test_pool, "%.12g", cell[c]);
+            for (char *dot = number; comma != '.' && (dot = strchr(dot, '.')) != NULL;)
+                *dot = comma;
+            text = pool_format(&test_pool, "%s%s%c", text, number, c < 4 ? separator : '\n');
+        }
+    }
+    return text;
+}
+
+POOL_TEST(every_form_gives_the_same_functions)
+{
+    const struct {
+        const char *head;
+        char separator, comma;
+        int polar;
+        double in_hz, in_si, degrees;
+    } forms[] = {
+        {"Frequency [Hz],12/1 real [m/s2/N],12/1 imag [m/s2/N],13/1 real [m/s2/N],13/1 imag [m/s2/N]", ',', '.', 0, 1, 1, 1},
+        {"\xef\xbb\xbf\"f [kHz]\";\"H12,1 Magnitude [g/N]\";\"H12,1 Phase [deg]\";\"H13,1 Magnitude [g/N]\";\"H13,1 Phase "
+         "[deg]\"",
+         ';', ',', 1, 1e3, 9.80665, 57.29577951308232},
+        {"freq\t12:1 mag [mm/s2/N]\t12:1 phase [rad]\t13:1 mag [mm/s2/N]\t13:1 phase [rad]", '\t', '.', 1, 1, 1e-3, 1},
+    };
+    for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
+        struct measurement m = {0};
+        const char *said;
+        assert_status(read_table(table_of(forms[f].head, forms[f].separator, forms[f].comma, forms[f].polar, forms[f].in_hz,
+                                          forms[f].in_si, forms[f].degrees),
+                                 NULL, &m, &said),
+                      ROTID_OK);
+        assert_string_equal(said, "");
+        assert_int_equal(m.set.nfrf, 2);
+        assert_int_equal(m.set.nline, LINES);
+        assert_int_equal(m.set.quantity, FRF_ACCELERATION);
+        for (int p = 0; p < 2; p++) {
+            assert_int_equal(m.set.frf[p].response_node, 12 + p);
+            assert_int_equal(m.set.frf[p].reference_node, 1);
+            for (int i = 0; i < LINES; i++) {
+                assert_close(m.set.frequency_hz[i], 100 + 2.0 * i, 1e-10, 0);
+                assert_true(cabs(m.set.frf[p].h[i] - exact(p, 100 + 2.0 * i)) < 1e-9 * cabs(exact(p, 100 + 2.0 * i)));
+            }
+        }
+    }
+}
+
+POOL_TEST(a_band_and_a_reference_are_those_of_the_options)
+{
+    const struct measurement_options options = {.low_hz = 110, .high_hz = 130, .reference = 7};
+    struct measurement m = {0};
+    const char *said;
+    assert_status(read_table(table_of("Frequency,P12 re,P12 im,P13 re,P13 im", ',', '.', 0, 1, 1, 1), &options, &m, &said),
+                  ROTID_OK);
+    assert_non_null(strstr(said, "accelerances in (m/s2)/N are assumed"));
+    assert_int_equal(m.set.nline, 11);
+    assert_close(m.set.frequency_hz[0], 110, 1e-12, 0);
+    assert_int_equal(m.set.frf[1].reference_node, 7);
+}
+
+POOL_TEST(mistakes_have_their_place)
+{
+    static const char *const cases[][2] = {
+        {"", "1:1: the first row is ''"},
+        {"time,1/1 re,1/1 im\n1,2,3\n", "1:1: the first column is 'time', expected frequency [Hz]"},
+        {"freq,1/1 re,1/1 what\n", "1:3: '1/1 what' does not say what it holds"},
+        {"freq,H re,H im\n", "1:2: 'H re' does not name response and reference"},
+        {"freq,3 re,3 im\n", "one and --reference N"},
+        {"freq,1/1 re,1/2 im\n", "1:1: 1/1 has not two columns"},
+        {"freq,1/1 re,1/1 phase\n", "1:1: 1/1 has not two columns"},
+        {"freq,1/1 re [dB],1/1 im\n", "1:2: the unit of '1/1 re [dB]' is not known"},
+        {"freq,1/1 re [m/N],1/1 im [g/N]\n", "1:3: '1/1 im [g/N]' is another quantity"},
+        {"freq,1/1 re,1/1 im\n1,2,3\n1,2,3\n", "3:1: the frequency 1 does not rise"},
+        {"freq,1/1 re,1/1 im\n1,2,x\n", "2:3: the cell is 'x', expected a number"},
+        {"freq,1/1 re,1/1 im\n1,2\n", "2:1: the row has another number of cells"},
+        {"freq,1/1 re,1/1 im\n1,2,3,4\n", "2:1: the row has another number of cells"},
+        {"freq,1/1 re,1/1 im\n1,2,3\n", "1:1: fewer than two lines"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct measurement m = {0};
+        const char *said;
+        assert_status(read_table(cases[i][0], NULL, &m, &said), ROTID_ERROR_ARGUMENT);
+        if (!strstr(said, cases[i][1]))
+            fail_msg("%s: '%s', expected '%s'", cases[i][0], said, cases[i][1]);
+    }
+}
+
+TEST_GROUP(folder_make, folder_remove);
