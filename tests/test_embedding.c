@@ -319,14 +319,34 @@ POOL_TEST(every_routine_of_the_header_links_from_fortran)
     for_each("callers", in_fortran, every_routine_is_there);
 }
 
+/* A post at 60 % of its stiffness, with E as it was stated to the noise; built and run once. */
+POOL_TEST(what_a_frame_lacks_is_named)
+{
+    needs_compiler(&test_pool, "CC");
+    const char *out = ran("frame-c-shared", "0", ""), *share = strstr(out, "its share: "), *modulus = strstr(out, "posts.E = ");
+    double value, std, low, high;
+    assert_non_null(strstr(out, "member 2: probability 1.000\n"));
+    assert_true(share && sscanf(share, "its share: %lf +- %lf", &value, &std) == 2);
+    assert_true(fabs(value - 0.4) < 3 * std && std < 0.01);
+    assert_true(modulus && sscanf(modulus, "posts.E = %*f, 95 %% interval %lf ... %lf", &low, &high) == 2);
+    assert_true(low < 2.06e11 && 2.04e11 < high && high - low < 0.02e11);
+}
+
 /* ---- the document */
 
 /* Every file of docs/examples stands in it word for word, in a block of its own, and every block of a program is such a file. */
 POOL_TEST(the_document_shows_the_programs_that_were_built)
 {
-    static const char *const file[][2] = {{"c", "run_deck.c"},       {"c", "margins.c"},          {"c", "curve.c"},
-                                          {"make", "Makefile"},      {"fortran", "critical.f90"}, {"fortran", "stepped_beam.f90"},
-                                          {"python", "run_deck.py"}, {"cmake", "CMakeLists.txt"}};
+    static const char *const file[][2] = {{"c", "run_deck.c"},
+                                          {"c", "margins.c"},
+                                          {"c", "curve.c"},
+                                          {"c", "frame.c"},
+                                          {"python", "frame.py"},
+                                          {"make", "Makefile"},
+                                          {"fortran", "critical.f90"},
+                                          {"fortran", "stepped_beam.f90"},
+                                          {"python", "run_deck.py"},
+                                          {"cmake", "CMakeLists.txt"}};
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
     int blocks = 0;
     for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
