@@ -123,6 +123,34 @@ POOL_TEST(exported_files_hold_numbers)
                 folder);
 }
 
+/* A free bar with six elements where noise asks for more, and frequencies that several causes explain. */
+POOL_TEST(a_diagnosis_says_that_it_refines_the_mesh_and_what_chance_does)
+{
+    (void)shell(
+        &test_pool,
+        "cd %s && printf '*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n1.2, 0.05, "
+        "0, 6\n*MODES\n1, 159.0\n2, 435.1\n3, 845.1\n4, 1379\n5, 2025\n6, 2770\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\ns.E, "
+        "1e10, 4e11, 2e11\n' > coarse.inp",
+        folder);
+    const char *said = shell(&test_pool, ROTID "diagnose coarse.inp --extended fine.inp 2>&1", folder);
+    assert_non_null(strstr(said, "rotid: fine.inp: the mesh is refined: "));
+    assert_non_null(strstr(said, " elements in place of 6, as the noise asks for\n"));
+    assert_non_null(strstr(said, "VERDICT  AMBIGUOUS"));
+    const char *words = shell(&test_pool, "tr -s ' \n' '  ' < %s/fine.inp", folder);
+    assert_non_null(strstr(words, "The probability that nothing is wrong and chance did this is "));
+    (void)shell(&test_pool, ROTID "check fine.inp", folder);
+    said = shell(&test_pool, ROTID "diagnose " INPUT "/paper_rotor.inp --quiet --extended same.inp 2>&1; true", folder);
+    assert_null(strstr(said, "refined")); /* --quiet */
+}
+
+POOL_TEST(an_export_says_how_large_its_files_are)
+{
+    const char *said = shell(&test_pool, ROTID "export " INPUT "/brake_reuss_beam.inp --format matrix-market -o size", folder);
+    const char *bytes = shell(&test_pool, "cd %s && wc -c < size.mass.mtx", folder), *line = strstr(said, "size.mass.mtx, ");
+    assert_non_null(line);
+    assert_close(strtod(line + strlen("size.mass.mtx, "), NULL), strtod(bytes, NULL) / 1e6, 6e-3, 0); /* three digits, MB */
+}
+
 static void write_cards(const char *name, int cards, const char *head, int lines)
 {
     char path[128];

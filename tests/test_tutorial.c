@@ -232,6 +232,7 @@ POOL_TEST(what_the_readme_prints_is_printed)
         assert_true(strlen(output) > 100);
         assert_printed(printed, output);
     }
+    assert_string_equal(shell(&test_pool, "ls '%s'", folder), "build\ninput\n"); /* nothing is left in the root of the sources */
     /* the deck that is called complete */
     const char *deck = strstr(readme, "*MATERIAL, NAME=steel");
     assert_non_null(deck);

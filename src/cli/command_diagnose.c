@@ -15,6 +15,9 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         terminal_say("rotid: cannot write %s: no deck reads as this model\n", command->extended);
         return EXIT_INTERNAL;
     }
+    const char *refined = strstr(diagnosis->extended_deck, DECK_MESH_REFINED);
+    if (refined && !command->quiet)
+        terminal_say("rotid: %s: %.*s\n", command->extended, (int)strcspn(refined, "\r\n"), refined);
     return command_write_deck(command, diagnosis->extended_deck, code);
 }
 

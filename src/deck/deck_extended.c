@@ -20,13 +20,24 @@ static int extended_states(struct pool *pool, const struct diagnosis *d, struct 
     return status;
 }
 
+static int elements_of(const struct rotor *rotor)
+{
+    int count = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        count += rotor->segment[s].elements;
+    return count;
+}
+
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct message_list *notes, char **text)
 {
-    int lines = 2 + d->nalternative;
-    const char **extra = POOL_ARRAY(pool, const char *, lines);
+    int lines = 2 + d->nalternative, from = elements_of(&d->given.state->job.rotor), to;
+    const char **extra = POOL_ARRAY(pool, const char *, lines + 1);
+    struct deck_write_options options = {.extra = extra};
+    struct states states;
     *text = NULL;
-    if (!extra)
-        return ROTID_ERROR_MEMORY;
+    int status = extra ? extended_states(pool, d, &states, &options.x) : ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
     extra[0] = pool_format(pool, "rotid %s from %s, verdict %s", ROTID_VERSION, d->given.state->job.deck,
                            rotid_verdict_name(d->result.verdict.kind));
     extra[1] = d->result.verdict.sentence;
@@ -36,13 +47,14 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct mes
         extra[2 + i] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
                                    other->target ? other->target : "");
     }
+    to = elements_of(&states.state->job.rotor);
+    if (to > from)
+        extra[lines++] = pool_format(pool, DECK_MESH_REFINED "%d elements in place of %d, as the noise asks for", to, from);
     for (int i = 0; i < lines; i++)
         if (!extra[i])
             return ROTID_ERROR_MEMORY;
-    struct deck_write_options options = {.nextra = lines, .extra = extra};
-    struct states states;
-    int status = extended_states(pool, d, &states, &options.x);
-    return status ? status : deck_write(pool, &d->given, &states, &options, notes, text);
+    options.nextra = lines;
+    return deck_write(pool, &d->given, &states, &options, notes, text);
 }
 
 /* ------------------------------------------------------------------------------------------------ its place */

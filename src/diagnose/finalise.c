@@ -339,8 +339,10 @@ static const char *change_sentence(const struct engine *engine, const char *caus
                                                    : "the rest still exceeds the noise",
                            chance, end);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool, "The data cannot tell what changed between %s and %s (%s): %s.%s", from, to, chance, others,
-                           end);
+        return pool_format(pool,
+                           "The data cannot tell what changed between %s and %s (%s): %s. The probability that nothing changed "
+                           "and chance did this is %.2g %%.%s",
+                           from, to, chance, others, 100 * verdict->nothing, end);
     default:
         return pool_format(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
                            from, to, chance, 100 * verdict->something_else, others, end);
@@ -386,7 +388,10 @@ static const char *verdict_sentence(struct engine *engine)
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool, "The data cannot tell what the model lacks (%s): %s.%s%s", chance, others, faults, open);
+        return pool_format(pool,
+                           "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "
+                           "did this is %.2g %%.%s%s",
+                           chance, others, 100 * verdict->nothing, faults, open);
     default:
         return pool_format(
             pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s",

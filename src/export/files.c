@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "export/export.h"
 #include "report/report.h"
@@ -498,8 +499,12 @@ void screen_export(const struct screen *to, const struct result_head *head, cons
     }
     screen_table(to, table);
     (void)fputc('\n', out);
-    for (int i = 0; i < files->count; i++)
-        (void)fprintf(out, "%s\n", files->path[i]);
+    for (int i = 0; i < files->count; i++) {
+        struct stat about;
+        if (stat(files->path[i], &about))
+            about.st_size = 0;
+        (void)fprintf(out, "%s, %.3g MB\n", files->path[i], (double)about.st_size / 1e6);
+    }
 }
 
 static struct export_parameter_result *parameters(struct pool *pool, const struct export_model *model)

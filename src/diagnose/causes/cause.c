@@ -45,9 +45,10 @@ const char *cause_target_name(struct pool *pool, const struct rotor *rotor, cons
         return pool_format(pool, "%s|%s", rotor->group[target].name, rotor->group[target + 1].name);
     case TARGET_SPRING:
         return rotor->spring[target].name ? rotor->spring[target].name
-                                          : pool_format(pool, "at %.4g m", rotor->spring[target].position);
+                                          : pool_format(pool, "spring at %.4g m", rotor->spring[target].position);
     case TARGET_DISK:
-        return rotor->disk[target].name ? rotor->disk[target].name : pool_format(pool, "at %.4g m", rotor->disk[target].position);
+        return rotor->disk[target].name ? rotor->disk[target].name
+                                        : pool_format(pool, "disk at %.4g m", rotor->disk[target].position);
     case TARGET_TIEROD:
         return rotor->tierod[target].name;
     default:
