@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum spectrum { SPREAD, TWO_VALUES, FEW_COPIES, HALF_ZERO, ALL_EQUAL, TRIPLES, STIFF_PAIRS, SPECTRA };
+enum spectrum { SPREAD, TWO_VALUES, FEW_COPIES, HALF_ZERO, ALL_EQUAL, TRIPLES, STIFF_PAIRS, SPECTRA, DENSE };
 
 static double eigenvalue(enum spectrum spectrum, double high, int n, int i)
 {
@@ -101,4 +101,25 @@ POOL_TEST(soft_pairs_among_stiff_ones_are_all_found)
 {
     solve_stated(*state, 2400, 1, 1, STIFF_PAIRS, 1e12, 1);
     solve_stated(*state, 2400, 1, 4, STIFF_PAIRS, 1e12, 1);
+}
+
+/* The same of eigenvalues of which more are equal, or zero, than a solver keeps vectors: what is below them is counted. */
+POOL_TEST(more_pairs_are_equal_than_there_are_vectors)
+{
+    static const enum spectrum spectra[] = {TWO_VALUES, HALF_ZERO, ALL_EQUAL};
+    for (size_t s = 0; s < sizeof spectra / sizeof *spectra; s++)
+        for (int rotated = 0; rotated < 2; rotated++)
+            for (int wide = 0; wide < 2; wide++)
+                solve_stated(*state, 2400, wide ? 14 : 3, rotated ? 3 : 12, spectra[s], rotated ? 10 : 1e6, rotated);
+}
+
+/* Eigenvalues without a gap, as of blades that are almost alike */
+POOL_TEST(a_dense_spectrum_converges)
+{
+    solve_stated(*state, 2400, 1, 12, DENSE, 1e3, 1);
+}
+
+POOL_TEST(no_stiffness_has_pairs_at_zero)
+{
+    solve_stated(*state, 1, 0, 1, ALL_EQUAL, 0, 1);
 }

@@ -218,7 +218,7 @@ static int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid
 #define TOLERANCE   1e-12 /* of the residual below: a vector is then as good as its arithmetic */
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define NEAR        0.03  /* residual from which polishing converges */
-#define MOST_CYCLES 60
+#define MOST_CYCLES 400
 #define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
 #define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
@@ -371,8 +371,8 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
 static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     double shift = shift_of(e->count < 3 ? e->block : e->count, e->value, e->largest);
-    e->shift = shift < 0 ? shift : e->shift;
-    return shift < 0 ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+    e->shift = shift < 0 ? shift : -FIRST_SHIFT * e->largest; /* all that are known may be zero */
+    return refactor(e, k, m);
 }
 
 /* Motions under smooth loads, cosines along the degrees of freedom: where neighbours have neighbouring numbers, as along a beam,
@@ -426,21 +426,15 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
 /* Refuses what no beam has, the same way whatever was solved before. */
 static int check(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    int stride = k->kd + 1;
     if (factor_compute(&e->inertia, m))
         return ROTID_ERROR_MASS;
-    e->largest = 0;
-    for (int i = 0; i < e->n; i++)
-        e->largest = fmax(e->largest, k->band[(ptrdiff_t)i * stride] / m->band[(ptrdiff_t)i * stride]);
-    return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+    e->largest = highest_of(k, m);
+    return e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
-/* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
- * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
-static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+/* Are there as many eigenvalues below the shift as values that are known? */
+static int all_known_below(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double shift, int expected)
 {
-    double shift = shift_above(e->value[e->count - 1], e->shift, e->largest);
-    int expected = e->count;
     while (expected < e->known && e->value[expected] <= shift)
         expected++;
     int negative = e->by_arrow ? arrow_count(&e->arrow, shift) : -1;
@@ -448,6 +442,16 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
         return negative == expected;
     matrix_combine(1, k, -shift, m, &e->shifted);
     return factor_negative_count(&e->inertia, &e->shifted) == expected;
+}
+
+/* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
+ * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. Where more equal the last one
+ * than there are vectors, those below it tell; of fewer rows the dense solver has more digits then. */
+static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    double last = e->value[e->count - 1];
+    return all_known_below(e, k, m, shift_above(last, e->shift, e->largest), e->count) ||
+           (e->n > EIGEN_DENSE_MOST && all_known_below(e, k, m, shift_below(last, e->shift, e->largest), 0));
 }
 
 /* Ritz pairs of the vectors that are there. */

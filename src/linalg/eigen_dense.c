@@ -108,7 +108,7 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
         int reference = e->count < 4 ? e->count - 1 : 3; /* past two rigid modes; past more of them where there are more */
         while (reference + 1 < e->count && lambda[reference] < 1e-13 * most)
             reference++;
-        if (lambda[reference] >= 1e-13 * most)
+        if (most > 0 && lambda[reference] >= 1e-13 * most)
             e->shift = -lambda[reference];
     }
     return ROTID_OK;

@@ -54,7 +54,7 @@ static int begin(struct eigen_wide *e)
     return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
-/* Returns 0 where no eigenvalue is known that has the size for one. */
+/* Returns 0 where no eigenvalue is known that has the size for one: all may be zero, and the shift stays. */
 static int choose_shift(struct eigen_wide *e)
 {
     double shift = shift_of(e->block, e->value, e->largest);
@@ -75,7 +75,8 @@ static int start(struct eigen_wide *e)
     if (status)
         return status;
     take_pairs(e);
-    return choose_shift(e) ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+    (void)choose_shift(e);
+    return ROTID_OK;
 }
 
 /* Refuses what no rotor has, the same way whatever was solved before. */
@@ -86,16 +87,14 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
         e->definite = !factor_compute(&e->factor, m);
     if (!e->definite && !e->vouched)
         return ROTID_ERROR_MASS;
-    e->largest = 0;
-    for (int i = 0; i < e->n; i++)
-        e->largest = fmax(e->largest, p->k[p->start[i]] / p->m[p->start[i]]);
-    return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+    e->largest = highest_of(k, m);
+    return e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
 /* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
  * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
- * above the eigenvalues that they belong to, so no fewer can be there. -1 where the count fails, or where more eigenvalues lie
- * below the shift than pairs are kept: no search can prove those complete. */
+ * above the eigenvalues that they belong to, so no fewer can be there. More may equal the last pair than are kept: where the pairs
+ * below them are all that are there, none was missed either. -1 where that does not hold or the count fails. */
 static int count_missed(struct eigen_wide *e)
 {
     double shift = shift_above(e->value[e->count - 1], e->shift, e->largest);
@@ -103,7 +102,14 @@ static int count_missed(struct eigen_wide *e)
     while (known < e->block && e->value[known] <= shift)
         known++;
     int below = factor_negative_count_pencil(&e->factor, &e->pencil, shift);
-    return below <= e->block ? below - known : -1;
+    if (below >= 0 && below <= e->block)
+        return below - known;
+    if (e->n <= EIGEN_DENSE_MOST) /* the dense solver has more digits then */
+        return -1;
+    shift = shift_below(e->value[e->count - 1], e->shift, e->largest);
+    for (known = 0; known < e->count && e->value[known] <= shift;)
+        known++;
+    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) == known ? 0 : -1;
 }
 
 /* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
@@ -291,6 +297,11 @@ int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_ma
     if (status)
         return status;
     matrix_multiply(m, count, phi, e->image);
+    for (int j = 0; j < count; j++) { /* the solver's phi' (K - s M) phi = 1 says little of M where lambda is large */
+        double *x = phi + (ptrdiff_t)j * n, *mx = e->image + (ptrdiff_t)j * n, inverse = 1 / sqrt(cblas_ddot(n, x, 1, mx, 1));
+        cblas_dscal(n, inverse, x, 1);
+        cblas_dscal(n, inverse, mx, 1);
+    }
     eigen_dense_inverse(&e->solver, count, e->image);
     double *value = e->k, *vector = e->m; /* not needed any more */
     if (!ritz_pairs(n, count, k, m, e->image, value, vector, e->product, e->squares, e->work)) {

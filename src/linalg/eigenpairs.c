@@ -2,17 +2,14 @@
 #include "base/base.h"
 #include "linalg/linalg.h"
 
-#define DENSE_MOST 2000 /* degrees of freedom: 150 MB, and seconds */
-
 static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double *lambda, double *phi)
 {
     struct eigen_full e;
     int status = eigen_full_new(pool, k, count, &e);
     if (!status)
         status = eigen_full_solve(&e, k, m, lambda, phi);
-    /* The block iteration takes K for indefinite where more eigenvalues are zero than it has vectors, and cannot count them where
-     * as many others are equal. The dense solver does not mind. */
-    if ((status != ROTID_ERROR_STIFFNESS && status != ROTID_ERROR_EIGEN) || e.dense || k->n > DENSE_MOST)
+    /* The block iteration cannot count eigenvalues where more are equal than it has vectors. The dense solver does not mind. */
+    if ((status != ROTID_ERROR_STIFFNESS && status != ROTID_ERROR_EIGEN) || e.dense || k->n > EIGEN_DENSE_MOST)
         return status;
     status = eigen_full_new_dense(pool, k, count, &e);
     return status ? status : eigen_full_solve(&e, k, m, lambda, phi);

@@ -699,6 +699,8 @@ int polynomial_roots(int n, const double *c, double complex *root, double *work)
 
 /* The shift s of an iteration with (K - s M)^-1 M. */
 
+#define EIGEN_DENSE_MOST 2000 /* degrees of freedom up to which the dense solver stands in: 150 MB, and seconds */
+
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: the first shift, far below the first mode and far above its rounding */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 
@@ -710,6 +712,15 @@ double shift_of(int known, const double *value, double largest);
 /* The shift just above the eigenvalue `last` where a Sturm count tells whether a pair was missed: farther above than rounding may
  * move that eigenvalue. below < 0: the shift of the iteration. */
 double shift_above(double last, double below, double largest);
+
+/* The shift just below the eigenvalue `last` and those that equal it. More of these may follow than vectors are kept; where a
+ * Sturm count finds there as many eigenvalues as are known, none was missed all the same. Below those that are zero, what K may
+ * have by rounding. */
+double shift_below(double last, double below, double largest);
+
+/* The size of the highest eigenvalue of K x = lambda M x: the largest K_ii/M_ii; 0 where K has no diagonal, or where one of these
+ * is not finite. */
+double highest_of(const rotid_matrix *k, const rotid_matrix *m);
 
 /* ------------------------------------------------------------------------------------------------------------- symmetric */
 
