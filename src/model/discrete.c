@@ -216,17 +216,19 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     *elastic_only = 1;
     discrete_assemble(discrete, x, &elastic_k, &m);
     *elastic_only = 0;
-    for (int j = 0; j < 2; j++) { /* a rigid motion bends nothing: what it has is the rounding of K */
+    double rounding = 0;
+    for (int j = 0; j < free; j++) { /* a rigid motion bends nothing: what it has is the rounding of K */
         const double *r = rigid + (ptrdiff_t)j * n;
-        if (fabs(matrix_product(&elastic_k, r, r, work)) >
-            ROUNDING * lambda[2] * product_dot(n, r, mass_rigid + (ptrdiff_t)j * n))
-            return ROTID_ERROR_STIFFNESS;
+        double bends = matrix_product(&elastic_k, r, r, work);
+        rounding = fmax(rounding, fabs(bends) / product_dot(n, r, mass_rigid + (ptrdiff_t)j * n));
     }
+    if (rounding > ROUNDING * lambda[2])
+        return ROTID_ERROR_STIFFNESS;
     *nrigid = 0;
     for (int j = 0; j < free && j < wanted; j++) {
         take_rigid_part(n, free, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
         double first = lambda[free < wanted ? free : wanted - 1], energy = matrix_product(&elastic_k, elastic, elastic, work);
-        if (energy > 1e-6 * first && energy > 0.5 * lambda[j])
+        if (energy > fmax(1e-6 * first, rounding) && energy > 0.5 * lambda[j])
             break;
         for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one */
             elastic[i] = phi[i + (ptrdiff_t)j * n] - elastic[i];
