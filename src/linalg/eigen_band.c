@@ -371,6 +371,8 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
 static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     double shift = shift_of(e->count < 3 ? e->block : e->count, e->value, e->largest);
+    if (!(shift < 0) && e->n <= EIGEN_DENSE_MOST)
+        return ROTID_ERROR_STIFFNESS;
     e->shift = shift < 0 ? shift : -FIRST_SHIFT * e->largest; /* all that are known may be zero */
     return refactor(e, k, m);
 }
@@ -450,8 +452,13 @@ static int all_known_below(struct eigen_band *e, const rotid_matrix *k, const ro
 static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     double last = e->value[e->count - 1];
-    return all_known_below(e, k, m, shift_above(last, e->shift, e->largest), e->count) ||
-           (e->n > EIGEN_DENSE_MOST && all_known_below(e, k, m, shift_below(last, e->shift, e->largest), 0));
+    if (all_known_below(e, k, m, shift_above(last, e->shift, e->largest), e->count))
+        return 1;
+    if (e->n <= EIGEN_DENSE_MOST)
+        return 0;
+    matrix_multiply(k, e->count, e->ritz, e->image);
+    return (last >= ZERO * e->largest || all_at_rest(k, e->count, e->ritz, e->image)) &&
+           all_known_below(e, k, m, shift_below(last, e->shift, e->largest), 0);
 }
 
 /* Ritz pairs of the vectors that are there. */

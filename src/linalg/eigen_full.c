@@ -75,8 +75,7 @@ static int start(struct eigen_wide *e)
     if (status)
         return status;
     take_pairs(e);
-    (void)choose_shift(e);
-    return ROTID_OK;
+    return choose_shift(e) || e->n > EIGEN_DENSE_MOST ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
 /* Refuses what no rotor has, the same way whatever was solved before. */
@@ -106,7 +105,11 @@ static int count_missed(struct eigen_wide *e)
         return below - known;
     if (e->n <= EIGEN_DENSE_MOST) /* the dense solver has more digits then */
         return -1;
-    shift = shift_below(e->value[e->count - 1], e->shift, e->largest);
+    double last = e->value[e->count - 1];
+    pencil_multiply_stiffness(&e->pencil, e->count, e->ritz, e->lanczos.image);
+    if (last < ZERO * e->largest && !all_at_rest(e->pencil.stiffness, e->count, e->ritz, e->lanczos.image))
+        return -1;
+    shift = shift_below(last, e->shift, e->largest);
     for (known = 0; known < e->count && e->value[known] <= shift;)
         known++;
     return factor_negative_count_pencil(&e->factor, &e->pencil, shift) == known ? 0 : -1;

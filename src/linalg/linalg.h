@@ -722,6 +722,9 @@ double shift_below(double last, double below, double largest);
  * is not finite. */
 double highest_of(const rotid_matrix *k, const rotid_matrix *m);
 
+/* Are the eigenvalues of x [n * count], K x beside it, zero, and not merely small beside the highest one? */
+int all_at_rest(const rotid_matrix *k, int count, const double *x, const double *kx);
+
 /* ------------------------------------------------------------------------------------------------------------- symmetric */
 
 /* Dense symmetric indefinite systems (LAPACK dsytrf, dsytrs). */
