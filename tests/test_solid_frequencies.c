@@ -158,30 +158,36 @@ POOL_TEST(rigid_motions_of_a_slender_rod_are_no_elastic_modes)
     }
 }
 
+/* On a spring of `lateral` N/m, of 0 free */
+static int wheel_modes(double thickness, double lateral, struct spectrum *s)
+{
+    struct rig b;
+    struct spring spring = {.lateral = lateral};
+    rig_begin(&b, 1);
+    rig_section(&b, 0, 0.3, 0.05);
+    rig_section(&b, 0, thickness, 4);
+    rig_section(&b, 0, 0.3, 0.05);
+    b.rotor.nspring = lateral > 0;
+    b.rotor.spring = &spring;
+    return spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 1,
+                                  SPECTRUM_MESH, s);
+}
+
 /* K of elements of 0.3 mm in a wheel of 4 m has a rounding of 0.04 Hz, which is no elastic mode, free or on a soft spring. The
- * first one is below that of the plate alone, whose edge is free and whose middle no shaft holds (Leissa). */
+ * first one is below that of the plate alone, whose edge is free and whose middle no shaft holds (Leissa). Where rounding is as
+ * large as the modes, that is said. */
 POOL_TEST(rounding_in_a_wheel_like_a_foil_is_no_elastic_mode)
 {
-    double hz[2];
-    for (int held = 0; held < 2; held++) {
-        struct rig b;
+    static const double lateral[] = {0, 0.1, 0.3, 1, 3};
+    double h = 0.0006, plate = 20.475 * sqrt(2.1e11 / (12 * 0.91 * 7850)) * h / (2 * 3.14159265358979323846 * 4);
+    for (int i = 0; i < 5; i++) {
         struct spectrum s;
-        rig_begin(&b, 1);
-        rig_section(&b, 0, 0.3, 0.05);
-        rig_section(&b, 0, 0.0006, 4);
-        rig_section(&b, 0, 0.3, 0.05);
-        struct spring spring = {.position = 0, .lateral = 1};
-        b.rotor.nspring = held;
-        b.rotor.spring = &spring;
-        assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 1,
-                                             SPECTRUM_MESH, &s),
-                      ROTID_OK);
+        assert_status(wheel_modes(h, lateral[i], &s), ROTID_OK);
         assert_int_equal(s.nrigid, 2);
-        hz[held] = s.full_hz[0];
+        assert_true(s.full_hz[0] > 0.85 * plate && s.full_hz[0] < plate);
     }
-    double plate = 20.475 * sqrt(2.1e11 * 3.6e-7 / (12 * 0.91 * 7850)) / (2 * 3.14159265358979323846 * 4);
-    assert_true(hz[0] > 0.9 * plate && hz[0] < plate);
-    assert_close(hz[1], hz[0], 3e-3, 0);
+    struct spectrum s;
+    assert_int_equal(wheel_modes(0.0001, 0, &s), ROTID_ERROR_STIFFNESS);
 }
 
 /* ---- waves of Pochhammer and Chree, n = 1: u_r = U(r) cos t sin kz, u_t = V(r) sin t sin kz, u_z = W(r) cos t cos kz stand in a
@@ -251,7 +257,8 @@ POOL_TEST(a_cylinder_between_held_ends_bends_in_exact_waves)
     int failed;
     rig_begin(&b, 1);
     rig_section(&b, 0, length, 2 * a);
-    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){.largest = 0.02}, 1, &solid, &failed), ROTID_OK);
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){.largest = 0.02}, 1, &solid, &failed),
+                  ROTID_OK);
     const struct solid_mesh *mesh = &solid.mesh;
     assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &k), ROTID_OK);
     assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &m), ROTID_OK);

@@ -218,7 +218,8 @@ static int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid
 #define TOLERANCE   1e-12 /* of the residual below: a vector is then as good as its arithmetic */
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define NEAR        0.03  /* residual from which polishing converges */
-#define MOST_CYCLES 400
+#define MOST_CYCLES 60    /* where the dense solver stands in */
+#define LAST_CYCLES 400   /* where none does: of a spectrum without a gap */
 #define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
 #define PI          3.14159265358979323846
 #define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
@@ -354,7 +355,8 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
     /* rounding stops the iteration here; above it, a residual that stays may be a partner of a repeated eigenvalue that comes
      * late */
     double rounding = eigen_rounding(e), worst = INFINITY, previous;
-    for (int c = 0; c < MOST_CYCLES; c++) {
+    int most = e->n > EIGEN_DENSE_MOST ? LAST_CYCLES : MOST_CYCLES;
+    for (int c = 0; c < most; c++) {
         previous = worst;
         worst = eigen_residuals(e, m, e->block, watched);
         if (!isfinite(worst))

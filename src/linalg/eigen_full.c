@@ -92,8 +92,8 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
 
 /* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
  * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
- * above the eigenvalues that they belong to, so no fewer can be there. More may equal the last pair than are kept: where the pairs
- * below them are all that are there, none was missed either. -1 where that does not hold or the count fails. */
+ * above the eigenvalues that they belong to, so no fewer can be there. More may equal the last pair than are kept: where the
+ * pairs below them are all that are there, none was missed either. -1 where that does not hold or the count fails. */
 static int count_missed(struct eigen_wide *e)
 {
     double shift = shift_above(e->value[e->count - 1], e->shift, e->largest);
@@ -300,16 +300,17 @@ int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_ma
     if (status)
         return status;
     matrix_multiply(m, count, phi, e->image);
-    for (int j = 0; j < count; j++) { /* the solver's phi' (K - s M) phi = 1 says little of M where lambda is large */
-        double *x = phi + (ptrdiff_t)j * n, *mx = e->image + (ptrdiff_t)j * n, inverse = 1 / sqrt(cblas_ddot(n, x, 1, mx, 1));
-        cblas_dscal(n, inverse, x, 1);
-        cblas_dscal(n, inverse, mx, 1);
-    }
     eigen_dense_inverse(&e->solver, count, e->image);
     double *value = e->k, *vector = e->m; /* not needed any more */
     if (!ritz_pairs(n, count, k, m, e->image, value, vector, e->product, e->squares, e->work)) {
         memcpy(lambda, value, (size_t)count * sizeof *lambda);
         memcpy(phi, vector, (size_t)n * (size_t)count * sizeof *phi);
+        return ROTID_OK;
+    }
+    matrix_multiply(m, count, phi, e->image);
+    for (int j = 0; j < count; j++) { /* the solver's phi' (K - s M) phi = 1 says little of M where lambda is large */
+        double *x = phi + (ptrdiff_t)j * n;
+        cblas_dscal(n, 1 / sqrt(cblas_ddot(n, x, 1, e->image + (ptrdiff_t)j * n, 1)), x, 1);
     }
     return ROTID_OK;
 }

@@ -128,29 +128,18 @@ int lanczos_known(const struct lanczos *l)
     return l->size < l->block ? l->size : l->block;
 }
 
-static void put_projected(const struct lanczos *l, double *a)
-{
-    for (int j = 0; j < l->size; j++)
-        memcpy(a + (ptrdiff_t)j * l->size, l->projected + (ptrdiff_t)j * l->most, (size_t)(j + 1) * sizeof(double));
-}
-
 /* The pairs of the projected operator that belong to the lowest eigenvalues, theta ascending: the lowest one comes last. */
 static int project(struct lanczos *l)
 {
     int size = l->size, pairs = lanczos_known(l);
     lapack_int found = 0;
     double *a = l->component;
-    put_projected(l, a);
+    for (int j = 0; j < size; j++)
+        memcpy(a + (ptrdiff_t)j * size, l->projected + (ptrdiff_t)j * l->most, (size_t)(j + 1) * sizeof(double));
     lapack_int info =
         LAPACKE_dsyevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', size, a, size, 0, 0, size - pairs + 1, size, 0, &found, l->theta,
                             l->vector, size, l->iwork, l->work, 34 * l->most, l->iwork + 2 * (ptrdiff_t)l->most, 10 * l->most);
-    if (!info && found == pairs)
-        return ROTID_OK;
-    put_projected(l, l->vector); /* bisection cannot part eigenvalues that rounding alone tells apart */
-    info = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', size, l->vector, size, l->theta, l->work, 34 * l->most);
-    memmove(l->theta, l->theta + size - pairs, (size_t)pairs * sizeof(double));
-    memmove(l->vector, l->vector + (ptrdiff_t)size * (size - pairs), (size_t)size * (size_t)pairs * sizeof(double));
-    return info ? ROTID_ERROR_EIGEN : ROTID_OK;
+    return info || found != pairs ? ROTID_ERROR_EIGEN : ROTID_OK;
 }
 
 double lanczos_theta(const struct lanczos *l, int pair)

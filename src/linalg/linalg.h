@@ -153,9 +153,9 @@ void pencil_multiply_mass(struct pencil *p, int columns, const double *x, double
 
 #define FACTOR_WIDE 12 /* half band from which panels and a block iteration on them take less time for eigenpairs */
 
-/* Factors of wide bands with a profile, A = L S L', S = diag(+-1): panels of 48 columns (WIDE_PANEL), each a dense matrix from its
- * first column down to its last row, on which BLAS does the work. The last row of a panel is found from the entries: where the
- * profile is narrower than the band, neither time nor memory goes into zeros. */
+/* Factors of wide bands with a profile, A = L S L', S = diag(+-1): panels of 48 columns (WIDE_PANEL), each a dense matrix from
+ * its first column down to its last row, on which BLAS does the work. The last row of a panel is found from the entries: where
+ * the profile is narrower than the band, neither time nor memory goes into zeros. */
 struct wide {
     int n, kd, panels;
     int *end;         /* [panels] one past the last row */
@@ -566,8 +566,8 @@ int matrices_check(int count, const rotid_matrix *const *a, char *failure);
  * overwritten by A^-1, both triangles; *log_determinant of A. n >= 0. Returns 0, or 1 where A is not positive definite. */
 int positive_invert(int n, double *a, double *log_determinant);
 
-/* A = V diag(value) V' (dsyev): V in the place of A [n * n], of which the lower triangle is read; value [n] ascending. n >= 0. Returns 0,
- * or 1 where the iteration fails. work [3 n]. */
+/* A = V diag(value) V' (dsyev): V in the place of A [n * n], of which the lower triangle is read; value [n] ascending. n >= 0.
+ * Returns 0, or 1 where the iteration fails. work [3 n]. */
 int positive_spectrum(int n, double *a, double *value, double *work);
 
 /* --------------------------------------------------------------------------------------------------------------- product */
