@@ -243,6 +243,24 @@ POOL_TEST(what_the_readme_prints_is_printed)
     (void)shell(&test_pool, "rm -r '%s'", folder);
 }
 
+/* Every deck of the page is read without an error, and weighs something. */
+POOL_TEST(decks_of_the_page_which_card_are_complete)
+{
+    const char *page = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/which_card.md"),
+               *folder = shell(&test_pool, "mktemp -d | tr -d '\\n'");
+    int decks = 0;
+    for (const char *at = page; (at = strstr(at, "```\n*MATERIAL")) != NULL; at += 4, decks++) {
+        FILE *file = fopen(pool_format(&test_pool, "%s/rotor.inp", folder), "w");
+        assert_non_null(file);
+        assert_true(fprintf(file, "%.*s", (int)(strstr(at + 4, "```") - at - 4), at + 4) > 0 && fclose(file) == 0);
+        const char *said = shell(&test_pool, ROTID_PROGRAM " check '%s/rotor.inp' 2>&1", folder);
+        assert_non_null(strstr(said, "\nmass "));
+        assert_null(strstr(said, "warning"));
+    }
+    assert_int_equal(decks, 4);
+    (void)shell(&test_pool, "rm -r '%s'", folder);
+}
+
 /* Both ways into the project are two commands, each of one line. */
 POOL_TEST(no_third_step_is_asked_for)
 {
