@@ -114,14 +114,25 @@ static double over_noise(double lines, int nline, double shapes, int nshape)
     return sum[0] + sum[1];
 }
 
-static double log_likelihood(struct likelihood *l, const double *x)
+/* Of `count` states, whose noise is off by the same factors. */
+static double log_likelihood_of(int count, struct likelihood *l, const double *x)
 {
     double lines = 0, shapes = 0;
-    if (columns_residual(&l->columns, x, l->r))
-        return -INFINITY;
-    for (int i = 0; i < l->columns.nrow; i++)
-        *(i < l->nline ? &lines : &shapes) += l->r[i] * l->r[i];
-    return over_noise(lines, l->nline, shapes, l->nshape);
+    int nline = 0, nshape = 0;
+    for (int s = 0; s < count; s++) {
+        if (columns_residual(&l[s].columns, x, l[s].r))
+            return -INFINITY;
+        for (int i = 0; i < l[s].columns.nrow; i++)
+            *(i < l[s].nline ? &lines : &shapes) += l[s].r[i] * l[s].r[i];
+        nline += l[s].nline;
+        nshape += l[s].nshape;
+    }
+    return over_noise(lines, nline, shapes, nshape);
+}
+
+static double log_likelihood(struct likelihood *l, const double *x)
+{
+    return log_likelihood_of(1, l, x);
 }
 
 struct axis { /* of a grid: x between two values, in ln where `log`; ln of the prior's density over that */
@@ -213,6 +224,70 @@ POOL_TEST(a_size_with_a_sign)
     const struct axis axis[2] = {modulus_axis(x[0], 0.03, 60), {90, 0, -0.4, 0.4, of_gradient}};
     open_likelihood(&states.state->job, &l);
     check("a gradient", z, over_grid(&l, 2, axis));
+    rotid_fit_free(fit);
+}
+
+static double of_profile(double x)
+{
+    return normal(x, 0.2) - log((erf(0.9 / 0.2 / sqrt(2)) + erf(1.2 / 0.2 / sqrt(2))) / 2);
+}
+
+/* Two causes at once, which share what the modes say. */
+POOL_TEST(a_pair)
+{
+    static const char *const id[2] = {"stiffness_gradient", "stiffness_profile"};
+    double mean[16], std[16];
+    struct evidence e = {.mean = mean, .std = std};
+    struct evidence_data *data;
+    struct likelihood l;
+    struct state one;
+    rotid_fit_result *fit;
+    open_bar(1);
+    struct job with[3] = {job};
+    for (int i = 0; i < 2; i++) {
+        const struct cause_kind *cause = catalogue_find(id[i]);
+        struct effect effect = {.kind = cause->effect, .target = 0, .name = id[i], .value = {0.02}};
+        assert_status(job_with_effect(&test_pool, &with[i], NULL, &effect, cause, NULL, &with[i + 1]), ROTID_OK);
+    }
+    struct states states = states_of(&with[2], &one);
+    assert_status(refit_until(&test_pool, &states, number, holdout, 0, NULL, &fit), ROTID_OK);
+    assert_status(states_at(&test_pool, &states, fit->x, &states), ROTID_OK);
+    assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
+    assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, 0, NULL, NULL, &e), ROTID_OK);
+    const struct axis axis[3] = {
+        modulus_axis(fit->x[0], 0.02, 16), {30, 0, -0.3, 0.3, of_gradient}, {30, 0, -0.3, 0.3, of_profile}};
+    open_likelihood(&states.state->job, &l);
+    check("a gradient and a profile", e.log_z, over_grid(&l, 3, axis));
+    rotid_fit_free(fit);
+}
+
+/* The bar hung twice, with a noise of its own each: both say what its modulus is. */
+POOL_TEST(two_states)
+{
+    double mean[16], std[16], sum = -INFINITY;
+    struct evidence e = {.mean = mean, .std = std};
+    struct evidence_data *data;
+    struct likelihood l[2];
+    struct state hung[2];
+    rotid_fit_result *fit;
+    int numbers[32], out[32] = {0};
+    for (int s = 0; s < 2; s++) {
+        open_bar(s ? 1.3 : 0.8);
+        hung[s] = (struct state){.job = job, .name = s ? "again" : "once"};
+        open_likelihood(&hung[s].job, &l[s]);
+        memcpy(numbers + s * job.measurement.nmode, number, (size_t)job.measurement.nmode * sizeof *number);
+    }
+    struct states states = {.nstate = 2, .state = hung, .nparameter = job.unknowns.nparameter, .bounds = job.unknowns.bounds};
+    assert_status(refit_until(&test_pool, &states, numbers, out, 0, NULL, &fit), ROTID_OK);
+    assert_status(states_at(&test_pool, &states, fit->x, &states), ROTID_OK);
+    assert_status(evidence_open(&test_pool, &states, numbers, out, &data), ROTID_OK);
+    assert_status(evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, 0, NULL, NULL, &e), ROTID_OK);
+    const struct axis axis = modulus_axis(fit->x[0], 0.02, 200);
+    for (int i = 0; i < axis.points; i++) {
+        double x = axis.from * pow(axis.to / axis.from, (i + 0.5) / axis.points);
+        sum = sum_logs(sum, log_likelihood_of(2, l, &x) + of_modulus(x) + log(log(axis.to / axis.from) / axis.points));
+    }
+    check("a modulus by two states", e.log_z, sum);
     rotid_fit_free(fit);
 }
 
