@@ -434,4 +434,27 @@ UNIT_TEST(a_common_factor_of_all_frequencies_is_named)
         }
 }
 
+/* What is probably millimetres is taken for them throughout: 50 alone would rather be centimetres. */
+POOL_TEST(one_unit_is_named_for_all_lengths_of_a_deck)
+{
+    struct message_list messages;
+    struct job job;
+    const struct deck_memory memory = {.name = "deck",
+                                       .directory = "/",
+                                       .text = "*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                               "*SHAFT, NAME=s, MATERIAL=m\n1000, 50, 0, 40\n"};
+    struct deck_memory whole = memory;
+    whole.length = strlen(memory.text);
+    message_open(&messages, &test_pool);
+    struct states states;
+    assert_status(deck_read_states(&test_pool, "deck", &whole, 0, NULL, &messages, &states), ROTID_OK);
+    job = states.state->job;
+    assert_true(job.rotor.nsegment > 0);
+    int said = 0;
+    for (size_t i = 0; i < messages.count; i++)
+        said += strstr(messages.item[i].text, "should it be in MM, write 1, ") ||
+                strstr(messages.item[i].text, "should it be in MM, write 0.05, ");
+    assert_int_equal(said, 2);
+}
+
 TEST_GROUP(folder_make, folder_remove);

@@ -39,6 +39,10 @@ void deck_check_names(struct deck_reader *reader, const struct card *card)
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind) {
         const char *near = nearest_card(card->name);
+        if (strpbrk(card->name, "\t;=")) {
+            deck_error(reader, card->place, "card *%s is not known, expected commas between a card and its options", card->name);
+            return;
+        }
         deck_error(reader, card->place, "card *%s is not known, expected %s*%s", card->name,
                    near ? "" : "one of docs/deck.md such as ", near ? near : "SHAFT");
         return;

@@ -196,16 +196,17 @@ struct deck_reader {
     int states_floor; /* *NOISE has a floor */
     int impacts;      /* behind the standard deviations of the file, the fewest; 0: not known. Below 0: so many tests */
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
-    int tie;                   /* FIT, TIE=E:G */
-    int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
-    const char *state;         /* that the cards are of, NULL in a deck without *STATE */
-    int ncommon;               /* the first cards of the text are common to all states; the others are of this one */
-    int ncommon_unknown;       /* the first unknowns come from those */
-    int alone;                 /* no other state is read beside it */
-    int held_out;              /* HOLDOUT=STATE: all its modes are */
-    int no_section;            /* the one error is that of a section that cannot be */
-    int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
-    int nrunning;              /* cards from *RUNNING on, which are taken out of the text */
+    int tie;                             /* FIT, TIE=E:G */
+    int *mean_kept;                      /* [nmode] FREQUENCIES, MEAN=NO */
+    const char *state;                   /* that the cards are of, NULL in a deck without *STATE */
+    int ncommon;                         /* the first cards of the text are common to all states; the others are of this one */
+    int ncommon_unknown;                 /* the first unknowns come from those */
+    int alone;                           /* no other state is read beside it */
+    int held_out;                        /* HOLDOUT=STATE: all its modes are */
+    int no_section;                      /* the one error is that of a section that cannot be */
+    int unit[DECK_QUANTITIES];           /* of *UNITS: which word, 0: SI */
+    const char *likely[DECK_QUANTITIES]; /* that a warning has named, NULL: none yet */
+    int nrunning;                        /* cards from *RUNNING on, which are taken out of the text */
     struct card *running;
     struct place margin_place; /* of *OPERATION */
     struct machine *machine;   /* that they make */

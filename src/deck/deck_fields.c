@@ -102,7 +102,14 @@ void deck_check_magnitude(struct deck_reader *reader, struct place place, const 
     const char *option, *si;
     double there = value;
     int q = deck_quantity(what, &option, &si);
-    const char *unit = deck_likely_unit(what, usual[i].least, usual[i].most, usual[i].typical, &there);
+    const char *unit = q >= 0 ? reader->likely[q] : NULL; /* one deck has one unit of lengths: 1000 and 50 are both mm */
+    double in_unit = unit ? value * deck_unit_factor(si, unit) : 0;
+    if (in_unit >= usual[i].least && in_unit <= usual[i].most)
+        there = in_unit;
+    else
+        unit = deck_likely_unit(what, usual[i].least, usual[i].most, usual[i].typical, &there);
+    if (q >= 0)
+        reader->likely[q] = unit;
     if (q < 0)
         deck_note(reader, place, "%s is %s, outside of what rotors have (%.3g to %.3g)", what, text, usual[i].least,
                   usual[i].most);
