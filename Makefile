@@ -268,9 +268,9 @@ figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
-LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases api_memory limits page_input host \
-           diagnose_states study_run held_mesh ema_statistics diagnose_bounds page_browser report_sweep accelerometer embedding study_program \
-           solid_attached hidden_faults api_cancel install sensor_check run)
+LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases diagnose embedding hidden_effects diagnose_states page_browser hidden_faults \
+           chain hidden_shifts api_memory diagnose_solid limits accelerometer study_program install api_cancel held_mesh report_sweep \
+           page_input ema_statistics diagnose_bounds study_run api_diagnosis solid_attached host sensor_check run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of hidden_effects and chain.
 LONG := hidden_numbers hidden_rivals hidden_pairs power
