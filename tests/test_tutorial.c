@@ -243,6 +243,34 @@ POOL_TEST(what_the_readme_prints_is_printed)
     (void)shell(&test_pool, "rm -r '%s'", folder);
 }
 
+/* An accelerometer of 50 g that goes round is felt, and its frequencies are taken point by point without being asked for; one
+ * without mass is not. */
+POOL_TEST(a_roving_accelerometer_is_taken_point_by_point)
+{
+    const char *folder = shell(&test_pool, "mktemp -d | tr -d '\\n'");
+    read_tutorial(shell_file(&test_pool, TUTORIAL));
+    const char *rig = NULL;
+    for (int i = 0; i < nblock && !rig; i++)
+        rig = strstr(block[i].text, "cat > rig.inp") ? block[i].text : NULL;
+    assert_non_null(rig);
+    FILE *file = fopen(pool_format(&test_pool, "%s/rig.inp", folder), "w");
+    assert_non_null(file);
+    rig = next_line(rig);
+    assert_true(fprintf(file, "%.*s", (int)(strstr(rig, "\nend\n") + 1 - rig), rig) > 0 && fclose(file) == 0);
+    static const char *const mass[] = {"0.05", "0"};
+    for (int i = 0; i < 2; i++) {
+        (void)shell(&test_pool,
+                    "cd '%s' && %s/hammer rig.inp -o rec.unv --noise 0.02 --force-noise 1e-4 --floor 1e-5 --sensor-mass %s",
+                    folder, ROTID_BUILD, mass[i]);
+        const char *said;
+        (void)shell_code(&test_pool, &said, "cd '%s' && " ROTID_PROGRAM " ema rec.unv --band 100,3200 -o modes.unv 2>&1", folder);
+        const char *sets = shell(&test_pool, "cd '%s' && grep -c 'ROTID FREQUENCY AT POINT' modes.unv || true", folder);
+        assert_int_equal(strtol(sets, NULL, 10), i ? 0 : 4);
+        assert_int_equal(strstr(said, "they are taken at each point as well (--per-point)") != NULL, !i);
+    }
+    (void)shell(&test_pool, "rm -r '%s'", folder);
+}
+
 /* Every deck of the page is read without an error, and weighs something. */
 POOL_TEST(decks_of_the_page_which_card_are_complete)
 {
