@@ -291,6 +291,22 @@ POOL_TEST(two_states)
     rotid_fit_free(fit);
 }
 
+/* States at one point keep their values when they are asked for at another. */
+POOL_TEST(states_at_two_points_are_apart)
+{
+    const double start[EFFECT_MOST_PARAMETERS] = {0.02}, at[2][2] = {{1e9, 0.1}, {1e9, -0.3}};
+    struct states states, point[2];
+    struct state one;
+    rotid_fit_result *fit;
+    open_bar(1);
+    fit_with("stiffness_gradient", start, &states, &one, &fit);
+    for (int i = 0; i < 2; i++)
+        assert_status(states_at(&test_pool, &states, at[i], &point[i]), ROTID_OK);
+    for (int i = 0; i < 2; i++)
+        assert_close(point[i].state->job.rotor.effect[0].value[0], at[i][1], 0, 0);
+    rotid_fit_free(fit);
+}
+
 /* A mass that the data hardly want, anywhere: the columns of the scan, over all places. */
 POOL_TEST(a_size_at_its_bound)
 {

@@ -211,9 +211,14 @@ void effect_at(const struct state *state, int effect, const double *x, struct ef
 int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to)
 {
     int status = states_copy(pool, states, to);
-    for (int s = 0; s < to->nstate && !status; s++)
-        for (int e = 0; e < to->state[s].job.rotor.neffect; e++)
-            effect_at(&to->state[s], e, x, &to->state[s].job.rotor.effect[e]);
+    for (int s = 0; s < to->nstate && !status; s++) {
+        struct rotor *rotor = &to->state[s].job.rotor; /* whose effects others have too */
+        struct effect *own = POOL_ARRAY(pool, struct effect, rotor->neffect);
+        status = own || !rotor->neffect ? ROTID_OK : ROTID_ERROR_MEMORY;
+        for (int e = 0; e < rotor->neffect && !status; e++)
+            effect_at(&to->state[s], e, x, &own[e]);
+        rotor->effect = own;
+    }
     return status;
 }
 
