@@ -335,9 +335,9 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     document_section(document, "explanations", "Explanations");
     document_paragraph(
         document,
-        "Probability that nothing is wrong: %s %% before the data, %s %% after. Something outside of the catalogue: %s %%.",
-        human_digits(document->pool, 100 * v->nothing_prior, 2), human_digits(document->pool, 100 * v->nothing, 2),
-        human_digits(document->pool, 100 * v->something_else, 2));
+        "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
+        human_probability(document->pool, v->nothing_prior), human_probability(document->pool, v->nothing),
+        human_probability(document->pool, v->something_else));
     document_table(document, table_of_explanations(document->pool, d, 1));
 }
 

@@ -496,8 +496,8 @@ static void print_shares(const struct screen *to, const rotid_diagnosis *d)
     const rotid_verdict *v = &d->verdict;
     if (!v->nexplanations)
         return;
-    (void)fprintf(to->out, "\nEXPLANATIONS  shares of probability; nothing is wrong: %.3g %% before the data, %.3g %% after\n",
-                  100 * v->nothing_prior, 100 * v->nothing);
+    (void)fprintf(to->out, "\nEXPLANATIONS  shares of probability; nothing is wrong: %s before the data, %s after\n",
+                  human_probability(to->pool, v->nothing_prior), human_probability(to->pool, v->nothing));
     struct table *table = table_of_explanations(to->pool, d, to->verbose);
     if (table)
         table->caption = "";
