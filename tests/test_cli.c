@@ -248,7 +248,7 @@ UNIT_TEST(an_undetermined_parameter_exits_1)
 UNIT_TEST(nothing_to_identify_or_nothing_measured_exits_2)
 {
     const char *deck = folder_write("deck.inp", MODEL "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n");
-    assert_true(is(run("identify", STEEL, "--json", folder_path("out.json")), 2, NULL, "expected a card *IDENTIFY"));
+    assert_true(is(run("identify", STEEL, "--json", folder_path("out.json")), 2, NULL, "expected the parameters to identify"));
     assert_true(is(run("identify", deck, "--json", folder_path("out.json")), 2, NULL, "expected *MODES or *MEASURED"));
     assert_int_equal(left_over("out.json"), 0);
 }

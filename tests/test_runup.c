@@ -185,6 +185,30 @@ POOL_TEST(a_run_up_that_is_held_out_shows_a_wrong_bearing)
     }
 }
 
+/* A diagnosis at rest says the same of the machine: what stays in the model goes on in operation. */
+POOL_TEST(a_diagnosis_has_the_run_up_beside_it)
+{
+    for (int wrong = 0; wrong < 2; wrong++) {
+        const char *text = deck_of(wrong ? 1.6e8 : 2.4e8, ", HOLDOUT=RUNUP", readings(10));
+        rotid_identification *found = identify(text, ROTID_OK);
+        rotid_deck *deck;
+        rotid_diagnosis *d;
+        char failure[ROTID_FAILURE_LENGTH] = "";
+        assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+        assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
+        assert_int_equal(d->base->nrunup, 2);
+        for (int i = 0; i < 2; i++) {
+            assert_true(d->base->runup[i].holdout);
+            assert_close(d->base->runup[i].predicted_rpm, found->runup[i].predicted_rpm, 2e-3,
+                         0); /* another fit of exact modes */
+        }
+        assert_true(wrong == (d->base->runup[0].z > 4));
+        rotid_diagnosis_free(d);
+        rotid_identification_free(found);
+        rotid_deck_free(deck);
+    }
+}
+
 /* The unknowns of the machine stand behind those of all states, and the fit of all has their covariance. */
 POOL_TEST(states_share_the_machine)
 {

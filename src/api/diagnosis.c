@@ -3,6 +3,18 @@
 #include "base/base.h"
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
+#include "running/running.h"
+
+/* Measured critical speeds beside the model without and with its causes; none where the machine cannot be computed. */
+static int compare_runup(struct call *call, const struct states *deck, const struct states *own, rotid_identification *made)
+{
+    if (!deck->machine || !deck->machine->nrunup || !made || !made->fit)
+        return ROTID_OK;
+    int status = runup_explain(&call->entry.scratch, deck, own, made->fit, &call->notes, &made->nrunup, &made->runup);
+    if (status)
+        made->nrunup = 0;
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+}
 
 static rotid_diagnosis *make_result(struct call *call, const struct states *states, struct diagnosis *d)
 {
@@ -18,6 +30,8 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
     }
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
+    if (compare_runup(call, states, &d->judged, made->base) || compare_runup(call, states, &d->extended_states, made->extended))
+        return NULL;
     return CALL_KEEP(call, &diagnosis_whole_record, made);
 }
 

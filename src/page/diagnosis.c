@@ -321,6 +321,8 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     document_section(document, "verdict-parameters", "Parameters of the verdict");
     document_figures(document, "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
+    if (fit->nrunup)
+        document_table(document, table_of_runup(document->pool, fit->nrunup, fit->runup));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
         section_hidden(document, fit, d->nhidden, d->hidden);
 }
@@ -333,11 +335,10 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     if (!v->nexplanations)
         return;
     document_section(document, "explanations", "Explanations");
-    document_paragraph(
-        document,
-        "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
-        human_probability(document->pool, v->nothing_prior), human_probability(document->pool, v->nothing),
-        human_probability(document->pool, v->something_else));
+    document_paragraph(document,
+                       "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
+                       human_probability(document->pool, v->nothing_prior), human_probability(document->pool, v->nothing),
+                       human_probability(document->pool, v->something_else));
     document_table(document, table_of_explanations(document->pool, d, 1));
 }
 

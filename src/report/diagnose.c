@@ -736,6 +736,9 @@ void screen_diagnose(const struct screen *to, const struct result *result)
     print_verdict(to, d);
     print_shares(to, d);
     print_parameters(to, d);
+    const rotid_identification *last = d->extended ? d->extended : d->base;
+    if (last && last->nrunup)
+        screen_table(to, table_of_runup(to->pool, last->nrunup, last->runup));
     print_today(to, d);
     print_numerical(to, d);
     print_data(to, d);

@@ -435,6 +435,11 @@ int runup_close(struct runup *runup);
 int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                   const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list);
 
+/* The same of a diagnosis, held out: of a fit of states at rest with causes besides those of the deck, which go on in operation but for
+ * supports and sensors of the test. */
+int runup_explain(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
+                  struct message_list *notes, int *count, rotid_runup_speed **list);
+
 /* Critical speed map at the stiffness of a speed, K q = W^2 (M - P) q; (*vector)[row] [columns * nspeed_rpm] has the q. ROTID_OK
  * or ROTID_ERROR_MEMORY. */
 int map_make(struct pool *pool, struct system *system, double speed, double most, rotid_speeds *out, double complex ***vector);

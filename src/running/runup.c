@@ -279,3 +279,32 @@ int runup_compare(struct pool *pool, const struct machine *machine, const struct
     }
     return status;
 }
+
+/* Of the test alone: supports, and what is at a sensor. */
+static int stays_at_rest(const struct effect *effect, const struct rotor *rotor)
+{
+    struct effect_point point = {.z = 0};
+    if (effect->kind->spring || effect->kind->at_sensor)
+        return 1;
+    return effect->kind->point && effect->kind->point(effect, rotor, 0, -1, &point) &&
+           (point.lateral != 0 || point.rotational != 0);
+}
+
+int runup_explain(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
+                  struct message_list *notes, int *count, rotid_runup_speed **list)
+{
+    struct machine machine = *deck->machine;
+    struct states own = *states;
+    const struct job *job = &states->state[0].job;
+    int known = deck->state[0].job.rotor.neffect, *without = POOL_ARRAY(pool, int, job->rotor.neffect);
+    rotid_fit_result mine;
+    if (!without)
+        return ROTID_ERROR_MEMORY;
+    for (int e = 0; e < job->rotor.neffect; e++)
+        without[e] = e < known ? machine.without_effect[e] : stays_at_rest(&job->rotor.effect[e], &job->rotor);
+    machine.without_effect = without;
+    machine.runup_held = 1;
+    own.machine = &machine;
+    int status = machine_fit(pool, &own, fit, &mine);
+    return status ? status : runup_compare(pool, &machine, job, mine.x, &mine, notes, count, list);
+}
