@@ -402,7 +402,7 @@ UNIT_TEST(sections_too_far_apart_are_named_where_the_problem_fails)
 
 /* ---- frequencies beside the model's */
 
-UNIT_TEST(a_common_factor_of_all_frequencies_is_named)
+POOL_TEST(a_common_factor_of_all_frequencies_is_named)
 {
     static const struct {
         double factor;

@@ -169,6 +169,7 @@ static const struct record_field identification_fields[] = {
     FLAG(rotid_identification, nlopt, SINCE_LATER),
     STRUCTS(rotid_identification, baseline, 0, minimiser_record),
     NUMBER(rotid_identification, seconds, FROM_0),
+    STRUCTS(rotid_identification, runup, SINCE_LATER, runup_record),
     STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
     {0},
 };
@@ -194,7 +195,6 @@ static const struct record_field identification_alone_fields[] = {
     STRUCT(rotid_identification, noise, SINCE_LATER | BEHIND_POINTER, noise_record),
     STRUCT(rotid_identification, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCTS(rotid_identification, hidden, SINCE_LATER, hidden_cause_record),
-    STRUCTS(rotid_identification, runup, SINCE_LATER, runup_record),
     {0},
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
