@@ -298,11 +298,11 @@ bench-growth: all
 bench-check: all $(BUILD)/hide
 	@$(PYTHON) tools/bench/instructions.py $(BUILD)/rotid $(BUILD)/hide $(BUILD) $(RECORD)
 
-# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, fine meshes or figures: what
-# they call is in the others; without hosts in Fortran, of which none is compiled with these checks
+# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
+# figures, or run the commands of documents: what they call is in the others; without hosts in Fortran, of which none is compiled with these checks
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
                  diagnose_solid stiff_supports held_mesh suggest chain
-COUNT_MANY := ema_statistics accelerometer hide sensor_check solid_frequencies page_browser report_sweep
+COUNT_MANY := worked tutorial evidence ema_statistics accelerometer hide sensor_check solid_frequencies page_browser report_sweep
 check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
