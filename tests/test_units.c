@@ -402,7 +402,7 @@ UNIT_TEST(sections_too_far_apart_are_named_where_the_problem_fails)
 
 /* ---- frequencies beside the model's */
 
-POOL_TEST(a_common_factor_of_all_frequencies_is_named)
+UNIT_TEST(a_common_factor_of_all_frequencies_is_named)
 {
     static const struct {
         double factor;
@@ -435,7 +435,7 @@ POOL_TEST(a_common_factor_of_all_frequencies_is_named)
 }
 
 /* What is probably millimetres is taken for them throughout: 50 alone would rather be centimetres. */
-POOL_TEST(one_unit_is_named_for_all_lengths_of_a_deck)
+UNIT_TEST(one_unit_is_named_for_all_lengths_of_a_deck)
 {
     struct message_list messages;
     struct job job;
