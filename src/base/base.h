@@ -269,6 +269,9 @@ int text_is_control(const char *text, unsigned *code);
 /* Bytes of the character that begins here, 0 where that is a control character or no UTF-8: nothing to be shown as it is. */
 size_t text_visible(const char *text);
 
+/* A probability in percent with so many digits: "47.5 %", "below 0.01 %". NULL where memory is out. */
+const char *text_of_probability(struct pool *pool, int digits, double probability);
+
 /* In the place of a character that is not shown: U+FFFD, one column. */
 #define TEXT_REPLACEMENT "\xef\xbf\xbd"
 

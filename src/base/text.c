@@ -66,3 +66,8 @@ size_t text_visible(const char *text)
     unsigned code;
     return text_is_control(text, &code) ? 0 : text_utf8(text);
 }
+
+const char *text_of_probability(struct pool *pool, int digits, double probability)
+{
+    return probability < 1e-4 ? "below 0.01 %" : pool_format(pool, "%.*g %%", digits, 100 * probability);
+}

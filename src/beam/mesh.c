@@ -167,9 +167,8 @@ static void place_members(const struct rotor *rotor, int refine, struct mesh *me
 
 int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct mesh *mesh)
 {
-    int base = 1, extra = rotor->nsensor + rotor->nspring + 3 * rotor->ndisk + rotor->nbars + 2 * rotor->ntierod;
-    for (int s = 0; s < rotor->nsegment; s++)
-        base += rotor->segment[s].elements;
+    int base = 1 + (int)rotor_elements(rotor),
+        extra = rotor->nsensor + rotor->nspring + 3 * rotor->ndisk + rotor->nbars + 2 * rotor->ntierod;
     int most = (base + extra) * refine + 1, far = 8 * (rotor->ntierod + 2 * rotor->nbars);
     *mesh = (struct mesh){0};
     struct builder b = {0, POOL_ARRAY(pool, double, base + extra), POOL_ARRAY(pool, int, base + extra)};

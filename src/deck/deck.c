@@ -402,9 +402,7 @@ static void count_modes(struct deck_reader *reader)
 static void check_elements(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
-    long elements = 0;
-    for (int s = 0; s < rotor->nsegment; s++)
-        elements += rotor->segment[s].elements;
+    long elements = rotor_elements(rotor);
     if (elements > DECK_MOST_ELEMENTS)
         deck_error(reader, reader->place[GROUP_PLACES][rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d",
                    elements, DECK_MOST_ELEMENTS);

@@ -20,17 +20,9 @@ static int extended_states(struct pool *pool, const struct diagnosis *d, struct 
     return status;
 }
 
-static int elements_of(const struct rotor *rotor)
-{
-    int count = 0;
-    for (int s = 0; s < rotor->nsegment; s++)
-        count += rotor->segment[s].elements;
-    return count;
-}
-
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct message_list *notes, char **text)
 {
-    int lines = 2 + d->nalternative, from = elements_of(&d->given.state->job.rotor), to;
+    int lines = 2 + d->nalternative, from = (int)rotor_elements(&d->given.state->job.rotor), to;
     const char **extra = POOL_ARRAY(pool, const char *, lines + 1);
     struct deck_write_options options = {.extra = extra};
     struct states states;
@@ -47,7 +39,7 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, struct mes
         extra[2 + i] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
                                    other->target ? other->target : "");
     }
-    to = elements_of(&states.state->job.rotor);
+    to = (int)rotor_elements(&states.state->job.rotor);
     if (to > from)
         extra[lines++] = pool_format(pool, DECK_MESH_REFINED "%d elements in place of %d, as the noise asks for", to, from);
     for (int i = 0; i < lines; i++)

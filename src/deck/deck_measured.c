@@ -358,14 +358,13 @@ static void take_usual_floor(struct deck_reader *reader)
     reader->floor_shape = tests && shape > USUAL_FLOOR_SHAPE ? 0 : fmax(USUAL_FLOOR_SHAPE, shape);
     if (!reader->floor_frequency && !reader->floor_shape)
         return;
+    const char *measured = tests ? "it is measured" : "scatter of single impacts";
     deck_note(reader, reader->measured_card->place,
               "the file states the scatter %s; %.2g %% of frequencies (%s) and %.2g %% of shapes (%s) are added for what differs "
               "between tests; *NOISE, FLOOR_FREQUENCY=, FLOOR_SHAPE= state it for yours, 0 for none",
               tests ? pool_format(reader->pool, "between %d tests", -reader->impacts) : "within one test",
-              100 * reader->floor_frequency,
-              hz > USUAL_FLOOR_FREQUENCY ? tests ? "it is measured" : "scatter of single impacts" : "the least that is taken",
-              100 * reader->floor_shape,
-              shape > USUAL_FLOOR_SHAPE ? tests ? "it is measured" : "scatter of single impacts" : "the least that is taken");
+              100 * reader->floor_frequency, hz > USUAL_FLOOR_FREQUENCY ? measured : "the least that is taken",
+              100 * reader->floor_shape, shape > USUAL_FLOOR_SHAPE ? measured : "the least that is taken");
 }
 
 void deck_complete_noise(struct deck_reader *reader)

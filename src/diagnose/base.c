@@ -111,9 +111,7 @@ static double against_noise(const struct job *job, const int *number, const doub
 /* Whether a deck may have twice as many. */
 static int can_be_refined(const struct rotor *rotor)
 {
-    int elements = 0;
-    for (int s = 0; s < rotor->nsegment; s++)
-        elements += 2 * rotor->segment[s].elements;
+    long elements = 2 * rotor_elements(rotor);
     for (int b = 0; b < rotor->ntierod + rotor->nbars; b++)
         elements += b < rotor->ntierod ? rotor->tierod[b].elements : rotor->bars[b - rotor->ntierod].elements;
     return elements <= ROTOR_MOST_ELEMENTS;

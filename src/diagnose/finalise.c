@@ -323,11 +323,6 @@ static const char *open_parameters(struct engine *engine)
     return text;
 }
 
-static const char *probability_text(struct pool *pool, double probability)
-{
-    return probability < 1e-4 ? "below 0.01 %" : pool_format(pool, "%.2g %%", 100 * probability);
-}
-
 /* The same where the question is what changed: the parts of the sentence, and what it ends with. */
 static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
                                    const char *end)
@@ -347,7 +342,7 @@ static const char *change_sentence(const struct engine *engine, const char *caus
         return pool_format(pool,
                            "The data cannot tell what changed between %s and %s (%s): %s. The probability that nothing changed "
                            "and chance did this is %s.%s",
-                           from, to, chance, others, probability_text(pool, verdict->nothing), end);
+                           from, to, chance, others, text_of_probability(pool, 2, verdict->nothing), end);
     default:
         return pool_format(pool, "Something changed between %s and %s (%s), and with %.0f %% it is not in the catalogue: %s.%s",
                            from, to, chance, 100 * verdict->something_else, others, end);
@@ -396,7 +391,7 @@ static const char *verdict_sentence(struct engine *engine)
         return pool_format(pool,
                            "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "
                            "did this is %s.%s%s",
-                           chance, others, probability_text(pool, verdict->nothing), faults, open);
+                           chance, others, text_of_probability(pool, 2, verdict->nothing), faults, open);
     default:
         return pool_format(
             pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s",

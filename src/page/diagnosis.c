@@ -335,10 +335,10 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     if (!v->nexplanations)
         return;
     document_section(document, "explanations", "Explanations");
-    document_paragraph(document,
-                       "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
-                       human_probability(document->pool, v->nothing_prior), human_probability(document->pool, v->nothing),
-                       human_probability(document->pool, v->something_else));
+    document_paragraph(
+        document, "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
+        text_of_probability(document->pool, 3, v->nothing_prior), text_of_probability(document->pool, 3, v->nothing),
+        text_of_probability(document->pool, 3, v->something_else));
     document_table(document, table_of_explanations(document->pool, d, 1));
 }
 

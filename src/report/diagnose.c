@@ -497,7 +497,7 @@ static void print_shares(const struct screen *to, const rotid_diagnosis *d)
     if (!v->nexplanations)
         return;
     (void)fprintf(to->out, "\nEXPLANATIONS  shares of probability; nothing is wrong: %s before the data, %s after\n",
-                  human_probability(to->pool, v->nothing_prior), human_probability(to->pool, v->nothing));
+                  text_of_probability(to->pool, 3, v->nothing_prior), text_of_probability(to->pool, 3, v->nothing));
     struct table *table = table_of_explanations(to->pool, d, to->verbose);
     if (table)
         table->caption = "";

@@ -137,11 +137,6 @@ const char *human_digits(struct pool *pool, double value, int digits)
     return with_power(pool, value, "", text);
 }
 
-const char *human_probability(struct pool *pool, double probability)
-{
-    return probability < 1e-4 ? "below 0.01 %" : pool_format(pool, "%s %%", human_digits(pool, 100 * probability, 3));
-}
-
 const char *human_trimmed(struct pool *pool, double value, int digits)
 {
     char *number = pool_copy_text(pool, human_digits(pool, value, digits));

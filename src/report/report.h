@@ -157,9 +157,6 @@ const char *human_column(struct pool *pool, double value, int decimals, const ch
 /* With a number of significant digits; very large and small ones as 1.2e-7, as decks have them. */
 const char *human_digits(struct pool *pool, double value, int digits);
 
-/* A probability in percent: "47.5 %", "below 0.01 %". */
-const char *human_probability(struct pool *pool, double probability);
-
 /* The same without zeros at the end: "60" rather than "60.00". */
 const char *human_trimmed(struct pool *pool, double value, int digits);
 

@@ -10,6 +10,14 @@ double rotor_length(const struct rotor *rotor)
     return sum;
 }
 
+long rotor_elements(const struct rotor *rotor)
+{
+    long sum = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        sum += rotor->segment[s].elements;
+    return sum;
+}
+
 int rotor_axis_groups(const struct rotor *rotor)
 {
     int count = rotor->ngroup;

@@ -124,6 +124,8 @@ struct rotor {
 };
 
 double rotor_length(const struct rotor *rotor);
+/* Of the axis, as the deck has them. */
+long rotor_elements(const struct rotor *rotor);
 
 /* How many groups are of the axis: the first ones. */
 int rotor_axis_groups(const struct rotor *rotor);

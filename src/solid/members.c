@@ -75,6 +75,12 @@ static int direction_of(const struct solid *solid, const struct member *member, 
     return 1;
 }
 
+/* The line with which bars move. */
+static const struct solid_line *center_of(const struct solid *solid, int bars)
+{
+    return &solid->line[solid_mesh_line(&solid->mesh, solid->rotor.bars[bars].center)];
+}
+
 /* v and theta of a member on a line: its own, or those of the section; room for two terms of its own */
 struct end {
     int dof[2];
@@ -167,7 +173,7 @@ static void assemble_bundles(const struct solid *solid, int p, rotid_matrix *k, 
         add_stretch(solid, i, bar.stiffness / length, bar.mass * length, k, m);
     }
     for (int i = 0; i < rotor->nbars && m && p < 0; i++) {
-        const struct motion *at = &solid->line[solid_mesh_line(mesh, rotor->bars[i].center)].v;
+        const struct motion *at = &center_of(solid, i)->v;
         motion_add(m, bundle_of_bars(rotor, mesh->type, i), at, at);
     }
 }
@@ -199,9 +205,8 @@ void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_m
             add_stretch(solid, i, rate * member.material->e * member.young * area / 2 / length,
                         p < 0 ? member.material->rho * area * length / 2 : 0, k, m);
         else if (p < 0 && m) /* bars follow the rotation of the section at their centre axially */
-            motion_add(m, member.material->rho * member.pitch * length,
-                       &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta,
-                       &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta);
+            motion_add(m, member.material->rho * member.pitch * length, &center_of(solid, i - rotor->ntierod)->theta,
+                       &center_of(solid, i - rotor->ntierod)->theta);
     }
 }
 
@@ -233,7 +238,7 @@ void members_gyroscopic(const struct solid *solid, rotid_matrix *p)
         if (i < rotor->ntierod) {
             add_stretch(solid, i, 0, member.material->rho * member.section.stiff_area * length, NULL, p);
         } else {
-            const struct motion *theta = &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta;
+            const struct motion *theta = &center_of(solid, i - rotor->ntierod)->theta;
             motion_add(p, 2 * member.material->rho * member.pitch * length, theta, theta);
         }
     }
@@ -277,7 +282,7 @@ void members_deflection(const struct solid *solid, int i, const double *u, int n
     int from, to;
     solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
     const struct motion *ends = i < solid->rotor.ntierod ? &solid->stretch[2 * (ptrdiff_t)i] : NULL,
-                        *center = &solid->line[(from + to) / 2].v;
+                        *center = ends ? NULL : &center_of(solid, i - solid->rotor.ntierod)->v;
     for (int p = 0; p < npoint; p++) {
         double x = (double)p / (npoint - 1);
         z[p] = mesh->z[from] + (mesh->z[to] - mesh->z[from]) * x;

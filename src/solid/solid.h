@@ -17,7 +17,8 @@
  *                  stretch by W at the pitch radius (motion_axial)
  *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
  *   spin           gyroscopic.c (solid_gyroscopic): P of the first harmonic; solid_spread: a stiffness spread over a group
- *   harmonic 0     axisymmetric.c: what is attached in torsion and along the axis, where a section has one motion, v
+ *   harmonic 0     the same routines in torsion and along the axis (solid_mesh.type), where a section has one motion, v;
+ *                  members.c (assemble_bundles): rods and bars there
  *   transfer       transfer.c (solid_transfer): a motion on another mesh, to begin an eigensolution with
  *
  * Callers: src/model; export reads the mesh. The room must not know modes, data, or the limit of two meshes. */
