@@ -175,6 +175,9 @@ UNIT_TEST(a_test_is_its_four_commands)
     json = json_of("p_identify.json");
     assert_close(number_of(cJSON_GetArrayItem(get(json, "parameters"), 0), "value"), e, 0, 0);
     cJSON_Delete(json);
+    put_text("my bar's $x.inp", DECK "*IDENTIFY\nbar.E, 1e11, 3e11, 2e11\n"); /* a name that a shell would change */
+    assert_int_equal(program("test", "bar.uff \"my bar's \\$x.inp\" -o p.html"), code);
+    assert_non_null(strstr(uff_output, "$ rotid identify 'my bar'\\''s $x.inp' --set MEASURED.FILE=p_modes.unv"));
     assert_int_equal(program("test", "bar.uff"), 2);
     assert_non_null(strstr(uff_output, "expected two files, the records of the test and the deck of the rotor"));
     assert_int_equal(program("test", "none.uff bar.inp"), 2); /* and no step behind the one that fails */

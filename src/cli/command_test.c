@@ -41,6 +41,16 @@ static struct step step_open(struct command *test, const char *name)
     return step;
 }
 
+/* As a shell takes it: in quotes where it is not only of letters and the like, a quote inside as '\\''. */
+static void print_word(const char *word)
+{
+    int plain = *word && !word[strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,+-%@")];
+    (void)fputs(plain ? " " : " '", terminal_out());
+    for (const char *c = word; *c; c++)
+        (void)fprintf(terminal_out(), *c == '\'' ? "'\\''" : "%c", *c);
+    (void)fputs(plain ? "" : "'", terminal_out());
+}
+
 /* Says the command, then runs it. Its exit code. */
 static int step_run(struct step *step, int first)
 {
@@ -48,10 +58,8 @@ static int step_run(struct step *step, int first)
         return command_fail(step->test, ROTID_ERROR_MEMORY);
     if (!step->test->quiet) {
         (void)fputs(first ? "$" : "\n$", terminal_out());
-        for (int i = 0; i < step->count; i++) {
-            int quoted = strpbrk(step->word[i], " *:;$'\"") != NULL;
-            (void)fprintf(terminal_out(), quoted ? " \"%s\"" : " %s", step->word[i]);
-        }
+        for (int i = 0; i < step->count; i++)
+            print_word(step->word[i]);
         (void)fputc('\n', terminal_out());
     }
     return command_line(step->count, step->word);
