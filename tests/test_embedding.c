@@ -334,32 +334,14 @@ POOL_TEST(what_a_frame_lacks_is_named)
 
 /* ---- the document */
 
-/* Every file of docs/examples stands in it word for word, in a block of its own, and every block of a program is such a file. */
-POOL_TEST(the_document_shows_the_programs_that_were_built)
+/* Every file of docs/examples is linked from it. */
+POOL_TEST(the_document_links_every_program_that_was_built)
 {
-    static const char *const file[][2] = {{"c", "run_deck.c"},
-                                          {"c", "margins.c"},
-                                          {"c", "curve.c"},
-                                          {"c", "frame.c"},
-                                          {"python", "frame.py"},
-                                          {"make", "Makefile"},
-                                          {"fortran", "critical.f90"},
-                                          {"fortran", "stepped_beam.f90"},
-                                          {"python", "run_deck.py"},
-                                          {"cmake", "CMakeLists.txt"}};
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
-    int blocks = 0;
-    for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
-        const char *text = shell_file(&test_pool, pool_format(&test_pool, EXAMPLES "%s", file[i][1]));
-        if (!strstr(document, pool_format(&test_pool, "\n```%s\n%s```\n", file[i][0], text)))
-            fail_msg("docs/examples/%s does not stand in docs/embedding.md as it is", file[i][1]);
-        assert_non_null(strstr(document, pool_format(&test_pool, "`docs/examples/%s`", file[i][1])));
-    }
-    for (const char *at = document; (at = strstr(at, "\n```")); at += 4)
-        blocks += at[4] >= 'a' && at[4] <= 'z' && strncmp(at + 4, "sh\n", 3) != 0;
-    assert_int_equal(blocks, sizeof file / sizeof *file);
-    const char *listed = shell(&test_pool, "ls " EXAMPLES " | wc -l");
-    assert_int_equal(atoi(listed), sizeof file / sizeof *file);
+    int files = 0;
+    for (const char *name = shell(&test_pool, "ls " EXAMPLES); *name; name += strcspn(name, "\n") + 1, files++)
+        assert_non_null(strstr(document, pool_format(&test_pool, "(examples/%.*s)", (int)strcspn(name, "\n"), name)));
+    assert_true(files >= 10);
 }
 
 /* Its table of statuses, and what it says the programs print. */
