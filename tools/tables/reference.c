@@ -87,7 +87,8 @@ void write_card_list(FILE *out, int section)
 static void put_prior(FILE *out, const struct cause_kind *cause, int p, const struct effect_parameter_name *name)
 {
     const struct cause_parameter *parameter = &cause->parameter[p];
-    const char *half = parameter->one_sided ? "half-normal" : "normal", *unit = name->unit && name->unit[0] != '1' ? name->unit : "";
+    const char *half = parameter->one_sided ? "half-normal" : "normal",
+               *unit = name->unit && name->unit[0] != '1' ? name->unit : "";
     (void)fprintf(out, "%s%s ", p ? "; " : "", name->name);
     if (p == cause->width)
         (void)fputs("uniform in ln", out);
@@ -117,9 +118,9 @@ static void put_priors(FILE *out, const struct cause_kind *cause)
 void write_causes(FILE *out, int section)
 {
     (void)section;
-    (void)fputs("| `TYPE` | what it is | expected before the data: mean, deviation |\n| --- | --- | --- |\n", out);
+    (void)fputs("| `TYPE` | cause | check | prior of its size |\n| --- | --- | --- | --- |\n", out);
     for (int i = 0; i < catalogue_count(); i++) {
-        (void)fprintf(out, "| `%s` | %s | ", catalogue_item(i)->id, catalogue_item(i)->sentence);
+        (void)fprintf(out, "| `%s` | %s | %s | ", catalogue_item(i)->id, catalogue_item(i)->sentence, catalogue_item(i)->check);
         put_priors(out, catalogue_item(i));
         (void)fputs(" |\n", out);
     }
