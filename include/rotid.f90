@@ -627,6 +627,7 @@ module rotid
     type(c_ptr) :: causes = c_null_ptr ! rotid_cause
     integer(c_int) :: something_else = 0
     real(c_double) :: probability = 0
+    real(c_double) :: at_rest = 0
     integer(c_int) :: nidentified = 0
     type(c_ptr) :: identified = c_null_ptr ! rotid_cause_value
   end type rotid_explanation
@@ -672,6 +673,7 @@ module rotid
     real(c_double) :: nothing = 0
     real(c_double) :: nothing_prior = 0
     real(c_double) :: something_else = 0
+    real(c_double) :: runup_p = 0
   end type rotid_verdict
 
   type, bind(C) :: rotid_data_finding

@@ -724,6 +724,7 @@ typedef struct rotid_explanation {
     rotid_cause *causes; /* none, and not something_else: nothing is wrong */
     int something_else;  /* beside the causes, or without any, there is something that is not in the catalogue */
     double probability;  /* after the data, among all explanations */
+    double at_rest;      /* the same without the measured critical speeds of *RUNUP; NaN: they take no part */
     int nidentified;
     rotid_cause_value *identified; /* the parameters of *IDENTIFY if this is what is there */
 } rotid_explanation;
@@ -772,6 +773,7 @@ typedef struct rotid_verdict {
     double nothing;            /* probability that nothing is wrong; NaN without explanations */
     double nothing_prior;      /* the same before the data were seen */
     double something_else;     /* probability that something outside of the catalogue is */
+    double runup_p; /* of measured critical speeds as far from the first explanation, or farther; NaN: they take no part */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */

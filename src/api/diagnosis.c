@@ -71,9 +71,11 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
         status = states_refuse_types(states, "a diagnosis", &call->notes);
     if (status)
         return status;
-    status = states->nstate == 1 && !options.before
-                 ? diagnose_run(&call->entry.scratch, &states->state->job, &options, &call->environment, &call->notes, &d)
-                 : diagnose_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, &d);
+    struct state only;
+    struct states alone = states_of(&states->state->job, &only);
+    alone.machine = states->machine;
+    status = diagnose_states(&call->entry.scratch, states->nstate == 1 && !options.before ? &alone : states, &options,
+                             &call->environment, &call->notes, &d);
     if (status)
         return status;
     *result = make_result(call, states, &d);

@@ -53,7 +53,9 @@ static void fill_explanations(struct pool *pool, const struct diagnosis *d, roti
     for (int i = 0; i < room; i++) {
         const struct explanation *e = &p->item[i];
         rotid_explanation *o = &out->explanations[out->nexplanations++];
-        *o = (rotid_explanation){.something_else = e->something_else, .probability = e->probability};
+        *o = (rotid_explanation){.something_else = e->something_else,
+                                 .probability = e->probability,
+                                 .at_rest = p->has_runup ? e->at_rest : (double)NAN};
         o->ncauses = fill_causes(pool, e->nmember, e->member, &o->causes);
         int nown = POOL_LIST(pool, o->identified, p->nown);
         for (int q = 0; q < nown; q++) {
@@ -76,6 +78,7 @@ static void fill_explanations(struct pool *pool, const struct diagnosis *d, roti
     out->nothing = p->count ? p->nothing : (double)NAN;
     out->nothing_prior = p->count ? p->nothing_prior : (double)NAN;
     out->something_else = p->count ? p->something_else : (double)NAN;
+    out->runup_p = p->has_runup ? p->runup_p : (double)NAN;
 }
 
 static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diagnosis *out)

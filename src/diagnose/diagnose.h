@@ -94,6 +94,7 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     double outside;             /* of these, see struct fault_proposal */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
+    double at_rest, runup_chi2; /* the probability without the measured critical speeds; chi2 of these, NaN: none */
 };
 
 struct marginal {
@@ -111,6 +112,8 @@ struct posterior {
     double length;                 /* of the rotor */
     double nothing, nothing_prior; /* probability that nothing is wrong, after and before */
     double something_else;         /* of all explanations with something else */
+    int has_runup;                 /* measured critical speeds are in the probabilities */
+    double runup_p;                /* of a chi2 as large as theirs, or larger, under the first explanation */
     int nmarginal;
     struct marginal *marginal; /* above LEAST_MARGINAL, largest first */
     int naveraged;

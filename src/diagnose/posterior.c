@@ -14,6 +14,7 @@
 #include "base/base.h"
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
+#include "running/running.h"
 
 #define DATA_KINDS     7   /* of faults of channels: gain, sign, place, line, swap, copy, dead */
 #define FAULTS         24  /* proposed beside a set */
@@ -30,6 +31,7 @@
 #define HARMLESS       0.2   /* a cause below it is none */
 #define ODDS           3.0   /* of anything over nothing, times those before */
 #define SUSPECTED      10.0  /* times: a cause that the user suspects */
+#define RUNUP_MOST     12    /* explanations that measured critical speeds judge, those within WITHIN */
 #define NEAR_PLACE     0.125 /* of the length: half of the interval of a place that is named */
 
 static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
@@ -775,6 +777,52 @@ static int weigh(struct engine *engine, struct posterior *p)
     return summarise(engine, p);
 }
 
+/* Measured critical speeds, which no fit has seen, multiply the probability of each explanation by theirs under it. Those too
+ * improbable to be asked share what they had. */
+static int learn_of_runup(struct engine *engine, struct posterior *p)
+{
+    const struct states *deck = &engine->out->given;
+    struct message_list quiet;
+    int asked = 0, status = ROTID_OK;
+    double before = -INFINITY, after = -INFINITY, log_z[RUNUP_MOST];
+    if (!deck->machine || !deck->machine->nrunup || deck->machine->runup_held)
+        return ROTID_OK;
+    message_open(&quiet, engine->pool);
+    for (; asked < p->count && asked < RUNUP_MOST; asked++) {
+        struct explanation *e = &p->item[asked];
+        struct evidence own = e->evidence; /* whose moduli others may share */
+        struct pool scratch;
+        if (e->log_posterior < p->item[0].log_posterior - WITHIN)
+            break;
+        status = engine_stage(engine, "measured critical speeds of explanation", asked + 1);
+        if (!status)
+            status = room_for_moduli(engine->pool, p->nown, &own);
+        if (status)
+            return status;
+        memcpy(own.mean, e->evidence.mean, (size_t)p->nown * sizeof *own.mean);
+        memcpy(own.std, e->evidence.std, (size_t)p->nown * sizeof *own.std);
+        e->evidence = own;
+        pool_open(&scratch, engine->pool->allocator);
+        status = runup_learn(&scratch, deck, states_of_explanation(engine, e), fit_of(engine, e), p->nown, e->evidence.mean,
+                             e->evidence.std, &log_z[asked], &e->runup_chi2);
+        pool_close(&scratch);
+        if (status == ROTID_ERROR_MEMORY)
+            return status;
+        if (status)
+            log_z[asked] = -INFINITY;
+        before = log_sum(before, e->log_posterior);
+        after = log_sum(after, e->log_posterior + log_z[asked]);
+    }
+    for (int i = 0; i < p->count; i++)
+        p->item[i].at_rest = p->item[i].probability;
+    for (int i = 0; i < asked && isfinite(after); i++)
+        p->item[i].log_posterior += log_z[i] + before - after;
+    p->has_runup = isfinite(after);
+    status = weigh(engine, p);
+    p->runup_p = chi_square_tail(p->item[0].runup_chi2, deck->machine->nrunup);
+    return status;
+}
+
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int status, more = 1;
@@ -808,9 +856,9 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
         return status;
     qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
     status = add_something_else(engine, p);
-    if (status)
-        return status;
-    return weigh(engine, p);
+    if (!status)
+        status = weigh(engine, p);
+    return status ? status : learn_of_runup(engine, p);
 }
 
 /* ---- the verdict */

@@ -29,6 +29,7 @@ static const struct record_field explanation_fields[] = {
     STRUCTS(rotid_explanation, causes, 0, cause_record),
     FLAG(rotid_explanation, something_else, 0),
     NUMBER(rotid_explanation, probability, PROBABILITY),
+    NUMBER(rotid_explanation, at_rest, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     STRUCTS(rotid_explanation, identified, 0, value_record),
     {0},
 };
@@ -68,6 +69,7 @@ static const struct record_field verdict_fields[] = {
     NUMBER(rotid_verdict, nothing, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     NUMBER(rotid_verdict, nothing_prior, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     NUMBER(rotid_verdict, something_else, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_verdict, runup_p, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     {0},
 };
 const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);

@@ -189,6 +189,8 @@ struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d,
         const char *values = "";
         table_row(table);
         number_column(table, "share %", NULL, SHOW_FIXED(1), 100 * e->probability);
+        if (isfinite(v->runup_p))
+            number_column(table, "at rest %", NULL, SHOW_FIXED(1), 100 * e->at_rest);
         text_column(table, "explanation", SHOW_TEXT, explanation_of(pool, e));
         for (int c = 0; c < e->ncauses && values; c++) {
             const char *own = values_of(pool, &e->causes[c]);
@@ -196,8 +198,17 @@ struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d,
         }
         row_note(table, or_nothing(values));
     }
+    const char *runup = !isfinite(v->runup_p)
+                            ? NULL
+                            : pool_format(pool,
+                                          "The measured critical speeds count; beside the first explanation the "
+                                          "probability of such ones is %s.",
+                                          text_of_probability(pool, 2, v->runup_p));
     if (table && shown < v->nexplanations)
-        table->note = pool_format(pool, "%d more share the rest up to 99 %%: --verbose", v->nexplanations - shown);
+        table->note = pool_format(pool, "%s%s%d more share the rest up to 99 %%: --verbose", runup ? runup : "", runup ? " " : "",
+                                  v->nexplanations - shown);
+    else if (table)
+        table->note = runup;
     return table;
 }
 

@@ -621,46 +621,30 @@ static struct bands begin(struct pool *pool, struct search *search, int ncritica
                           .critical = critical};
 }
 
-int bands_linear(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
-                 const rotid_fit_result *fit, double *std)
-{
-    const struct speeds_options options = {.harmonic = search->harmonic};
-    struct bands b = begin(pool, search, ncritical, critical, fit, &options);
-    int status = find_sources(&b);
-    memset(std, 0, (size_t)ncritical * sizeof *std);
-    if (status || !b.nsource || !ncritical)
-        return status;
-    status = factor_covariance(&b);
-    if (!status)
-        status = differentiate(&b);
-    for (int i = 0; i < ncritical && !status; i++) {
-        double variance = 0;
-        for (int j = 0; j < b.nsource; j++)
-            variance += variance_of(&b, b.derivative + (ptrdiff_t)b.nsource * i, j);
-        std[i] = sqrt(fmax(0, variance));
-    }
-    return status;
-}
-
-int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest)
+int bands_gradient(struct pool *pool, struct search *search, int ncritical, const struct critical *critical, double *gradient,
+                   double *rest)
 {
     const struct speeds_options options = {.harmonic = search->harmonic};
     int n = machine_unknowns(search->machine, search->job);
     double *one = POOL_ARRAY(pool, double, n);
     const rotid_fit_result all = {.n = n, .std = one}; /* every unknown is uncertain */
-    struct bands b = begin(pool, search, 1, critical, &all, &options);
+    struct bands b = begin(pool, search, ncritical, critical, &all, &options);
     for (int p = 0; p < n && one; p++)
         one[p] = 1;
     int status = one ? find_sources(&b) : ROTID_ERROR_MEMORY;
     if (!status)
         status = differentiate(&b);
-    *rest = 0;
-    memset(gradient, 0, (size_t)n * sizeof *gradient);
-    for (int j = 0; j < b.nsource && !status; j++)
-        if (j < b.nmodulus)
-            gradient[b.source[j].index] = b.derivative[j];
-        else
-            *rest += variance_of(&b, b.derivative, j);
+    memset(rest, 0, (size_t)ncritical * (size_t)ncritical * sizeof *rest);
+    memset(gradient, 0, (size_t)n * (size_t)ncritical * sizeof *gradient);
+    for (int i = 0; i < ncritical && !status; i++) {
+        const double *own = b.derivative + (ptrdiff_t)b.nsource * i;
+        for (int j = 0; j < b.nmodulus; j++)
+            gradient[b.source[j].index + (ptrdiff_t)n * i] = own[j];
+        for (int k = 0; k < ncritical; k++)
+            for (int j = b.nmodulus; j < b.nsource; j++)
+                rest[i + (ptrdiff_t)ncritical * k] +=
+                    own[j] * b.derivative[j + (ptrdiff_t)b.nsource * k] * b.source[j].std * b.source[j].std;
+    }
     return status;
 }
 

@@ -395,15 +395,11 @@ const rotid_response_peak *speeds_peak(const struct machine *machine, const roti
 int bands_make(struct pool *pool, struct search *search, const rotid_fit_result *fit, const struct speeds_options *options,
                const rotid_environment *environment, struct message_list *notes, rotid_speeds *out);
 
-/* std [ncritical]: standard deviation of critical speeds of *search by what is uncertain, relative, in linear prediction; 0 where
- * nothing is. Statuses of bands_make. */
-int bands_linear(struct pool *pool, struct search *search, int ncritical, const struct critical *critical,
-                 const rotid_fit_result *fit, double *std);
-
-/* gradient [machine_unknowns] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0 of those
- * that do not act in the machine. *rest: variance of ln W by bearings, losses, pull and changes, in linear prediction. Statuses
- * of bands_make. */
-int bands_gradient(struct pool *pool, struct search *search, const struct critical *critical, double *gradient, double *rest);
+/* gradient [machine_unknowns * ncritical] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0
+ * of those that do not act in the machine. rest [ncritical^2]: covariance of ln W by bearings, losses, pull and changes, in
+ * linear prediction. Statuses of bands_make. */
+int bands_gradient(struct pool *pool, struct search *search, int ncritical, const struct critical *critical, double *gradient,
+                   double *rest);
 
 /* ------------------------------------------------------------------------------------------------ worth of a test at rest */
 
@@ -431,14 +427,25 @@ int runup_join(struct pool *pool, const struct states *states, struct message_li
 int runup_close(struct runup *runup);
 
 /* The measured critical speeds beside those of the model at x [machine_unknowns]; fit as for speeds_run. Statuses of search_until
- * and bands_linear. */
+ * and bands_gradient. */
 int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                   const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list);
 
-/* The same of a diagnosis, held out: of a fit of states at rest with causes besides those of the deck, which go on in operation but for
- * supports and sensors of the test. */
+/* The same of a diagnosis, held out: of a fit of states at rest with causes besides those of the deck, which go on in operation
+ * but for supports and sensors of the test. */
 int runup_explain(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
                   struct message_list *notes, int *count, rotid_runup_speed **list);
+
+/* What the measured critical speeds say of such an explanation: its posterior at rest, the normal about x with covariance C in
+ * the unknowns u (ln x where the lower bound is above zero), is the prior; r = ln W^ - ln W(u) with the variance R of the
+ * readings and of bearings, losses and pull, ln p(W^ | rest) = -(v'S^-1 v + ln det 2 pi S)/2,  S = G C G' + R,  v = r(u) + G (u -
+ * u0),  G = d ln W/du, u := u0 + C G' S^-1 v,  C := C - C G' S^-1 G C, linear about u, which is repeated where the step moves a
+ * critical speed by 2 % or more. Unknowns of the machine that were not fitted have the normal of the uniform prior between their
+ * bounds, of the same density in the middle. mean, std [nown]: of the first unknowns of all states, at rest, and then with the
+ * run-up. *chi2: v'S^-1 v. log_z -INFINITY, the others as they were, where the machine has no such critical speed. Statuses of
+ * runup_compare; ROTID_ERROR_FINITE where S is none. */
+int runup_learn(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit, int nown,
+                double *mean, double *std, double *log_z, double *chi2);
 
 /* Critical speed map at the stiffness of a speed, K q = W^2 (M - P) q; (*vector)[row] [columns * nspeed_rpm] has the q. ROTID_OK
  * or ROTID_ERROR_MEMORY. */

@@ -6,6 +6,9 @@
 #define STEP   1e-4 /* of an unknown, on both sides: differences of matrices to 1e-8 */
 #define SPEEDS 25   /* at which the modes are looked at in a search */
 #define BEYOND 1.1  /* times the highest measured speed: how far a search goes at least */
+#define FAR    0.02 /* of a critical speed: a step that is linearised again */
+#define STEPS  6
+#define LN_2PI 1.8378770664093453
 
 /* The machine at one point of a fit. */
 struct point {
@@ -242,43 +245,94 @@ int runup_close(struct runup *runup)
 
 /* ---- beside the model */
 
+/* The critical speeds that were measured, those of them that the machine has. */
+struct reached {
+    struct search search;
+    int count, *reading; /* [count] which they are of */
+    struct critical *critical;
+    double *gradient;   /* [n * count] G', of ln W by u */
+    double *spread;     /* [n * count] C G' */
+    double *covariance; /* [count^2] G C G' and that by what is no unknown */
+};
+
+/* Whether unknown p is its logarithm in u. */
+static int is_logarithm(const struct reached *r, int p)
+{
+    return machine_bounds(r->search.machine, r->search.job, p)->lower > 0;
+}
+
+/* At x [machine_unknowns]; fit: of these, C in u about its own x. Statuses of search_until and bands_gradient. */
+static int reach(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+                 const rotid_fit_result *fit, struct message_list *notes, struct reached *r)
+{
+    int n = machine_unknowns(machine, job), most = machine->nrunup;
+    size_t room = (size_t)most * (size_t)n;
+    *r = (struct reached){.search = {.machine = machine, .job = job, .harmonic = 1, .count = SPEEDS},
+                          .reading = POOL_ARRAY(pool, int, most),
+                          .critical = POOL_ARRAY(pool, struct critical, most),
+                          .gradient = POOL_ARRAY(pool, double, room),
+                          .spread = POOL_ARRAY(pool, double, room),
+                          .covariance = POOL_ARRAY(pool, double, most *most)};
+    if (!r->reading || !r->critical || !r->gradient || !r->spread || !r->covariance)
+        return ROTID_ERROR_MEMORY;
+    int status = machine_nominal(pool, machine, x, &r->search.values);
+    if (!status)
+        status = search_all(pool, notes, &r->search);
+    for (int i = 0; i < most && !status; i++) {
+        const struct critical *own = search_find(&r->search, machine->runup[i].number, machine->runup[i].backward);
+        if (own) {
+            r->critical[r->count] = *own;
+            r->reading[r->count++] = i;
+        }
+    }
+    if (!status)
+        status = bands_gradient(pool, &r->search, r->count, r->critical, r->gradient, r->covariance);
+    for (int p = 0; p < n && !status; p++)
+        for (int q = 0; q < n; q++) {
+            double c = fit->covariance[p + (ptrdiff_t)n * q] / (is_logarithm(r, p) ? fit->x[p] : 1) /
+                       (is_logarithm(r, q) ? fit->x[q] : 1);
+            for (int i = 0; i < r->count && isfinite(fit->std[p]) && isfinite(fit->std[q]); i++)
+                r->spread[p + (ptrdiff_t)n * i] += c * r->gradient[q + (ptrdiff_t)n * i];
+        }
+    for (int i = 0; i < r->count && !status; i++)
+        for (int k = 0; k < r->count; k++)
+            r->covariance[i + (ptrdiff_t)r->count * k] +=
+                product_dot(n, r->gradient + (ptrdiff_t)n * i, r->spread + (ptrdiff_t)n * k);
+    return status;
+}
+
 int runup_compare(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                   const rotid_fit_result *fit, struct message_list *notes, int *count, rotid_runup_speed **list)
 {
-    struct search search = {.machine = machine, .job = job, .harmonic = 1, .count = SPEEDS};
-    struct critical *found = POOL_ARRAY(pool, struct critical, machine->nrunup);
-    double *std = POOL_ARRAY(pool, double, machine->nrunup);
-    int status = found && std ? ROTID_OK : ROTID_ERROR_MEMORY, nfound = 0;
+    struct reached r;
     *count = 0;
-    if (!machine->nrunup || status)
-        return status;
-    *count = POOL_LIST(pool, *list, machine->nrunup);
-    status = *count ? machine_nominal(pool, machine, x, &search.values) : ROTID_ERROR_MEMORY;
+    if (!machine->nrunup)
+        return ROTID_OK;
+    int status = reach(pool, machine, job, x, fit, notes, &r);
     if (!status)
-        status = search_all(pool, notes, &search);
-    for (int i = 0; i < machine->nrunup && !status; i++) {
-        const struct critical *own = search_find(&search, machine->runup[i].number, machine->runup[i].backward);
-        if (own)
-            found[nfound++] = *own;
-    }
-    if (!status)
-        status = bands_linear(pool, &search, nfound, found, fit, std);
-    for (int i = 0, next = 0; i < machine->nrunup && !status; i++) {
+        *count = POOL_LIST(pool, *list, machine->nrunup);
+    if (!status && !*count)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0, next = 0; i < *count; i++) {
         const struct runup_reading *reading = &machine->runup[i];
-        const struct critical *own = search_find(&search, reading->number, reading->backward);
-        double predicted = own ? own->speed : NAN, relative = own ? std[next++] : NAN;
-        double doubt = machine->runup_held ? hypot(reading->std, relative * predicted) : reading->std;
+        int found = next < r.count && r.reading[next] == i;
+        double predicted = found ? r.critical[next].speed : NAN,
+               std = found ? predicted * sqrt(fmax(0, r.covariance[next * (r.count + 1)])) : NAN;
+        next += found;
         (*list)[i] = (rotid_runup_speed){.number = reading->number,
                                          .whirl = reading->backward ? "backward" : "forward",
                                          .measured_rpm = reading->speed / RPM,
                                          .measured_std = reading->std / RPM,
                                          .predicted_rpm = predicted / RPM,
-                                         .predicted_std = relative * predicted / RPM,
-                                         .z = (reading->speed - predicted) / doubt,
+                                         .predicted_std = std / RPM,
+                                         .z = (reading->speed - predicted) /
+                                              (machine->runup_held ? hypot(reading->std, std) : reading->std),
                                          .holdout = machine->runup_held};
     }
     return status;
 }
+
+/* ---- of explanations */
 
 /* Of the test alone: supports, and what is at a sensor. */
 static int stays_at_rest(const struct effect *effect, const struct rotor *rotor)
@@ -290,21 +344,140 @@ static int stays_at_rest(const struct effect *effect, const struct rotor *rotor)
            (point.lateral != 0 || point.rotational != 0);
 }
 
+/* The machine of states with causes besides those of the deck, and what their fit says of its unknowns. */
+static int explained(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
+                     struct machine *machine, rotid_fit_result *mine)
+{
+    struct states own = *states;
+    const struct rotor *rotor = &states->state[0].job.rotor;
+    int known = deck->state[0].job.rotor.neffect, *without = POOL_ARRAY(pool, int, rotor->neffect);
+    *machine = *deck->machine;
+    if (!without)
+        return ROTID_ERROR_MEMORY;
+    for (int e = 0; e < rotor->neffect; e++)
+        without[e] = e < known ? machine->without_effect[e] : stays_at_rest(&rotor->effect[e], rotor);
+    machine->without_effect = without;
+    own.machine = machine;
+    return machine_fit(pool, &own, fit, mine);
+}
+
 int runup_explain(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit,
                   struct message_list *notes, int *count, rotid_runup_speed **list)
 {
-    struct machine machine = *deck->machine;
-    struct states own = *states;
-    const struct job *job = &states->state[0].job;
-    int known = deck->state[0].job.rotor.neffect, *without = POOL_ARRAY(pool, int, job->rotor.neffect);
+    struct machine machine;
     rotid_fit_result mine;
-    if (!without)
-        return ROTID_ERROR_MEMORY;
-    for (int e = 0; e < job->rotor.neffect; e++)
-        without[e] = e < known ? machine.without_effect[e] : stays_at_rest(&job->rotor.effect[e], &job->rotor);
-    machine.without_effect = without;
+    int status = explained(pool, deck, states, fit, &machine, &mine);
     machine.runup_held = 1;
-    own.machine = &machine;
-    int status = machine_fit(pool, &own, fit, &mine);
-    return status ? status : runup_compare(pool, &machine, job, mine.x, &mine, notes, count, list);
+    return status ? status : runup_compare(pool, &machine, &states->state[0].job, mine.x, &mine, notes, count, list);
+}
+
+/* The normal at rest: the deviations of the deck's unknowns are those of the evidence, and what the machine alone has is open. */
+static void prepare(const struct machine *machine, const struct state *state, int nown, const double *std, rotid_fit_result *fit)
+{
+    int n = fit->n, at_rest = state->job.unknowns.nparameter;
+    for (int p = 0; p < at_rest; p++) {
+        int q = state_unknown(state, p);
+        double wider = q < nown && fit->std[p] > 0 && std[q] > 0 ? std[q] / fit->std[p] : 1;
+        if (!isfinite(wider))
+            continue;
+        fit->std[p] *= wider;
+        for (int i = 0; i < n; i++) {
+            fit->covariance[p + (ptrdiff_t)n * i] *= wider;
+            fit->covariance[i + (ptrdiff_t)n * p] *= wider;
+        }
+    }
+    for (int p = at_rest; p < n; p++) {
+        const rotid_parameter *bounds = machine_bounds(machine, &state->job, p);
+        double range = bounds->lower > 0 ? fit->x[p] * log(bounds->upper / bounds->lower) : bounds->upper - bounds->lower;
+        for (int i = 0; i < n; i++)
+            fit->covariance[p + (ptrdiff_t)n * i] = fit->covariance[i + (ptrdiff_t)n * p] = 0;
+        fit->std[p] = range * exp(-LN_2PI / 2);
+        fit->covariance[p * (n + (ptrdiff_t)1)] = fit->std[p] * fit->std[p];
+    }
+}
+
+/* S and v at a point that was reached from `start`; S := its Cholesky factor, gain := S^-1 v. Returns 0, or 1 where S is none. */
+static int innovate(const struct reached *r, int n, const double *start, const double *x, double *factor, double *v, double *gain,
+                    double *log_determinant)
+{
+    int count = r->count;
+    for (int i = 0; i < count; i++) {
+        const struct runup_reading *reading = &r->search.machine->runup[r->reading[i]];
+        double relative = reading->std / reading->speed;
+        v[i] = log(reading->speed / r->critical[i].speed);
+        for (int p = 0; p < n; p++)
+            v[i] += r->gradient[p + (ptrdiff_t)n * i] * (is_logarithm(r, p) ? log(x[p] / start[p]) : x[p] - start[p]);
+        for (int k = 0; k < count; k++)
+            factor[i + (ptrdiff_t)count * k] = r->covariance[i + (ptrdiff_t)count * k] + (i == k ? relative * relative : 0);
+        gain[i] = v[i];
+    }
+    if (cholesky_factor(count, factor))
+        return 1;
+    cholesky_solve(count, factor, 1, gain);
+    *log_determinant = 0;
+    for (int i = 0; i < count; i++)
+        *log_determinant += 2 * log(factor[i * (count + (ptrdiff_t)1)]);
+    return 0;
+}
+
+/* u := u0 + C G' gain within the bounds. Returns the largest motion of a critical speed, relative. */
+static double take_step(const struct reached *r, int n, const double *start, const double *gain, double *x, double *moved)
+{
+    double most = 0;
+    for (int p = 0; p < n; p++) {
+        const rotid_parameter *bounds = machine_bounds(r->search.machine, r->search.job, p);
+        double by = 0, was = x[p];
+        for (int i = 0; i < r->count; i++)
+            by += r->spread[p + (ptrdiff_t)n * i] * gain[i];
+        x[p] = fmin(fmax(is_logarithm(r, p) ? start[p] * exp(by) : start[p] + by, bounds->lower), bounds->upper);
+        moved[p] = is_logarithm(r, p) ? log(x[p] / was) : x[p] - was;
+    }
+    for (int i = 0; i < r->count; i++)
+        most = fmax(most, fabs(product_dot(n, r->gradient + (ptrdiff_t)n * i, moved)));
+    return most;
+}
+
+int runup_learn(struct pool *pool, const struct states *deck, const struct states *states, const rotid_fit_result *fit, int nown,
+                double *mean, double *std, double *log_z, double *chi2)
+{
+    const struct state *state = &states->state[0];
+    struct machine machine;
+    struct message_list quiet;
+    struct reached r;
+    rotid_fit_result mine;
+    int most = deck->machine->nrunup, status = explained(pool, deck, states, fit, &machine, &mine), n = mine.n;
+    double *x = POOL_ARRAY(pool, double, 2 * n), *v = POOL_ARRAY(pool, double, 2 * most),
+           *factor = POOL_ARRAY(pool, double, most *most), determinant = 0, moved = INFINITY;
+    if (!status && (!x || !v || !factor))
+        status = ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
+    prepare(&machine, state, nown, std, &mine);
+    memcpy(x, mine.x, (size_t)n * sizeof *x);
+    message_open(&quiet, pool);
+    *log_z = -INFINITY;
+    *chi2 = NAN;
+    for (int step = 0; step < STEPS && moved > FAR; step++) {
+        status = reach(pool, &machine, &state->job, x, &mine, &quiet, &r);
+        if (status || r.count < most)
+            return status;
+        if (innovate(&r, n, mine.x, x, factor, v, v + most, &determinant))
+            return ROTID_ERROR_FINITE;
+        moved = take_step(&r, n, mine.x, v + most, x, x + n);
+    }
+    *chi2 = product_dot(most, v, v + most);
+    *log_z = -(*chi2 + determinant + most * LN_2PI) / 2;
+    for (int p = 0; p < state->job.unknowns.nparameter; p++) {
+        int q = state_unknown(state, p);
+        double less = 0, scale = is_logarithm(&r, p) ? mine.x[p] : 1;
+        if (q >= nown || !(mine.std[p] > 0))
+            continue;
+        for (int i = 0; i < most; i++)
+            v[i] = r.spread[p + (ptrdiff_t)n * i];
+        cholesky_forward(most, factor, 1, v);
+        less = product_dot(most, v, v) * scale * scale;
+        mean[q] += x[p] - mine.x[p];
+        std[q] = sqrt(fmax(0, mine.std[p] * mine.std[p] - less));
+    }
+    return ROTID_OK;
 }

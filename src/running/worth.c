@@ -253,7 +253,7 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
         status = ROTID_ERROR_ARGUMENT;
     }
     if (!status)
-        status = bands_gradient(pool, &search, critical, w.gradient, &w.rest);
+        status = bands_gradient(pool, &search, 1, critical, w.gradient, &w.rest);
     if (!status)
         status = invert(&w, fit);
     if (status)
