@@ -631,7 +631,7 @@ UNIT_TEST(each_verdict_says_its_own)
     fill_ambiguous();
     show(0, 100);
     assert_says("VERDICT  AMBIGUOUS");
-    assert_says("to settle it: measure the shapes at 1.30");
+    assert_says("next step: measure the shapes at 1.30");
     assert_says("    possible (98 %): flexibility");
     fill_unexplained();
     show(0, 100);

@@ -568,7 +568,7 @@ static void print_verdict(const struct screen *to, const rotid_diagnosis *d)
         wrap_text(to->out, 2, to->width, "  ",
                   "The deck states no noise for all of the data: the assumed values stand below, so statements are relative.");
     if (v->next_measurement)
-        wrap_text(to->out, 10, to->width, "  to settle it: ", v->next_measurement);
+        wrap_text(to->out, 10, to->width, "  next step: ", v->next_measurement);
 }
 
 static double value_of(const rotid_identification *fit, const char *name)
