@@ -78,7 +78,7 @@ POOL_TEST(what_is_printed_is_what_the_program_prints)
         at = end + strlen(FENCE) - 1;
         blocks++;
     }
-    assert_int_equal(blocks, 6);
+    assert_int_equal(blocks, 5);
 }
 
 TEST_GROUP(folder_make, folder_remove);

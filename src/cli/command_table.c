@@ -5,7 +5,7 @@ const struct command_entry command_table[] = {
      "rotid check rotor.inp\n"
      "rotid check rotor.inp --json -",
      "inp", command_check, READS_DECK},
-    {"modes", "frequencies and shapes, full and condensed, beside the measured ones",
+    {"modes", "frequencies and shapes, full and condensed, compared with the measured ones",
      "rotid modes rotor.inp\n"
      "rotid modes rotor.inp --csv rotor\n"
      "rotid modes rotor.inp --set FIT.MODEL=SOLID --compare",
@@ -30,7 +30,7 @@ const struct command_entry command_table[] = {
      "rotid speeds machine.inp\n"
      "rotid speeds machine.inp --speeds 0:12000:61 --campbell campbell.csv",
      "inp", command_speeds, READS_DECK | PARALLEL},
-    {"frf", "synthesised transfer functions with measured damping, beside measured ones",
+    {"frf", "synthesised transfer functions with measured damping, compared with measured ones",
      "rotid frf rotor.inp\n"
      "rotid frf rotor.inp --set FRF.FILE=measured.unv -o synthesised.unv",
      "inp", command_frf, READS_DECK},
@@ -39,8 +39,7 @@ const struct command_entry command_table[] = {
      "rotid ema records.unv --pick 415,722 --per-point\n"
      "rotid ema first.unv second.unv third.unv -o modes.unv",
      "unv|uff|uf|csv", command_ema, PARALLEL | SEVERAL_FILES},
-    {"test",
-     "records of a hammer test and a deck to a page: ema, identify, diagnose, report, each said as the command that does it",
+    {"test", "from records of a hammer test and a deck to a page: ema, identify, diagnose, report, each printed as a command",
      "rotid test records.unv rotor.inp -o page.html\n"
      "rotid test records.unv rotor.inp -o page.html --band 200,3200",
      "unv|uff|uf|csv|inp", command_test, SEVERAL_FILES},
@@ -48,7 +47,7 @@ const struct command_entry command_table[] = {
      "rotid export rotor.inp --format matrix-market -o rotor\n"
      "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",
      "inp", command_export, READS_DECK},
-    {"uff", "what a universal file holds, and what is doubtful in it",
+    {"uff", "contents and doubtful places of a universal file",
      "rotid uff records.unv --verbose\n"
      "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},

@@ -40,7 +40,7 @@ const struct option_row option_table[] = {
              "direction in which they move most."},
 
     {.name = "compare", .commands = "modes", .kind = OPTION_SWITCH, AT(compare),
-     .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
+     .help = "the rotor as a beam and as a solid, and the moduli that a beam would find",
      .more = "At the values of the deck, whichever of the two MODEL on *FIT asks for."},
 
     {.name = "type", .commands = "modes", .kind = OPTION_WORD, AT(mode_type), .words = types,
@@ -56,14 +56,14 @@ const struct option_row option_table[] = {
     {.name = "points", .commands = "sensitivity", .kind = OPTION_WHOLE, AT(points), FROM(1, 1000), .standard = 11, .value = "N",
      .help = "points of a curve"},
 
-    {.name = "no-baseline", .commands = "identify", .kind = OPTION_SWITCH, AT(no_baseline), .help = "without NLopt beside it",
+    {.name = "no-baseline", .commands = "identify", .kind = OPTION_SWITCH, AT(no_baseline), .help = "without NLopt",
      .more = "A build without NLopt (make WITH_NLOPT=0) has no such baseline and says so in the table, in JSON and "
              "by --version."},
 
     {.name = "extended", .commands = "diagnose", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
      .help = "a deck with what was found, as cards, and with the fitted values as starts"},
     {.name = "changed", .commands = "diagnose", .kind = OPTION_TEXT, AT(changed), .value = "BEFORE,AFTER",
-     .help = "what changed between two states of the deck, whatever the model lacks in both"},
+     .help = "what changed between two states; model errors common to both are not named"},
     {.name = "extended", .commands = "suggest", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
      .help = "the deck with the first of the tests as a *STATE more, ready for its measurements"},
     {.name = "for", .commands = "suggest", .kind = OPTION_TEXT, AT(suggest.aim), .value = "speed:N",
@@ -150,7 +150,7 @@ const struct option_row option_table[] = {
             .more = "A page of rotid is replaced, another file is left alone. A folder that is missing is made.")},
 
     {OUTPUT(.commands = "test", .value = "FILE", .files = "html",
-            .help = "the page; modes and results of the steps stand beside it; the name of the deck with .html without this option")},
+            .help = "the page; modes and results of the steps are written next to it; the name of the deck with .html without this option")},
     {OUTPUT(.commands = "study", .value = "FILE", .files = "jsonl",
             .help = "the results, a line of JSON a run; where the file exists, what is missing in it is computed")},
     {.name = "shard", .commands = "study", .kind = OPTION_SHARD, AT(study), .value = "I/N",

@@ -24,12 +24,21 @@ static void put_flag(FILE *out, const struct option_row *row)
     (void)fputs("`", out);
 }
 
-/* Those of one command, or with NULL those of all. */
+/* An option of most commands stands in a row of its own. */
+static int is_common(const struct option_row *row)
+{
+    int count = 0, all = 0;
+    for (const struct command_entry *entry = command_table; entry->name; entry++, all++)
+        count += row->commands && option_of(row, entry->name);
+    return 2 * count > all;
+}
+
+/* Those of one command, or those of all and of most with NULL. */
 static void put_flags(FILE *out, const char *command)
 {
     int count = 0;
     for (const struct option_row *row = option_table; row->name; row++)
-        if (row->commands ? command && option_of(row, command) : !command) {
+        if (command ? row->commands && option_of(row, command) && !is_common(row) : !row->commands || is_common(row)) {
             (void)fputs(count++ ? ", " : "", out);
             put_flag(out, row);
         }
@@ -44,7 +53,7 @@ void write_commands(FILE *out, int section)
         put_flags(out, entry->name);
         (void)fputs(" |\n", out);
     }
-    (void)fputs("| all | | ", out);
+    (void)fputs("| all or most | | ", out);
     put_flags(out, NULL);
     (void)fputs(" |\n", out);
 }
