@@ -1048,6 +1048,12 @@ module rotid
     real(c_double) :: hz = 0
   end type rotid_excitation
 
+  type, bind(C) :: rotid_torsional_frequency
+    integer(c_int) :: number = 0
+    real(c_double) :: frequency_hz = 0
+    real(c_double) :: std_hz = 0
+  end type rotid_torsional_frequency
+
   type, bind(C) :: rotid_speeds
     real(c_double) :: low_rpm = 0
     real(c_double) :: high_rpm = 0
@@ -1071,6 +1077,8 @@ module rotid
     type(c_ptr) :: map = c_null_ptr ! rotid_map_row
     integer(c_int) :: nrunup = 0
     type(c_ptr) :: runup = c_null_ptr ! rotid_runup_speed
+    integer(c_int) :: ntorsion = 0
+    type(c_ptr) :: torsion = c_null_ptr ! rotid_torsional_frequency
     integer(c_int) :: nmessage = 0
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: memory = c_null_ptr

@@ -1182,6 +1182,13 @@ typedef struct rotid_excitation {
 } rotid_excitation;
 
 /* The machine in operation. */
+/* A torsional natural frequency of the machine, free of its bearings. */
+typedef struct rotid_torsional_frequency {
+    int number;          /* from 1, above the free rotation */
+    double frequency_hz; /* [Hz] */
+    double std_hz;       /* its standard deviation by the moduli and what changed in operation, in linear prediction [Hz] */
+} rotid_torsional_frequency;
+
 typedef struct rotid_speeds {
     double low_rpm;     /* lowest running speed [rpm]; NaN where no range is stated */
     double high_rpm;    /* highest running speed [rpm] */
@@ -1205,6 +1212,8 @@ typedef struct rotid_speeds {
     rotid_map_row *map; /* critical speed map: over the stiffness of the bearings */
     int nrunup;
     rotid_runup_speed *runup; /* measured critical speeds beside these, in the order of *RUNUP */
+    int ntorsion;
+    rotid_torsional_frequency *torsion; /* the lowest ones; none where the model has none */
     int nmessage;
     const rotid_message *message;
     void *memory; /* internal */

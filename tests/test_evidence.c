@@ -206,7 +206,9 @@ POOL_TEST(nothing_but_a_modulus)
         double z = evidence(NULL, NULL, NULL, x);
         const struct axis axis[1] = {modulus_axis(x[0], 0.03, 200)};
         open_likelihood(&job, &l);
-        check("a modulus", z, over_grid(&l, 1, axis));
+        double grid = over_grid(&l, 1, axis);
+        check("a modulus", z, grid);
+        assert_close(z, grid, 0, 0.02); /* nothing is approximated but the normal about the fit */
     }
 }
 

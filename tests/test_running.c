@@ -7,6 +7,8 @@
 #include "running_case.h"
 #include "support.h"
 
+#define PI 3.14159265358979323846
+
 /* Shaft, disk in the middle, pins: a Jeffcott rotor but for 1e-4 of the mass. The stiffness is 48 EI/L^3 with shear. */
 #define LIGHT                                                                                                                    \
     "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n0.1\n*SHAFT, NAME=shaft, MATERIAL=s\n0.5, 0.03, 0, 8\n0.5, 0.03, 0, 8\n"  \
@@ -17,7 +19,7 @@ static double natural(const struct running_case *c)
 {
     const rotid_campbell_mode *m = running_case_mode(c, 0, 1);
     assert_non_null(m);
-    return 2 * 3.14159265358979323846 * m->frequency_hz / sqrt(1 - m->damping_ratio * m->damping_ratio);
+    return 2 * PI * m->frequency_hz / sqrt(1 - m->damping_ratio * m->damping_ratio);
 }
 
 POOL_TEST(a_viscous_loss_drives_forward_whirl_from_w0_and_more)
@@ -415,4 +417,45 @@ POOL_TEST(a_slender_rotor_is_the_same_as_beam_and_as_solid)
         assert_close(c[1].speeds.critical_speeds[i].speed_rpm, c[0].speeds.critical_speeds[i].speed_rpm, 1e-3, 0);
     running_case_close(&c[0]);
     running_case_close(&c[1]);
+}
+
+/* Two couplings of inertia J at the ends of a free shaft: tan b = 2 m b/(m^2 b^2 - 1), m = J/(rho Ip L), w = b sqrt(G/rho)/L. By
+ * f ~ sqrt G its relative deviation is half that of G, and *CHANGE counts as G does. */
+POOL_TEST(couplings_twist_the_machine_as_a_free_shaft_with_two_inertias)
+{
+    const double length = 1.5, g = 3e10, rho = 7600, polar = PI * pow(0.12, 4) / 32, m = 0.4 / (rho * polar * length);
+    double root[3];
+    for (int k = 0; k < 3; k++) {
+        double low = k * PI + 1e-6, high = (k + 1) * PI - 1e-6, value = 0, first = 0;
+        for (int i = 0; i < 100; i++) {
+            double b = i ? (low + high) / 2 : low;
+            value = sin(b) * (m * m * b * b - 1) - 2 * m * b * cos(b);
+            first = i ? first : value;
+            *(value * first > 0 ? &low : &high) = b;
+        }
+        root[k] = low;
+    }
+    for (int solid = 0; solid < 2; solid++) {
+        struct running_case c;
+        double x[1] = {g}, std[1] = {0.04 * g}, covariance[1] = {std[0] * std[0]};
+        const rotid_fit_result fit = {.n = 1, .x = x, .std = std, .covariance = covariance};
+        const char *text = pool_format(
+            &test_pool,
+            "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.1e11, 3e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, MATERIAL=l\n"
+            "1.5, 0.12, 0, 30\n*FIT%s\n*IDENTIFY\ncore.G, 1e9, 1e12, 3e10\n*RUNNING\n*DISK\nstart, 10, 0.2, 0.4\nend, "
+            "10, 0.2, 0.4\n*BEARING, STD=0.3\n0.2, 1e8, 1e4\n*BEARING\n1.3, 1e8, 1e4\n*CHANGE\ncore.G, 1, 0.06\n",
+            solid ? ", MODEL=SOLID" : "");
+        assert_int_equal(running_case_open(text, 9000, 5, 0, &c), ROTID_OK);
+        assert_int_equal(running_case_run(&c, &fit, 9000, 5, 0), ROTID_OK);
+        assert_true(c.speeds.ntorsion >= 3);
+        for (int k = 0; k < 3; k++) {
+            const rotid_torsional_frequency *f = &c.speeds.torsion[k];
+            assert_int_equal(f->number, k + 1);
+            /* elements of length h: (b h)^2/24 at most; at the end of a solid its section yields to the inertia there */
+            assert_close(f->frequency_hz, root[k] * sqrt(g / rho) / length / (2 * PI), solid ? 3e-4 : pow(root[k] / 30, 2) / 20,
+                         0);
+            assert_close(f->std_hz / f->frequency_hz, hypot(0.04, 0.06) / 2, 1e-4, 0);
+        }
+        running_case_close(&c);
+    }
 }

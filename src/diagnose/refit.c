@@ -9,7 +9,6 @@
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
-#define STRAYED    3.0  /* times the start of the deck */
 
 static double inside(const rotid_parameter *bounds, double value)
 {
@@ -383,16 +382,6 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
     return ROTID_OK;
 }
 
-/* Whether a parameter ran so far from the deck's to make up for what is missing that the way back may lead past another minimum.
- */
-static int is_strayed(int nown, const double *x, const double *deck)
-{
-    for (int p = 0; p < nown; p++)
-        if (!(x[p] / deck[p] < STRAYED && x[p] / deck[p] > 1 / STRAYED))
-            return 1;
-    return 0;
-}
-
 int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                 const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
                 struct refit *refit)
@@ -403,8 +392,7 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
     if (!status && deck &&
-        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter) ||
-         is_strayed(states->nparameter, x, deck)))
+        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter)))
         status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;

@@ -46,6 +46,8 @@ void section_speeds(struct document *document, const struct result *result)
     document_table(document, table_of_stability(pool, s));
     if (s->nrunup)
         document_table(document, table_of_runup(pool, s->nrunup, s->runup));
+    if (s->ntorsion)
+        document_table(document, table_of_torsion(pool, s));
     if (s->ncritical_speeds && s->critical_speeds[0].nvariance_shares)
         document_table(document, table_of_shares(pool, s));
     if (s->ncritical_speeds && s->critical_speeds[0].nsensitivities)

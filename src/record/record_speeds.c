@@ -137,6 +137,14 @@ static const struct record_field runup_fields[] = {
 };
 const struct record runup_record = RECORD(rotid_runup_speed, runup_fields);
 
+static const struct record_field torsion_fields[] = {
+    INTEGER(rotid_torsional_frequency, number, FROM_1),
+    NUMBER(rotid_torsional_frequency, frequency_hz, ABOVE_0),
+    NUMBER(rotid_torsional_frequency, std_hz, FROM_0),
+    {0},
+};
+static const struct record torsion_record = RECORD(rotid_torsional_frequency, torsion_fields);
+
 static const struct record_field speeds_fields[] = {
     NUMBER(rotid_speeds, low_rpm, MAY_BE_NULL | ABOVE_0),
     NUMBER(rotid_speeds, high_rpm, MAY_BE_NULL | ABOVE_0),
@@ -153,6 +161,7 @@ static const struct record_field speeds_fields[] = {
     STRUCTS(rotid_speeds, bearing_loads, 0, load_record),
     STRUCTS(rotid_speeds, map, 0, map_record),
     STRUCTS(rotid_speeds, runup, SINCE_LATER, runup_record),
+    STRUCTS(rotid_speeds, torsion, SINCE_LATER, torsion_record),
     {0},
 };
 const struct record speeds_record = RECORD(rotid_speeds, speeds_fields);

@@ -43,6 +43,25 @@ struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_spe
     return t;
 }
 
+struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
+{
+    struct table *t = table_open(pool, "TORSION: natural frequencies of the machine, and the speeds that excite them");
+    for (int i = 0; i < s->ntorsion; i++) {
+        const rotid_torsional_frequency *own = &s->torsion[i];
+        table_row(t);
+        number_column(t, "no.", NULL, SHOW_COUNT, own->number);
+        number_column(t, "frequency", "Hz", SHOW_FIXED(2), own->frequency_hz);
+        number_column(t, "std", "Hz", SHOW_DIGITS(3), own->std_hz > 0 ? own->std_hz : (double)NAN);
+        number_column(t, "1x", "rpm", SHOW_FIXED(0), 60 * own->frequency_hz);
+        number_column(t, "2x", "rpm", SHOW_FIXED(0), 30 * own->frequency_hz);
+        for (int e = 0; e < s->nexcitation; e++)
+            if (s->excitation[e].hz > 0)
+                number_column(t, pool_format(pool, "from %s", s->excitation[e].name), "%", SHOW_SIGNED(1),
+                              100 * (own->frequency_hz / s->excitation[e].hz - 1));
+    }
+    return t;
+}
+
 struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
@@ -209,6 +228,7 @@ void screen_speeds(const struct screen *to, const struct result *result)
     screen_table(to, table_of_critical_speeds(to->pool, s));
     screen_table(to, table_of_stability(to->pool, s));
     screen_table(to, table_of_runup(to->pool, s->nrunup, s->runup));
+    screen_table(to, table_of_torsion(to->pool, s));
     screen_table(to, table_of_shares(to->pool, s));
     screen_table(to, table_of_peaks(to->pool, s));
     screen_table(to, table_of_loads(to->pool, s));

@@ -17,6 +17,7 @@
  *   response       response.c: unbalance response, peaks, amplification by half power; sag and bearing loads
  *   bands          bands.c: derivatives by every uncertain number, by left and right vectors; draws from the posterior of the
  *                  fit, the bearings, losses, pull; every critical speed solved again
+ *   torsion        torsion.c (torsion_run): its natural frequencies with the disks of the machine
  *   worth          worth.c (worth_run): which test at rest narrows a critical speed most
  *   run-up         runup.c: measured critical speeds as residuals of a fit; beside the model's
  *   all of it      search.c (search_within): the range, the basis, the critical speeds; speeds.c (speeds_run)
@@ -414,6 +415,13 @@ struct worth_options {
 int worth_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
               const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes,
               rotid_suggestion *out);
+
+/* --------------------------------------------------------------------------------------------------------------- torsion */
+
+/* The lowest torsional natural frequencies of the machine into *out: ntorsion 0 where the model has none. x, fit as for
+ * speeds_run. ROTID_OK or ROTID_ERROR_MEMORY. */
+int torsion_run(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
+                const rotid_fit_result *fit, struct message_list *notes, rotid_speeds *out);
 
 /* ---------------------------------------------------------------------------------------------------------------- run-up */
 

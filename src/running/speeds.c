@@ -327,5 +327,7 @@ int speeds_run(struct pool *pool, const struct machine *machine, const struct jo
         status = fill(&r);
     if (!status)
         status = runup_compare(pool, machine, job, x, fit, notes, &out->nrunup, &out->runup);
+    if (!status)
+        status = torsion_run(pool, machine, job, x, fit, notes, out);
     return status ? status : bands_make(pool, &r.search, fit, options, environment, notes, out);
 }
