@@ -92,42 +92,41 @@ void write_card_list(FILE *out, int section)
     }
 }
 
-/* What is expected of a parameter of a cause before the data, as the evidence has it (src/diagnose/laplace.c). */
-static void put_prior(FILE *out, const struct cause_kind *cause, int p, const struct effect_parameter_name *name)
+/* Prior of a parameter of a cause, as the evidence has it (src/diagnose/laplace.c); places and widths are alike for all. */
+static void put_prior(FILE *out, const struct cause_kind *cause, int p, const struct effect_parameter_name *name, int *count)
 {
     const struct cause_parameter *parameter = &cause->parameter[p];
-    const char *half = parameter->one_sided ? "half-normal" : "normal",
-               *unit = name->unit && name->unit[0] != '1' ? name->unit : "";
-    (void)fprintf(out, "%s%s ", p ? "; " : "", name->name);
-    if (p == cause->width)
-        (void)fputs("uniform in ln", out);
-    else if (p == cause->place || parameter->prior == PRIOR_FLAT)
-        (void)fputs("uniform", out);
-    else if (parameter->prior == PRIOR_GAUSSIAN)
-        (void)fprintf(out, "%s about %g, %g%s%s", half, parameter->neutral, parameter->scale, *unit ? " " : "", unit);
-    else if (parameter->prior == PRIOR_SHARE)
-        (void)fprintf(out, "%s about %g, %g of the way to its bound", half, parameter->neutral, fabs(parameter->scale));
+    const char *unit = parameter->prior == PRIOR_SHARE ? "b" : name->unit && name->unit[0] != '1' ? name->unit : "";
+    if (p == cause->width || p == cause->place)
+        return;
+    (void)fprintf(out, "%s%s ", (*count)++ ? "; " : "", name->name);
+    if (parameter->prior == PRIOR_FLAT)
+        (void)fputs("U", out);
+    else if (parameter->prior == PRIOR_GAUSSIAN || parameter->prior == PRIOR_SHARE)
+        (void)fprintf(out, "%sN(%g, %g%s%s)", parameter->one_sided ? "H" : "", parameter->neutral, fabs(parameter->scale),
+                      *unit ? " " : "", unit);
     else if (parameter->prior == PRIOR_LOG_NORMAL)
-        (void)fprintf(out, "normal in ln about %g, %g", parameter->neutral, parameter->scale);
+        (void)fprintf(out, "lnN(%g, %g)", parameter->neutral, parameter->scale);
     else
-        (void)fprintf(out, "uniform in ln over %g decades below its bound", parameter->scale);
+        (void)fprintf(out, "lnU(%g)", parameter->scale);
 }
 
 /* Without the parameters that no explanation has: of numbers, of pairing and of the level of the noise. */
 static void put_priors(FILE *out, const struct cause_kind *cause)
 {
+    int count = 0;
     if (cause->effect)
         for (int p = 0; p < cause->effect->nparameter; p++)
-            put_prior(out, cause, p, &cause->effect->parameter[p]);
+            put_prior(out, cause, p, &cause->effect->parameter[p], &count);
     else if (!strncmp(cause->id, "sensor_", 7))
         for (int p = 0; p < 2 && correction_parameter(cause, p); p++)
-            put_prior(out, cause, p, correction_parameter(cause, p));
+            put_prior(out, cause, p, correction_parameter(cause, p), &count);
 }
 
 void write_causes(FILE *out, int section)
 {
     (void)section;
-    (void)fputs("| `TYPE` | cause | check | prior of its size |\n| --- | --- | --- | --- |\n", out);
+    (void)fputs("| `TYPE` | cause | check | prior |\n| --- | --- | --- | --- |\n", out);
     for (int i = 0; i < catalogue_count(); i++) {
         (void)fprintf(out, "| `%s` | %s | %s | ", catalogue_item(i)->id, catalogue_item(i)->sentence, catalogue_item(i)->check);
         put_priors(out, catalogue_item(i));
