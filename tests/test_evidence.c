@@ -98,20 +98,17 @@ static double normal(double x, double deviation)
     return -x * x / (2 * deviation * deviation) - log(deviation) - log(2 * acos(-1)) / 2;
 }
 
-/* ln of the integral over both factors of the noise, by points 0.02 deviations apart. */
-static double over_noise(double lines, int nline, double shapes, int nshape)
+/* ln of the integral over a factor of the noise, by points 0.02 deviations apart; of the shapes it may be stated wrongly. */
+static double over_factor(double square, int count, int of_shapes)
 {
-    double sum[2] = {-INFINITY, -INFINITY}, step = 0.02 * STATED;
-    const double square[2] = {lines, shapes};
-    const int count[2] = {nline, nshape};
-    for (int part = 0; part < 2; part++)
-        for (int i = -1000; i <= 1000; i++) {
-            double a = i * step, prior = normal(a, STATED);
-            if (part && nshape)
-                prior = sum_logs(log(0.9) + prior, log(0.1) + normal(a, WRONG));
-            sum[part] = sum_logs(sum[part], -square[part] * exp(-2 * a) / 2 - count[part] * a + prior + log(step));
-        }
-    return sum[0] + sum[1];
+    double sum = -INFINITY, step = 0.02 * STATED;
+    for (int i = -1000; i <= 1000; i++) {
+        double a = i * step, prior = normal(a, STATED);
+        if (of_shapes)
+            prior = sum_logs(log(0.9) + prior, log(0.1) + normal(a, WRONG));
+        sum = sum_logs(sum, -square * exp(-2 * a) / 2 - count * a + prior + log(step));
+    }
+    return sum;
 }
 
 /* Of `count` states, whose noise is off by the same factors. */
@@ -127,7 +124,7 @@ static double log_likelihood_of(int count, struct likelihood *l, const double *x
         nline += l[s].nline;
         nshape += l[s].nshape;
     }
-    return over_noise(lines, nline, shapes, nshape);
+    return over_factor(lines, nline, 0) + over_factor(shapes, nshape, nshape > 0);
 }
 
 static double log_likelihood(struct likelihood *l, const double *x)
@@ -589,4 +586,157 @@ POOL_TEST(what_an_approximation_leaves_is_noise)
     assert_close(m->shape_std[3], hypot(0.03, cone.cause->discrepancy_shape), 1e-14, 0);
     assert_true(isnan(m->frequency_std[1]) && isnan(m->shape_std[1])); /* what is not measured stays so */
     assert_close(frequency[0], 1e-4, 0, 0);                            /* others may have the same arrays */
+}
+
+/* ---- two places and a free width: effects that are hidden in data of the model itself, with noise of its size */
+
+/* The job's data are those of the bar with an effect, its frequencies alone or its shapes as well. */
+static void hide(const char *id, const double *value, int shapes)
+{
+    const struct cause_kind *cause = catalogue_find(id);
+    struct effect effect = {.kind = cause->effect, .target = -1, .name = "hidden"};
+    struct job with;
+    struct columns columns;
+    int n = job.rotor.nsensor, nmode = job.measurement.nmode;
+    memcpy(effect.value, value, sizeof effect.value);
+    assert_status(job_with_effect(&test_pool, &job, NULL, &effect, cause, NULL, &with), ROTID_OK);
+    double x[8] = {job.unknowns.bounds[0].start};
+    memcpy(x + 1, value, 3 * sizeof *x);
+    assert_status(columns_open(&test_pool, &with, number, holdout, NULL, x, &columns), ROTID_OK);
+    const struct prediction *p = &columns.functional.prediction;
+    double *hz = POOL_ARRAY(&test_pool, double, nmode), *shape = POOL_ARRAY(&test_pool, double, (size_t)n *(size_t)nmode);
+    for (int k = 0; k < nmode; k++) {
+        hz[k] = prediction_hz(p, columns.mode[k].pair) * (1 + job.measurement.frequency_std[k] * sin(2 + 5 * k));
+        for (int s = 0; s < n; s++)
+            shape[s + k * n] = prediction_at_sensor(p, columns.mode[k].pair, s);
+        double most = 0;
+        for (int s = 0; s < n; s++)
+            most = fmax(most, fabs(shape[s + k * n]));
+        for (int s = 0; s < n; s++)
+            shape[s + k * n] = shape[s + k * n] / most + job.measurement.shape_std[s + k * n] * sin(1 + 3 * s + 7 * k);
+    }
+    job.measurement.frequency_hz = hz;
+    job.measurement.shape = shapes ? shape : NULL;
+}
+
+/* The cause of an id as it is fitted beside the base, its evidence, and the states of the fit. */
+static double hidden_evidence(const char *id, struct refit *refit)
+{
+    struct state one;
+    struct states states = states_of(&job, &one);
+    struct evidence_data *data;
+    struct scan scan;
+    double mean[16], std[16];
+    struct evidence e = {.mean = mean, .std = std};
+    rotid_fit_result *fit;
+    int at = 0;
+    assert_status(refit_until(&test_pool, &states, number, holdout, 0, NULL, &fit), ROTID_OK);
+    assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
+    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, &scan), ROTID_OK);
+    while (at < scan.ncandidate && (strcmp(scan.candidate[at].cause->id, id) != 0 || scan.candidate[at].effect.variant))
+        at++;
+    assert_true(at < scan.ncandidate);
+    assert_status(refit_cause(&test_pool, &states, number, holdout, fit->x, NULL, &scan, at, NULL, refit), ROTID_OK);
+    assert_non_null(refit->fit);
+    assert_status(evidence_of_fit(data, &refit->states, job.unknowns.nparameter, refit->fit, 0, NULL, 0, NULL, NULL, &e),
+                  ROTID_OK);
+    rotid_fit_free(fit);
+    e.log_z += evidence_of_other_place(refit);
+    const struct strip_case strips = {
+        .states = &refit->states, .fit = refit->fit, .number = number, .holdout = holdout, .nown = job.unknowns.nparameter};
+    assert_status(evidence_over_widths(&test_pool, data, &strips, &e), ROTID_OK);
+    return e.log_z;
+}
+
+/* By its frequencies a bar without supports does not know its left end from its right one; shapes of a hundred times the noise
+ * hardly tell them apart. */
+POOL_TEST(two_places)
+{
+    const double value[EFFECT_MOST_PARAMETERS] = {0.012, 0.15};
+    for (int shapes = 0; shapes < 2; shapes++) {
+        struct refit refit;
+        struct likelihood l;
+        open_bar(1);
+        hide("added_mass", value, shapes);
+        for (int i = 0; i < job.rotor.nsensor * job.measurement.nmode; i++)
+            job.measurement.shape_std[i] *= 8;
+        double z = hidden_evidence("added_mass", &refit);
+        print_message("%g at %g, %g at %g\n", refit.chi2, refit.fit->x[2], refit.other_chi2, refit.other_place);
+        heaviest = refit.states.bounds[1].upper;
+        bar_length = refit.states.bounds[2].upper;
+        const struct axis axis[3] = {
+            modulus_axis(refit.fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {80, 0, 0, bar_length, of_place}};
+        open_likelihood(&refit.states.state->job, &l);
+        check("a mass at one of two places", z, over_grid(&l, 3, axis));
+        assert_true(refit.other_chi2 < refit.chi2 + 4);
+        rotid_fit_free(refit.fit);
+    }
+}
+
+static double of_depth(double x)
+{
+    return normal(x, 0.5) + log(2) - log(erf(0.95 / 0.5 / sqrt(2)));
+}
+
+static double of_log_width(double x)
+{
+    (void)x;
+    return -log(log(200.0 / 14));
+}
+
+/* The modulus multiplies all frequencies alike, by its root, and leaves the shapes alone: one model for all its values. */
+static double over_modulus(struct likelihood *l, double *x, const struct axis *modulus)
+{
+    double shapes = 0, sum = -INFINITY, step = log(modulus->to / modulus->from) / modulus->points;
+    x[0] = modulus->from;
+    if (columns_residual(&l->columns, x, l->r))
+        return -INFINITY;
+    for (int i = l->nline; i < l->columns.nrow; i++)
+        shapes += l->r[i] * l->r[i];
+    for (int j = 0; j < modulus->points; j++) {
+        double lines = 0, factor = exp((j + 0.5) * step / 2);
+        for (int i = 0; i < l->nline; i++) {
+            double std = job.measurement.frequency_std[l->columns.mode[i].k], r = ((1 + l->r[i] * std) * factor - 1) / std;
+            lines += r * r;
+        }
+        sum = sum_logs(sum, over_factor(lines, l->nline, 0) + of_modulus(0) + log(step));
+    }
+    return sum + over_factor(shapes, l->nshape, l->nshape > 0);
+}
+
+static double on_axis(const struct axis *axis, int i)
+{
+    double share = (i + 0.5) / axis->points;
+    return axis->log ? axis->from * pow(axis->to / axis->from, share) : axis->from + share * (axis->to - axis->from);
+}
+
+/* A narrow deep zone may as well be a wider shallow one: its width is hardly known, its depth is near the most there is. */
+POOL_TEST(a_free_width)
+{
+    static const struct {
+        double depth, width, noise, from, to; /* of the depth: next to nothing lies beyond */
+    } zone[] = {{0.8, 0.008, 1, 0.55, 0.95}, {0.3, 0.025, 0.5, 0.22, 0.42}};
+    for (int i = 0; i < 2; i++) {
+        const double value[EFFECT_MOST_PARAMETERS] = {zone[i].depth, 0.2, zone[i].width}, reach = 0.008;
+        struct refit refit;
+        struct likelihood l;
+        double sum = -INFINITY;
+        open_bar(zone[i].noise);
+        hide("stiffness_local", value, 1);
+        double z = hidden_evidence("stiffness_local", &refit), at = refit.fit->x[2];
+        bar_length = refit.states.bounds[2].upper;
+        const struct axis modulus = modulus_axis(refit.fit->x[0], 0.02, 10), depth = {32, 0, zone[i].from, zone[i].to, of_depth},
+                          place = {10, 0, at - reach, at + reach, of_place},
+                          width = {20, 1, bar_length / 200, bar_length / 14, of_log_width};
+        open_likelihood(&refit.states.state->job, &l);
+        for (int a = 0; a < depth.points * place.points * width.points; a++) {
+            double x[4] = {0, on_axis(&depth, a % depth.points), on_axis(&place, a / depth.points % place.points),
+                           on_axis(&width, a / depth.points / place.points)};
+            sum = sum_logs(sum, over_modulus(&l, x, &modulus) + of_depth(x[1]) + of_place(x[2]) + of_log_width(x[3]));
+        }
+        sum += log((depth.to - depth.from) * (place.to - place.from) * log(width.to / width.from) / depth.points / place.points /
+                   width.points);
+        check("a zone of any width", z, sum);
+        rotid_fit_free(refit.fit);
+    }
 }

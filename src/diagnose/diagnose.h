@@ -92,6 +92,7 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     const struct scan *scan;    /* at that fit; NULL: not scanned */
     struct evidence_data *data; /* with its faults of the measurement put right */
     double outside;             /* of these, see struct fault_proposal */
+    int by_columns;             /* its ln Z is that of the scan's columns over all places and widths */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
     double at_rest, runup_chi2; /* the probability without the measured critical speeds; chi2 of these, NaN: none */
@@ -806,6 +807,22 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
                     int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
                     const struct scan *else_scan, struct evidence *out);
+/* ln of what a minimum at another place adds to Z as a factor, if that is as wide; 0 where there is none. */
+double evidence_of_other_place(const struct refit *refit);
+
+/* What the widths that are free make of the evidence of such a fit (over_width.c): the differences of ln Z are added to *out, and
+ * the moments of the nown unknowns take the place of those there. ROTID_OK, memory, cancellation, library. */
+struct strip_case {
+    const struct states *states; /* with the bounds of the fit */
+    const rotid_fit_result *fit;
+    const int *number, *holdout;
+    int nown, nmember, nfault;
+    const struct candidate *member;
+    struct fault_column *fault;
+    const rotid_environment *environment;
+};
+int evidence_over_widths(struct pool *pool, const struct evidence_data *data, const struct strip_case *c, struct evidence *out);
+
 struct model_prior { /* of a parameter of a host: normal about neutral, deviation 0: uniform, of a positive one in ln */
     double lower, upper, neutral, deviation;
 };

@@ -697,6 +697,11 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
     return status;
 }
 
+double evidence_of_other_place(const struct refit *refit)
+{
+    return isfinite(refit->other_chi2) ? log_sum(0, -fmax(0, refit->other_chi2 - refit->chi2) / 2) : 0;
+}
+
 /* ---- a column of the scan */
 
 double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i)

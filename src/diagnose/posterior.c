@@ -2,11 +2,13 @@
  *
  *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a
  *            kind, then over all states (1/2) and each alone; something else: a factor 0.05
- *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is
- *            scored by the evidence of its columns, the most promising are fitted, and the set with one cause less and scored by
- * laplace.c, until none is left within WITHIN of the best; what was not fitted enters by its columns verdict  UNEXPLAINED:
- * something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval; ADEQUATE: nothing leads, no
- * cause above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS */
+ *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is scored
+ *            by the evidence of its columns, the most promising are fitted, as is the set with one cause less, and scored by
+ *            laplace.c, until none is left within WITHIN of the best; what was not fitted enters by its columns; widths that are
+ *            free are integrated at last (over_width.c)
+ *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval;
+ *            ADEQUATE: nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else
+ *            AMBIGUOUS */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,15 +177,25 @@ static const struct states *states_of_explanation(const struct engine *engine, c
     return e->refit ? &e->refit->states : &engine->states;
 }
 
+/* column [2 * MOST_MEMBERS]: those of the faults of a set, *nfault */
+static int columns_of_faults(const struct engine *engine, const struct explanation *e, struct fault_column *column, int *nfault)
+{
+    int status = ROTID_OK;
+    *nfault = 0;
+    for (int m = 0; m < e->nmember && !status; m++)
+        if (is_fault(&e->member[m]))
+            status = fault_columns(engine->pool, states_of_explanation(engine, e), engine->number, engine->holdout,
+                                   fit_of(engine, e), e->data, &e->member[m], column, nfault);
+    return status;
+}
+
 static int score(struct engine *engine, struct posterior *p, const struct scan *else_scan, struct explanation *e)
 {
     struct fault_column column[2 * MOST_MEMBERS];
     const struct states *states = states_of_explanation(engine, e);
     int nfault = 0, status = e->evidence.mean ? ROTID_OK : room_for_moduli(engine->pool, engine->nown, &e->evidence);
-    for (int m = 0; m < e->nmember && !status; m++)
-        if (is_fault(&e->member[m]))
-            status = fault_columns(engine->pool, states, engine->number, engine->holdout, fit_of(engine, e), e->data,
-                                   &e->member[m], column, &nfault);
+    if (!status)
+        status = columns_of_faults(engine, e, column, &nfault);
     if (!status)
         status = evidence_of_fit(e->data, states, engine->nown, fit_of(engine, e), e->nmember, e->member, nfault, column,
                                  else_scan, &e->evidence);
@@ -195,8 +207,8 @@ static int score(struct engine *engine, struct posterior *p, const struct scan *
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
     }
-    if (e->nmember && e->member[e->nmember - 1].cause->place >= 0 && e->refit && isfinite(e->refit->other_chi2)) {
-        double more = log_sum(0, -fmax(0, e->refit->other_chi2 - e->refit->chi2) / 2); /* another place */
+    if (e->nmember && e->member[e->nmember - 1].cause->place >= 0 && e->refit) {
+        double more = evidence_of_other_place(e->refit);
         e->evidence.log_z += more;
         e->evidence.log_stated += more;
         e->evidence.log_exact += more;
@@ -273,6 +285,7 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
     e->evidence.log_stated += more;
     e->evidence.log_z += more;
     e->log_posterior += more;
+    e->by_columns = 1;
 }
 
 static int by_gain(const void *a, const void *b)
@@ -627,6 +640,56 @@ static int by_posterior(const void *a, const void *b)
     return (one < two) - (one > two);
 }
 
+/* The first cause of a set whose width is free; NULL: none, or its ln Z is over all widths already. */
+static const struct candidate *free_width(const struct explanation *e)
+{
+    for (int m = 0; m < e->nmember && e->refit && !e->by_columns; m++)
+        if (e->member[m].cause->width >= 0 && !e->member[m].fixed[e->member[m].cause->width])
+            return &e->member[m];
+    return NULL;
+}
+
+/* Evidence over the widths that are free, of the sets that count. What it is to a zone it is in the likeliest set that has it;
+ * the others take it from there. */
+static int integrate_widths(struct engine *engine, struct posterior *p)
+{
+    struct fault_column column[2 * MOST_MEMBERS];
+    double best = -INFINITY, *more = POOL_ARRAY(engine->pool, double, p->count + 1);
+    if (!more)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < p->count; i++)
+        best = fmax(best, p->item[i].log_posterior);
+    for (int i = 0, from; i < p->count; i++) {
+        struct explanation *e = &p->item[i];
+        const struct candidate *zone = e->log_posterior > best - WITHIN ? free_width(e) : NULL;
+        for (from = 0; zone && from < i; from++)
+            if (more[from] && free_width(&p->item[from]) && same_model(free_width(&p->item[from]), zone) &&
+                same_name(p, free_width(&p->item[from]), zone))
+                break;
+        if (!zone)
+            continue;
+        double before = e->evidence.log_z;
+        struct strip_case strips = {.states = &e->refit->states,
+                                    .fit = e->refit->fit,
+                                    .number = engine->number,
+                                    .holdout = engine->holdout,
+                                    .nown = engine->nown,
+                                    .nmember = e->nmember,
+                                    .member = e->member,
+                                    .fault = column,
+                                    .environment = engine->environment};
+        int status = from < i ? ROTID_OK : columns_of_faults(engine, e, column, &strips.nfault);
+        if (!status && from == i)
+            status = evidence_over_widths(engine->pool, e->data, &strips, &e->evidence);
+        if (status)
+            return status;
+        more[i] = from < i ? more[from] : e->evidence.log_z - before;
+        e->evidence.log_z = before + more[i];
+        e->log_posterior += more[i];
+    }
+    return ROTID_OK;
+}
+
 /* Something else beside the likeliest sets. */
 static int add_something_else(struct engine *engine, struct posterior *p)
 {
@@ -855,7 +918,10 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
     if (status)
         return status;
     qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
-    status = add_something_else(engine, p);
+    status = integrate_widths(engine, p);
+    qsort(p->item, (size_t)p->count, sizeof *p->item, by_posterior);
+    if (!status)
+        status = add_something_else(engine, p);
     if (!status)
         status = weigh(engine, p);
     return status ? status : learn_of_runup(engine, p);
