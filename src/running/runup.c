@@ -3,7 +3,6 @@
 
 #include "running/running.h"
 
-#define STEP   1e-4 /* of an unknown, on both sides: differences of matrices to 1e-8 */
 #define SPEEDS 25   /* at which the modes are looked at in a search */
 #define BEYOND 1.1  /* times the highest measured speed: how far a search goes at least */
 #define FAR    0.02 /* of a critical speed: a step that is linearised again */
@@ -37,6 +36,12 @@ static int of_all(const struct runup *r, int p)
 {
     int at_rest = r->job->unknowns.nparameter;
     return p < at_rest ? state_unknown(&r->states->state[0], p) : r->states->nparameter + p - at_rest;
+}
+
+/* Whether unknown p counts by its logarithm. */
+static int is_logarithm(const struct machine *machine, const struct job *job, int p)
+{
+    return machine_bounds(machine, job, p)->lower > 0;
 }
 
 /* The critical speeds of a machine up to all that were measured. */
@@ -125,48 +130,25 @@ static int residual(void *user, const double *x, double *out)
     return ROTID_OK;
 }
 
-/* Both sides of unknown q on the basis of a point. x [2 machine_unknowns] */
-static int build_sides(struct pool *pool, const struct runup *r, const struct point *p, int q, double step, double *x,
-                       struct machine_values values[2], struct system side[2])
-{
-    int n = machine_unknowns(r->machine, r->job), failed, status = ROTID_OK;
-    for (int i = 0; i < 2 && !status; i++) {
-        values[i] = p->search.values;
-        values[i].x = memcpy(x + (ptrdiff_t)n * i, p->x, (size_t)n * sizeof *x);
-        x[q + (ptrdiff_t)n * i] += i ? step : -step;
-        status = system_build(pool, r->machine, r->job, &values[i], &p->search.system, NULL, &side[i], &failed);
-    }
-    return status;
-}
-
 static int jacobian(void *user, const double *x, int rows, double *out)
 {
     struct runup *r = user;
     struct pool scratch;
     int n = machine_unknowns(r->machine, r->job), nrunup = r->machine->nrunup, moved = 0, status = ROTID_OK;
     pool_open(&scratch, r->pool->allocator);
-    double *sides = POOL_ARRAY(&scratch, double, 2 * (size_t)n + (size_t)nrunup);
+    double *gradient = POOL_ARRAY(&scratch, double, (size_t)nrunup *(size_t)n), *again = POOL_ARRAY(&scratch, double, nrunup);
     for (int q = 0; q < n; q++)
         moved |= r->point[r->at].x[q] != x[of_all(r, q)];
-    if (!sides || moved)
-        status = sides ? residual(r, x, sides + 2 * (ptrdiff_t)n) : ROTID_ERROR_MEMORY;
+    if (!gradient || !again || moved)
+        status = gradient && again ? residual(r, x, again) : ROTID_ERROR_MEMORY;
     struct point *p = &r->point[r->at];
-    size_t size = (size_t)p->search.system.size;
-    double complex *work = POOL_ARRAY(&scratch, double complex, 2 * size * size + size);
-    if (!status && !work)
-        status = ROTID_ERROR_MEMORY;
-    for (int q = 0; q < n && !status; q++) {
-        struct pool own;
-        struct system side[2];
-        struct machine_values values[2];
-        double step = STEP * fabs(p->x[q]);
-        pool_open(&own, r->pool->allocator);
-        status = build_sides(&own, r, p, q, step, sides, values, side);
-        for (int i = 0; i < nrunup && !status; i++)
-            out[i + (ptrdiff_t)rows * of_all(r, q)] +=
-                critical_rate(&p->search.system, side, 2 * step, 1, &p->critical[i], work) / r->machine->runup[i].std;
-        pool_close(&own);
-    }
+    if (!status)
+        status = bands_gradient(&scratch, &p->search, nrunup, p->critical, gradient, NULL);
+    for (int q = 0; q < n && !status; q++)
+        for (int i = 0; i < nrunup; i++)
+            out[i + (ptrdiff_t)rows * of_all(r, q)] += p->critical[i].speed * gradient[q + (ptrdiff_t)n * i] /
+                                                       (is_logarithm(r->machine, r->job, q) ? p->x[q] : 1) /
+                                                       r->machine->runup[i].std;
     pool_close(&scratch);
     r->out_of_memory |= status == ROTID_ERROR_MEMORY;
     return status;
@@ -255,12 +237,6 @@ struct reached {
     double *covariance; /* [count^2] G C G' and that by what is no unknown */
 };
 
-/* Whether unknown p is its logarithm in u. */
-static int is_logarithm(const struct reached *r, int p)
-{
-    return machine_bounds(r->search.machine, r->search.job, p)->lower > 0;
-}
-
 /* At x [machine_unknowns]; fit: of these, C in u about its own x. Statuses of search_until and bands_gradient. */
 static int reach(struct pool *pool, const struct machine *machine, const struct job *job, const double *x,
                  const rotid_fit_result *fit, struct message_list *notes, struct reached *r)
@@ -289,8 +265,9 @@ static int reach(struct pool *pool, const struct machine *machine, const struct 
         status = bands_gradient(pool, &r->search, r->count, r->critical, r->gradient, r->covariance);
     for (int p = 0; p < n && !status; p++)
         for (int q = 0; q < n; q++) {
-            double c = fit->covariance[p + (ptrdiff_t)n * q] / (is_logarithm(r, p) ? fit->x[p] : 1) /
-                       (is_logarithm(r, q) ? fit->x[q] : 1);
+            double c = fit->covariance[p + (ptrdiff_t)n * q] /
+                       (is_logarithm(r->search.machine, r->search.job, p) ? fit->x[p] : 1) /
+                       (is_logarithm(r->search.machine, r->search.job, q) ? fit->x[q] : 1);
             for (int i = 0; i < r->count && isfinite(fit->std[p]) && isfinite(fit->std[q]); i++)
                 r->spread[p + (ptrdiff_t)n * i] += c * r->gradient[q + (ptrdiff_t)n * i];
         }
@@ -406,7 +383,8 @@ static int innovate(const struct reached *r, int n, const double *start, const d
         double relative = reading->std / reading->speed;
         v[i] = log(reading->speed / r->critical[i].speed);
         for (int p = 0; p < n; p++)
-            v[i] += r->gradient[p + (ptrdiff_t)n * i] * (is_logarithm(r, p) ? log(x[p] / start[p]) : x[p] - start[p]);
+            v[i] += r->gradient[p + (ptrdiff_t)n * i] *
+                    (is_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / start[p]) : x[p] - start[p]);
         for (int k = 0; k < count; k++)
             factor[i + (ptrdiff_t)count * k] = r->covariance[i + (ptrdiff_t)count * k] + (i == k ? relative * relative : 0);
         gain[i] = v[i];
@@ -429,8 +407,9 @@ static double take_step(const struct reached *r, int n, const double *start, con
         double by = 0, was = x[p];
         for (int i = 0; i < r->count; i++)
             by += r->spread[p + (ptrdiff_t)n * i] * gain[i];
-        x[p] = fmin(fmax(is_logarithm(r, p) ? start[p] * exp(by) : start[p] + by, bounds->lower), bounds->upper);
-        moved[p] = is_logarithm(r, p) ? log(x[p] / was) : x[p] - was;
+        x[p] = fmin(fmax(is_logarithm(r->search.machine, r->search.job, p) ? start[p] * exp(by) : start[p] + by, bounds->lower),
+                    bounds->upper);
+        moved[p] = is_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / was) : x[p] - was;
     }
     for (int i = 0; i < r->count; i++)
         most = fmax(most, fabs(product_dot(n, r->gradient + (ptrdiff_t)n * i, moved)));
@@ -469,7 +448,7 @@ int runup_learn(struct pool *pool, const struct states *deck, const struct state
     *log_z = -(*chi2 + determinant + most * LN_2PI) / 2;
     for (int p = 0; p < state->job.unknowns.nparameter; p++) {
         int q = state_unknown(state, p);
-        double less = 0, scale = is_logarithm(&r, p) ? mine.x[p] : 1;
+        double less = 0, scale = is_logarithm(&machine, &state->job, p) ? mine.x[p] : 1;
         if (q >= nown || !(mine.std[p] > 0))
             continue;
         for (int i = 0; i < most; i++)
