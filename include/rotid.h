@@ -573,7 +573,8 @@ typedef struct rotid_model_mode {
     double reduced_hz; /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
     double reduction_error_percent; /* reduced over full frequency, less one [%] */
     double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%];
-                                       of a solid, whose full_hz is such a limit, what it may be off by */
+                                       of a solid, whose full_hz is such a limit, what it may be off by; NaN where no mode of the
+                                       other mesh is this one */
     int nshape;
     double *shape;                 /* deflection of the full model at sensor_z_m, largest component 1 [1] */
     rotid_compared_mode *measured; /* NULL where no measured mode is paired with it; residual is NaN */

@@ -276,6 +276,40 @@ POOL_TEST(node_at_is_the_nearest_one)
     }
 }
 
+/* Nearer to each other than 1 % of an element. */
+POOL_TEST(no_sensor_moves_a_disk)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        struct rotor rotor = bare();
+        disks[0] = (struct disk){"disk", 0.35, 1, 0, 0, 0, 0};
+        rotor.ndisk = 1;
+        add_sensors(&rotor, 1, (double[]){0.35 + side * 5e-4});
+        struct mesh mesh = build(&rotor, 1);
+        assert_int_equal(mesh.naxis, 16);
+        assert_close(mesh.z[mesh.disk_node[0]], 0.35, 1e-15, 0);
+        assert_int_equal(mesh.sensor_node[0], mesh.disk_node[0]);
+    }
+}
+
+POOL_TEST(a_turned_rotor_has_the_same_nodes_turned)
+{
+    struct segment turned[] = {segments[1], segments[0]};
+    double place[] = {0.35, 0.3506}, length = 1.5;
+    struct rotor rotor = bare();
+    rotor.nspring = 2;
+    for (int i = 0; i < 2; i++)
+        springs[i] = (struct spring){"s", place[i], 1, 0, 0, 0};
+    struct mesh mesh = build(&rotor, 1);
+    assert_int_equal(mesh.naxis, 16);
+    for (int i = 0; i < 2; i++)
+        springs[i].position = length - place[i];
+    rotor.segment = turned;
+    struct mesh other = build(&rotor, 1);
+    assert_int_equal(other.naxis, mesh.naxis);
+    for (int i = 0; i < mesh.naxis; i++)
+        assert_close(other.z[i], length - mesh.z[mesh.naxis - 1 - i], 1e-14, 0);
+}
+
 POOL_TEST(no_memory_is_reported_at_every_allocation)
 {
     struct rotor rotor = bare();

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json_value.h"
 #include "shell.h"
 #include "support.h"
 
@@ -141,6 +142,30 @@ POOL_TEST(a_diagnosis_says_that_it_refines_the_mesh_and_what_chance_does)
     (void)shell(&test_pool, ROTID "check fine.inp", folder);
     said = shell(&test_pool, ROTID "diagnose " INPUT "/paper_rotor.inp --quiet --extended same.inp 2>&1; true", folder);
     assert_null(strstr(said, "refined")); /* --quiet */
+}
+
+/* Mode 4 of four elements is no mode of eight: no error of the mesh can be stated. */
+POOL_TEST(the_schema_allows_what_is_not_known_of_a_mode)
+{
+    (void)shell(&test_pool,
+                "cd %s && printf '*MATERIAL, NAME=m\n*ELASTIC, TYPE=SHEAR\n4e10, 1.5e10, 0.28\n*DENSITY\n7650\n*SHAFT, NAME=s, "
+                "MATERIAL=m\n0.375, 0.11, 0.065, 4\n' > coarse.inp && " ROTID_PROGRAM
+                " modes coarse.inp --quiet --json coarse.json",
+                folder);
+    cJSON *result = cJSON_Parse(shell(&test_pool, "cat %s/coarse.json", folder));
+    cJSON *schema = cJSON_Parse(shell(&test_pool, "cat " ROTID_SOURCE_DIR "/docs/schema/modes.schema.json"));
+    const cJSON *mode, *value, *allowed = get(get(get(schema, "$defs"), "model_mode"), "properties");
+    int unknown = 0;
+    cJSON_ArrayForEach(mode, get(result, "modes")) cJSON_ArrayForEach(value, mode) if (cJSON_IsNull(value))
+    {
+        const cJSON *type = get(get(allowed, value->string), "type");
+        if (!cJSON_IsArray(type) || strcmp(cJSON_GetArrayItem(type, 1)->valuestring, "null"))
+            fail_msg("%s is null", value->string);
+        unknown += !strcmp(value->string, "mesh_error_percent");
+    }
+    assert_true(unknown > 0);
+    cJSON_Delete(schema);
+    cJSON_Delete(result);
 }
 
 POOL_TEST(an_export_says_how_large_its_files_are)

@@ -66,27 +66,49 @@ static void insert(const struct rotor *rotor, struct builder *b, double z)
     b->count++;
 }
 
-static int gather_positions(const struct rotor *rotor, double *position)
+/* What asks for a node at z. */
+struct place {
+    double z, from_middle;
+    int is_sensor;
+};
+
+/* What acts on the rotor before what only looks at it, so that no sensor moves a disk; from the middle outwards, so that a rotor
+ * that is turned end to end, or whose cards stand in another order, has the same nodes. */
+static int compare_places(const void *left, const void *right)
+{
+    const struct place *a = left, *b = right;
+    int farther = (a->from_middle > b->from_middle) - (a->from_middle < b->from_middle);
+    return a->is_sensor != b->is_sensor ? a->is_sensor - b->is_sensor : farther ? farther : (a->z > b->z) - (a->z < b->z);
+}
+
+static void add_place(struct place *place, int *count, double z, double middle, int is_sensor)
+{
+    place[(*count)++] = (struct place){z, fabs(z - middle), is_sensor};
+}
+
+static int gather_places(const struct rotor *rotor, double middle, struct place *place)
 {
     int count = 0;
     for (int i = 0; i < rotor->nsensor; i++)
-        position[count++] = rotor->sensor[i].position;
+        add_place(place, &count, rotor->sensor[i].position, middle, 1);
     for (int i = 0; i < rotor->nspring; i++)
-        position[count++] = rotor->spring[i].position;
+        add_place(place, &count, rotor->spring[i].position, middle, 0);
     for (int i = 0; i < rotor->ndisk; i++) {
-        position[count++] = rotor->disk[i].position;
+        double from, to;
+        add_place(place, &count, rotor->disk[i].position, middle, 0);
         if (rotor->disk[i].hub_length > 0) {
-            rotor_hub_span(rotor, i, &position[count], &position[count + 1]);
-            count += 2;
+            rotor_hub_span(rotor, i, &from, &to);
+            add_place(place, &count, from, middle, 0);
+            add_place(place, &count, to, middle, 0);
         }
     }
     for (int i = 0; i < rotor->nbars; i++)
-        position[count++] = rotor->bars[i].center;
+        add_place(place, &count, rotor->bars[i].center, middle, 0);
     for (int i = 0; i < rotor->ntierod; i++) {
-        position[count++] = rotor->tierod[i].from;
-        position[count++] = rotor->tierod[i].to;
+        add_place(place, &count, rotor->tierod[i].from, middle, 0);
+        add_place(place, &count, rotor->tierod[i].to, middle, 0);
     }
-    sort_doubles((size_t)count, position);
+    qsort(place, (size_t)count, sizeof *place, compare_places);
     return count;
 }
 
@@ -172,7 +194,7 @@ int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct 
     int most = (base + extra) * refine + 1, far = 8 * (rotor->ntierod + 2 * rotor->nbars);
     *mesh = (struct mesh){0};
     struct builder b = {0, POOL_ARRAY(pool, double, base + extra), POOL_ARRAY(pool, int, base + extra)};
-    double *position = POOL_ARRAY(pool, double, extra);
+    struct place *place = POOL_ARRAY(pool, struct place, extra);
     mesh->z = POOL_ARRAY(pool, double, most);
     mesh->segment = POOL_ARRAY(pool, int, most);
     mesh->far = POOL_ARRAY(pool, int, far);
@@ -181,12 +203,12 @@ int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct 
     mesh->spring_node = POOL_ARRAY(pool, int, rotor->nspring);
     mesh->disk_node = POOL_ARRAY(pool, int, rotor->ndisk);
     mesh->sensor_node = POOL_ARRAY(pool, int, rotor->nsensor);
-    if (!b.z || !b.segment || !position || !mesh->z || !mesh->segment || !mesh->far || !mesh->tierod || !mesh->bars ||
+    if (!b.z || !b.segment || !place || !mesh->z || !mesh->segment || !mesh->far || !mesh->tierod || !mesh->bars ||
         !mesh->spring_node || !mesh->disk_node || !mesh->sensor_node)
         return ROTID_ERROR_MEMORY;
     lay_segments(rotor, &b);
-    for (int i = 0, count = gather_positions(rotor, position); i < count; i++)
-        insert(rotor, &b, position[i]);
+    for (int i = 0, count = gather_places(rotor, b.z[b.count - 1] / 2, place); i < count; i++)
+        insert(rotor, &b, place[i].z);
     refine_axis(&b, refine, mesh);
     place_members(rotor, refine, mesh);
     return ROTID_OK;

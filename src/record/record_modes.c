@@ -28,7 +28,7 @@ static const struct record_field mode_fields[] = {
     NUMBER(rotid_model_mode, full_hz, FROM_0),
     NUMBER(rotid_model_mode, reduced_hz, FROM_0 | MAY_BE_NULL),
     NUMBER(rotid_model_mode, reduction_error_percent, MAY_BE_NULL),
-    NUMBER(rotid_model_mode, mesh_error_percent, 0),
+    NUMBER(rotid_model_mode, mesh_error_percent, MAY_BE_NULL),
     NUMBERS(rotid_model_mode, shape, 0),
     INLINE(rotid_model_mode, measured, IF_KNOWN | BEHIND_POINTER, measured_record),
     STRUCT(rotid_model_mode, meridian, IF_KNOWN | BEHIND_POINTER, meridian_mode_record),
@@ -59,8 +59,8 @@ static const struct record_field beside_mode_fields[] = {
     NUMBER(rotid_beside_mode, difference_percent, 0),
     NUMBER(rotid_beside_mode, nco, CORRELATION | MAY_BE_NULL),
     NUMBER(rotid_beside_mode, mac, CORRELATION | MAY_BE_NULL),
-    NUMBER(rotid_beside_mode, solid_mesh_error_percent, 0),
-    NUMBER(rotid_beside_mode, beam_mesh_error_percent, 0),
+    NUMBER(rotid_beside_mode, solid_mesh_error_percent, MAY_BE_NULL),
+    NUMBER(rotid_beside_mode, beam_mesh_error_percent, MAY_BE_NULL),
     {0},
 };
 static const struct record beside_mode_record = RECORD(rotid_beside_mode, beside_mode_fields);
