@@ -2,6 +2,7 @@
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "running_case.h"
@@ -143,6 +144,55 @@ POOL_TEST(a_rigid_rotor_whirls_as_a_cone_with_its_polar_inertia)
     assert_int_equal(met, 1);
     assert_int_equal(c.speeds.ncritical_speeds, 3);
     running_case_close(&c);
+}
+
+static int rising(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A rigid rotor on soft springs, kx and ky, far below the highest speed, looked at in steps of 4000 rpm: bounce at 2 kx/m and 2
+ * ky/m, cones where (kx L^2/2 - Id W^2)(ky L^2/2 - Id W^2) = Ip^2 W^4. Each once, whatever the steps. */
+POOL_TEST(critical_speeds_far_below_the_first_step_are_found_once)
+{
+    const double mass = 50, diametral = 2, polar = 1, k[2] = {2e3, 5e3};
+    double cone[2] = {k[0] / 2, k[1] / 2}, a = diametral * diametral - polar * polar, b = diametral * (cone[0] + cone[1]),
+           root = sqrt(b * b - 4 * a * cone[0] * cone[1]),
+           expected[4] = {sqrt(2 * k[0] / mass), sqrt(2 * k[1] / mass), sqrt((b - root) / (2 * a)), sqrt((b + root) / (2 * a))};
+    qsort(expected, 4, sizeof *expected, rising);
+    for (int count = 2; count <= 101; count += 33) {
+        struct running_case c;
+        assert_int_equal(
+            running_case_open("*MATERIAL, NAME=s\n*ELASTIC\n1e13, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, 0.2, "
+                              "0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 2, 1\n*BEARING\nstart, 2e3, 5e3, 0, 0\n"
+                              "*BEARING\nend, 2e3, 5e3, 0, 0\n",
+                              20000, count, 0, &c),
+            ROTID_OK);
+        assert_int_equal(c.speeds.ncritical_speeds, 4);
+        for (int i = 0; i < 4; i++)
+            assert_close(c.speeds.critical_speeds[i].speed_rpm * RPM, expected[i], 1e-4, 0);
+        running_case_close(&c);
+    }
+}
+
+/* A slender shaft, two disks and soft bearings, one of them of two stiffnesses: loci cross between two steps of a coarse diagram.
+ */
+POOL_TEST(critical_speeds_are_those_of_a_finer_diagram)
+{
+    struct running_case coarse, fine;
+    const char *deck =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.79, 0.03775, 0, 6\n*RUNNING\n"
+        "*DISK\n0.76, 98.39, 0.02984, 0.229\n0.695, 21, 0.01276, 31.47\n*BEARING\n0.1395, 60151, 60151, 22, 22\n*BEARING\n"
+        "0.6579, 48042, 87108, 0, 0\n*LOSS\na, 0.01\n";
+    assert_int_equal(running_case_open(deck, 20000, 6, 0, &coarse), ROTID_OK);
+    assert_int_equal(running_case_open(deck, 20000, 301, 0, &fine), ROTID_OK);
+    assert_int_equal(coarse.speeds.ncampbell, 6);
+    assert_int_equal(coarse.speeds.ncritical_speeds, fine.speeds.ncritical_speeds);
+    for (int i = 0; i < coarse.speeds.ncritical_speeds; i++)
+        assert_close(coarse.speeds.critical_speeds[i].speed_rpm, fine.speeds.critical_speeds[i].speed_rpm, 1e-8, 0);
+    running_case_close(&fine);
+    running_case_close(&coarse);
 }
 
 POOL_TEST(kxy_above_kyx_drives_forward_whirl)

@@ -7,6 +7,8 @@
 #define HALVINGS 60
 #define SLOW     1e-3 /* of the highest speed */
 #define SAME     0.3  /* |u'v|^2 of a critical speed's mode in another machine */
+#define CROSSED  1e-6 /* of the speed: what is left behind bisection */
+#define ONE_MODE 0.8  /* and of one mode at two speeds of a bracket */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {
@@ -132,7 +134,19 @@ static int by_speed(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The crossing between two speeds: by halves where Newton leaves the interval or the mode. */
+/* Newton from a speed within the bracket of a crossing: 0 where it ends in the bracket, at the mode that it began with. */
+static int newton(struct system *s, double h, double below, double above, const struct pair *from, double *speed, struct pair *to)
+{
+    double complex alike = 0;
+    pair_copy(s->size, from, to);
+    if (pair_synchronise(s, h, speed, to) || !(*speed >= below * (1 - 1e-9) && *speed <= above * (1 + 1e-9)))
+        return 1;
+    for (int j = 0; j < s->size; j++)
+        alike += conj(from->u[j]) * to->u[j];
+    return !(creal(alike * conj(alike)) > ONE_MODE);
+}
+
+/* The crossing between two speeds: by halves where Newton leaves the bracket or the mode. */
 static int cross(struct system *s, double from, double to, double h, struct critical *c, struct pair near)
 {
     double below = from, above = to, at = from, sign = cimag(c->pair.lambda) - h * from;
@@ -147,8 +161,7 @@ static int cross(struct system *s, double from, double to, double h, struct crit
             above = middle;
         if (i == 1 || i % 8 == 7) {
             c->speed = middle;
-            pair_copy(s->size, &c->pair, &near);
-            if (!pair_synchronise(s, h, &c->speed, &near) && c->speed >= from * (1 - 1e-9) && c->speed <= to * (1 + 1e-9)) {
+            if (!newton(s, h, below, above, &c->pair, &c->speed, &near)) {
                 pair_copy(s->size, &near, &c->pair);
                 system_at(s, c->speed);
                 return pair_left(s, 0, &c->pair);
@@ -156,7 +169,7 @@ static int cross(struct system *s, double from, double to, double h, struct crit
         }
     }
     c->speed = (below + above) / 2;
-    return 0;
+    return !(fabs(cimag(c->pair.lambda) - h * c->speed) < CROSSED * h * c->speed); /* two modes at the ends of the interval */
 }
 
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical)

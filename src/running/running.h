@@ -334,8 +334,8 @@ struct search {
     const double *given;   /* [count] rad/s, rising; NULL: in equal steps */
     struct system system;
     struct basis_size basis;
-    struct tracks tracks;
-    double *speed; /* [count] rad/s */
+    struct tracks tracks, followed; /* at the speeds; at those and more between them */
+    double *speed;                  /* [count] rad/s */
     int ncritical;
     struct critical *critical; /* by rising speed */
     double complex **map;      /* of map_make */

@@ -11,6 +11,9 @@
 #define REACH       2.5 /* the highest mode of the basis over the highest speed, at least */
 #define COUPLED     10
 #define ATTEMPTS    4
+#define TURN        0.2   /* of the speed, and */
+#define STRIDE      0.025 /* of the highest one: steps at which modes are followed, at most */
+#define LOWEST      1e-4  /* of the highest one: the first of them */
 
 static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
 {
@@ -65,17 +68,55 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
     }
 }
 
+/* The speeds at which modes are followed: those that are asked for, and between them as many more as keep two loci apart. A locus
+ * turns by a share of the speed, and the lowest critical speeds lie far below the highest speed. */
+static int between_speeds(struct pool *pool, const struct search *s, double to, int *count, double **speed)
+{
+    size_t room = 0;
+    *count = 0;
+    for (int i = 0; i < s->count; i++)
+        for (double at = i ? s->speed[i - 1] : s->speed[0], end = s->speed[i], next = at; next < end || (!i && !*count);
+             at = next) {
+            next = fmax(LOWEST * to, at + fmin(TURN * at, STRIDE * to));
+            next = next < end - (next - at) / 4 && i ? next : end;
+            double *grown = pool_grow(pool, *speed, (size_t)*count, &room, sizeof *grown);
+            if (!grown)
+                return ROTID_ERROR_MEMORY;
+            *speed = grown;
+            grown[(*count)++] = next;
+        }
+    return ROTID_OK;
+}
+
+/* Of the modes at all speeds those at the speeds that are asked for. */
+static int thin(struct pool *pool, const struct search *s, const struct tracks *all, struct tracks *t)
+{
+    *t = (struct tracks){.nspeed = s->count, .nmode = all->nmode, .room = all->room, .speed = s->speed};
+    t->pair = POOL_ARRAY(pool, struct pair, (size_t)s->count * (size_t)all->room);
+    for (int i = 0, at = 0; i < s->count && t->pair; i++, at++) {
+        while (all->speed[at] < s->speed[i])
+            at++;
+        for (int m = 0; m < all->nmode; m++)
+            *track_at(t, m, i) = *track_at(all, m, at);
+    }
+    return t->pair ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
 static int find(struct pool *pool, struct search *s, double to)
 {
+    int count;
+    double *speed = NULL;
     s->speed = POOL_ARRAY(pool, double, s->count);
     for (int i = 0; i < s->count && s->speed; i++)
         s->speed[i] = fmax(STANDSTILL * to, s->given       ? s->given[i]
                                             : s->count > 1 ? s->from + (to - s->from) * i / (s->count - 1)
                                                            : to);
-    int status = s->speed ? ROTID_OK : ROTID_ERROR_MEMORY;
+    int status = s->speed ? between_speeds(pool, s, to, &count, &speed) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = tracks_make(pool, &s->system, s->count, s->speed, 2 * to * fmax(1, s->harmonic), &s->tracks);
-    return status ? status : criticals_find(pool, &s->system, &s->tracks, s->harmonic, &s->ncritical, &s->critical);
+        status = tracks_make(pool, &s->system, count, speed, 2 * to * fmax(1, s->harmonic), &s->followed);
+    if (!status)
+        status = criticals_find(pool, &s->system, &s->followed, s->harmonic, &s->ncritical, &s->critical);
+    return status ? status : thin(pool, s, &s->followed, &s->tracks);
 }
 
 int search_within(struct pool *pool, double to, struct message_list *notes, struct search *s)

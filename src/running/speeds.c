@@ -298,7 +298,7 @@ static int fill(struct run *r)
             map_make(r->pool, &r->search.system, reference, 2 * r->search.speed[r->options->count - 1], r->out, &r->search.map);
     if (!status)
         status = check_basis(r);
-    double onset = onset_find(&r->search.system, &r->search.tracks, &mode);
+    double onset = onset_find(&r->search.system, &r->search.followed, &mode);
     r->out->stability = (rotid_stability){onset / RPM, mode < 0 ? ROTID_NONE : mode + 1, NAN};
     return status;
 }
