@@ -427,6 +427,16 @@ module rotid
     integer(c_int) :: holdout = 0
   end type rotid_runup_speed
 
+  type, bind(C) :: rotid_weighed
+    type(c_ptr) :: quantity = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    type(c_ptr) :: state = c_null_ptr ! text
+    real(c_double) :: measured = 0
+    real(c_double) :: std = 0
+    real(c_double) :: predicted = 0
+    real(c_double) :: z = 0
+  end type rotid_weighed
+
   type, bind(C) :: rotid_identification
     type(c_ptr) :: status = c_null_ptr ! text
     type(c_ptr) :: functional = c_null_ptr ! text
@@ -481,6 +491,8 @@ module rotid
     type(c_ptr) :: hidden = c_null_ptr ! rotid_hidden
     integer(c_int) :: nrunup = 0
     type(c_ptr) :: runup = c_null_ptr ! rotid_runup_speed
+    integer(c_int) :: nweighed = 0
+    type(c_ptr) :: weighed = c_null_ptr ! rotid_weighed
   end type rotid_identification
 
   type, bind(C) :: rotid_meridian_mode
@@ -593,6 +605,8 @@ module rotid
     type(c_ptr) :: parameters = c_null_ptr ! texts
     type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
     type(c_ptr) :: memory = c_null_ptr
+    integer(c_int) :: nweighed = 0
+    type(c_ptr) :: weighed = c_null_ptr ! rotid_weighed
   end type rotid_check
 
   type, bind(C) :: rotid_cause_value
@@ -1135,7 +1149,7 @@ module rotid
   end type rotid_model
 
   type, bind(C) :: rotid_measured
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 104
     integer(c_int) :: nmode = 0
     type(c_ptr) :: number = c_null_ptr        ! integer [nmode]
     type(c_ptr) :: frequency_hz = c_null_ptr  ! real [nmode]
@@ -1143,6 +1157,11 @@ module rotid
     type(c_ptr) :: shape = c_null_ptr         ! real [nmaster, nmode]
     type(c_ptr) :: shape_std = c_null_ptr     ! real [nmaster, nmode]
     type(c_ptr) :: holdout = c_null_ptr       ! integer [nmode]
+    type(c_ptr) :: whole = c_null_ptr         ! real [n, 2]
+    real(c_double) :: mass = 0
+    real(c_double) :: mass_std = 0
+    real(c_double) :: centre = 0
+    real(c_double) :: centre_std = 0
   end type rotid_measured
 
   type, bind(C) :: rotid_state

@@ -490,6 +490,17 @@ typedef struct rotid_runup_speed {
     int holdout; /* it took no part in the fit */
 } rotid_runup_speed;
 
+/* What a rotor weighs, or where its centre of mass is, beside the model. */
+typedef struct rotid_weighed {
+    const char *quantity; /* mass or centre */
+    const char *unit;     /* kg or m, from the left end */
+    const char *state;    /* name of the *STATE; NULL where there is one */
+    double measured;      /* as the deck states it, in unit */
+    double std;           /* its standard deviation, in unit */
+    double predicted;     /* of the model, in unit */
+    double z;             /* measured less predicted over std [1] */
+} rotid_weighed;
+
 /* A model fitted to measured modes. Of several states modes and what goes with them run over all, mass, noise and geometry are
  * those of the first, and shapes and matrices stand in states alone. */
 typedef struct rotid_identification {
@@ -554,6 +565,8 @@ typedef struct rotid_identification {
                              and the full model, and where no baseline was asked for */
     int nrunup;
     rotid_runup_speed *runup; /* measured critical speeds of the machine in operation, in the order of *RUNUP */
+    int nweighed;
+    rotid_weighed *weighed; /* *WEIGHT and *CENTRE beside the fitted model, state by state */
 } rotid_identification;
 
 /* A mode of a solid of revolution in the plane of bending. Four significant digits. */
@@ -683,6 +696,8 @@ typedef struct rotid_check {
     const char **parameters;  /* names of the parameters of *IDENTIFY */
     rotid_geometry *geometry; /* NULL in old results */
     void *memory;             /* internal */
+    int nweighed;
+    rotid_weighed *weighed; /* *WEIGHT and *CENTRE beside the model at the start of the parameters */
 } rotid_check;
 
 /* ---- diagnosis */
@@ -1363,6 +1378,12 @@ typedef struct rotid_measured {
     const double *shape;         /* [nmaster * nmode] column-major at the masters, NaN where not measured; or NULL */
     const double *shape_std;     /* [nmaster * nmode] the same, relative to the largest component of the mode; or NULL */
     const int *holdout;          /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
+    /* What the structure weighs, r'M r, and where its centre of mass is, r'M s/(r'M r): rows of ROTID_LIKELIHOOD behind those of
+     * the modes, where any mode is fitted */
+    const double *whole;       /* [2 * n] the motions r, all of the structure moves by 1, and s, every point moves by its place z
+                                  [m]; NULL: not weighed */
+    double mass, mass_std;     /* > 0; standard deviation, 0: not measured [kg] */
+    double centre, centre_std; /* the same of the centre of mass [m] */
 } rotid_measured;
 
 /* A structure as it was measured once: free, on its bearings, with a known mass. Several of them share unknowns. */

@@ -11,7 +11,8 @@
 
 #define SENSORS 13
 #define MODES   5
-#define MOST    (MODES * (SENSORS + 1))
+#define WEIGHED 2 /* rows of what the rotor weighs and where its centre of mass is */
+#define MOST    (MODES * (SENSORS + 1) + WEIGHED)
 
 static const struct effect_kind nothing = {.id = "none"};
 
@@ -70,6 +71,7 @@ static struct job *open_job(enum bundle_model model)
                              .measurement.shape = bench.shape,
                              .measurement.shape_std = bench.shape_std,
                              .measurement.holdout = bench.holdout,
+                             .measurement.weighed = {1.02 * rotor_mass(rotor), 1, 0.4 * rotor_length(rotor), 0.01},
                              .unknowns.nparameter = 2,
                              .unknowns.parameter = bench.parameter};
     return &bench.job;
@@ -134,24 +136,24 @@ POOL_TEST(columns_of_own_parameters_are_the_jacobian)
     struct columns c;
     open_columns(job, NULL, &c);
     assert_int_equal(c.nmode, MODES - 1);
-    assert_int_equal(c.nrow, MODES - 1 + (MODES - 1) * SENSORS - 2);
+    assert_int_equal(c.nrow, MODES - 1 + (MODES - 1) * SENSORS - 2 + WEIGHED);
     bench.number[0] = 2; /* another pairing */
     bench.number[1] = 1;
     check_own(job);
 }
 
-POOL_TEST(frequencies_alone_have_one_row_each)
+POOL_TEST(frequencies_and_scales_have_one_row_each)
 {
     struct job *job = open_job(BUNDLE_RODS);
     job->measurement.shape = NULL;
     check_own(job);
     struct columns c;
     open_columns(job, NULL, &c);
-    assert_int_equal(c.nrow, MODES);
+    assert_int_equal(c.nrow, MODES + WEIGHED);
     job = open_job(BUNDLE_RODS);
     bench.shape_std[3] = NAN; /* noise of the shapes not known: they are not fitted */
     open_columns(job, NULL, &c);
-    assert_int_equal(c.nrow, MODES);
+    assert_int_equal(c.nrow, MODES + WEIGHED);
     for (int m = 0; m < MODES; m++)
         assert_int_equal(c.mode[m].sensors, 0);
 }

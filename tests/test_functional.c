@@ -247,6 +247,50 @@ POOL_TEST(jacobians_match_central_differences)
             }
 }
 
+/* Mass and centre of mass are those of the model's geometry, and move with the density as differences say. */
+POOL_TEST(what_the_rotor_weighs_stands_in_the_last_rows)
+{
+    for (int i = 0; i < 3; i++) {
+        struct data data;
+        struct functional f;
+        struct mass_properties mass;
+        const rotid_model *model = measure(*state, 0.02, 64, &data);
+        double *whole = numbers(*state, 2 * model->n);
+        model_whole(&data.client, whole);
+        data.measured.whole = whole;
+        data.measured.mass = 900;
+        data.measured.mass_std = i == 1 ? 0 : 3;
+        data.measured.centre = 1.1;
+        data.measured.centre_std = i == 2 ? 0 : 0.02;
+        const double *r = residual_here(*state, &f, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, model, &data.measured);
+        int m = f.nresidual, rows = i ? 1 : 2;
+        model_mass_properties(&data.client, &mass);
+        assert_int_equal(f.nwhole, rows);
+        assert_int_equal(m, nmode * (1 + nmaster) + rows);
+        if (i != 1)
+            assert_close(r[m - rows], (mass.mass - 900) / 3, 1e-9, 0);
+        if (i != 2)
+            assert_close(r[m - 1], (mass.center - 1.1) / 0.02, 1e-9, 0);
+        double *jacobian = numbers(*state, m * nparam), *moved[2] = {numbers(*state, m), numbers(*state, m)}, x[nparam];
+        assert_status(functional_jacobian(&f, here, jacobian), ROTID_OK);
+        for (int side = 0; side < 2; side++) {
+            memcpy(x, here, sizeof x);
+            x[2] *= side ? 1.01 : 0.99;
+            assert_status(functional_residual(&f, x, moved[side]), ROTID_OK);
+        }
+        for (int row = m - rows; row < m; row++) {
+            assert_close(jacobian[row], 0, 0, 1e-20); /* a modulus weighs nothing */
+            assert_close(jacobian[row + 2 * m], (moved[1][row] - moved[0][row]) / (0.02 * here[2]), 1e-3, 0);
+        }
+        for (int k = 0; k < nmode; k++) /* nothing is fitted: neither is the weight */
+            data.holdout[k] = 1;
+        data.measured.holdout = data.holdout;
+        assert_status(functional_new(*state, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, model, &data.measured, &f),
+                      ROTID_OK);
+        assert_int_equal(f.nresidual, 0);
+    }
+}
+
 POOL_TEST(held_out_modes_are_predicted_but_not_fitted)
 {
     for (int kind = ROTID_LIKELIHOOD; kind <= ROTID_HYBRID_F; kind++) {

@@ -140,6 +140,8 @@ static rotid_identification *make(struct pool *pool, const struct job *job, cons
                                   .nlopt = baseline_exists(),
                                   .seconds = fit->seconds,
                                   .fit = fit};
+    if (!(out->weighed = result_weighed(pool, job, NULL, &found->mass, &out->nweighed)))
+        return NULL;
     fill_parameters(pool, bounds, fit, out);
     fill_modes(pool, job, found, out);
     fill_history(pool, found, out);
@@ -229,7 +231,39 @@ rotid_identification *result_identification_states(struct pool *pool, const stru
     out->nmatrix_rows = out->nmatrix_columns = 0;
     out->nstates = states->nstate;
     out->states = list;
+    out->nweighed = 0;
+    if (!(out->weighed = POOL_ARRAY(pool, rotid_weighed, 2 * (size_t)states->nstate)))
+        return NULL;
+    for (int s = 0; s < states->nstate; s++) {
+        int count;
+        const rotid_weighed *own = result_weighed(pool, &states->state[s].job, states->state[s].name, &found[s].mass, &count);
+        if (!own)
+            return NULL;
+        for (int i = 0; i < count; i++)
+            out->weighed[out->nweighed++] = own[i];
+    }
     return join_modes(pool, found, fit, out) ? NULL : out;
+}
+
+rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const char *state, const struct mass_properties *mass,
+                              int *count)
+{
+    const struct weighed *w = &job->measurement.weighed;
+    rotid_weighed *list = POOL_ARRAY(pool, rotid_weighed, 2);
+    *count = 0;
+    for (int i = 0; i < 2 && list; i++) {
+        double std = i ? w->centre_std : w->mass_std, measured = i ? w->centre : w->mass,
+               predicted = i ? mass->center : mass->mass;
+        if (std > 0)
+            list[(*count)++] = (rotid_weighed){.quantity = i ? "centre" : "mass",
+                                               .unit = i ? "m" : "kg",
+                                               .state = state,
+                                               .measured = measured,
+                                               .std = std,
+                                               .predicted = predicted,
+                                               .z = (measured - predicted) / std};
+    }
+    return list;
 }
 
 /* The middle one of the deviations that are known of what was measured. */

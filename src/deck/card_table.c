@@ -94,6 +94,14 @@ const struct deck_row deck_noise_rows[] = {
     {.option = "FLOOR_FREQUENCY", FROM_0(struct deck_reader, floor_frequency, "(0)"), OPTIONAL},
     {.option = "FLOOR_SHAPE", FROM_0(struct deck_reader, floor_shape, "(0)"), OPTIONAL},
     LAST};
+const struct deck_row deck_weight_rows[] = {
+    {ABOVE_0(struct weighed, mass, "mass [kg]")},
+    {ABOVE_0(struct weighed, mass_std, "standard deviation of it [kg]")},
+    LAST};
+const struct deck_row deck_centre_rows[] = {
+    {POSITION(struct weighed, centre)},
+    {ABOVE_0(struct weighed, centre_std, "standard deviation of it [m]")},
+    LAST};
 const struct deck_row deck_fit_rows[] = {
     {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functional_words), OPTIONAL, .standard = -1},
     {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
@@ -274,6 +282,8 @@ const struct deck_card deck_card_table[] = {
      frequencies, OF_STATE},
     {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE, .once = 1},
     {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES, .instead = "options on the card", .once = 1},
+    {"WEIGHT", CARD_MEASURED, 6, deck_weight, "mass, standard deviation [kg]", deck_weight_rows, OF_STATE, .once = 1},
+    {"CENTRE", CARD_MEASURED, 6, deck_weight, "position of the centre of mass, standard deviation [m]", deck_centre_rows, OF_STATE, .once = 1},
     {"CAUSE", CARD_CAUSE, 7, deck_cause, "parameter, value", cause, BY_CODE},
     {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, IDENTIFY_LINES, nothing, BY_CODE},
     {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON, .instead = "options on the card", .once = 1},

@@ -170,6 +170,10 @@ static void choose_functional(struct deck_reader *reader)
         deck_error(reader, place,
                    "FUNCTIONAL=LIKELIHOOD weighs by the noise of the frequencies, expected *NOISE, FREQUENCY=relative standard "
                    "deviation");
+    if (reader->weighed_card && job->options.fit.functional != ROTID_LIKELIHOOD)
+        deck_note(reader, reader->weighed_card->place,
+                  "*%s is compared with the fitted model and not fitted: FUNCTIONAL=LIKELIHOOD does (a diagnosis in any case)",
+                  reader->weighed_card->name);
     if (job->options.fit.functional == ROTID_LIKELIHOOD && job->measurement.shape && !job_knows_shape_noise(job)) {
         deck_note(
             reader, place,

@@ -195,7 +195,7 @@ struct deck_reader {
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     int states_floor; /* *NOISE has a floor */
     int impacts;      /* behind the standard deviations of the file, the fewest; 0: not known. Below 0: so many tests */
-    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card;
+    const struct card *measured_card, *modes_card, *frequencies_card, *weighed_card, *fit_card, *identify_card;
     int tie;                             /* FIT, TIE=E:G */
     int *mean_kept;                      /* [nmode] FREQUENCIES, MEAN=NO */
     const char *state;                   /* that the cards are of, NULL in a deck without *STATE */
@@ -300,8 +300,8 @@ typedef void deck_card_reader(struct deck_reader *reader, const struct card *car
 typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
     deck_preload, deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured,
-    deck_noise, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing,
-    deck_pedestal, deck_operation;
+    deck_noise, deck_weight, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running,
+    deck_bearing, deck_pedestal, deck_operation;
 deck_item_check deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change, deck_check_runup,
     deck_check_unknown;
 

@@ -274,6 +274,29 @@ void deck_frequencies(struct deck_reader *reader, const struct card *card)
     (void)read_at_sensors(reader, card, &to);
 }
 
+/* *WEIGHT or *CENTRE */
+void deck_weight(struct deck_reader *reader, const struct card *card)
+{
+    struct weighed read = {0}, *to = &reader->job->measurement.weighed;
+    int centre = strcmp(card->name, "CENTRE") == 0;
+    if (reader->job->options.type != MODE_BENDING) {
+        deck_error(reader, card->place,
+                   "*%s stands beside modes of torsion or along the axis, expected it where bending was measured", card->name);
+        return;
+    }
+    if (deck_lines(reader, card, 1, 1, reader->layout) != 1 ||
+        deck_read_values(reader, &card->line[0], centre ? deck_centre_rows : deck_weight_rows, reader->layout, &read))
+        return;
+    if (centre) {
+        to->centre = read.centre;
+        to->centre_std = read.centre_std;
+    } else {
+        to->mass = read.mass;
+        to->mass_std = read.mass_std;
+    }
+    reader->weighed_card = card;
+}
+
 void deck_noise(struct deck_reader *reader, const struct card *card)
 {
     (void)deck_read_options(reader, card, deck_noise_rows, reader);

@@ -1,6 +1,6 @@
 /* The cards of a deck, a row for each of their options and values. From the rows follow what is read and what is said where it is
- * wrong (deck_fields.c), what is written, and the tables of docs/deck.md (make tables). What no row says, such as an outer diameter
- * above the inner one, is plain code in the reader of the card. */
+ * wrong (deck_fields.c), what is written, and the tables of docs/deck.md (make tables). What no row says, such as an outer
+ * diameter above the inner one, is plain code in the reader of the card. */
 #ifndef ROTID_DECK_DECK_ROW_H
 #define ROTID_DECK_DECK_ROW_H
 
@@ -97,7 +97,8 @@ struct deck_card {
 /* Rows of cards that have code of their own. */
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
-    deck_clamp_rows[], deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
+    deck_clamp_rows[], deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_weight_rows[], deck_centre_rows[],
+    deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
 
 /* x along the horizontal; x along the load of the bearing, which the weight makes. */
 extern const char *const deck_axes[];

@@ -99,8 +99,10 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
                                    .shape = shapes ? shape : NULL,
                                    .shape_std = shapes ? job->measurement.shape_std : NULL,
                                    .holdout = holdout};
-    status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->model.equations, &c->measured,
-                            &c->functional);
+    status = measured_whole(pool, job, &c->model, &c->measured);
+    if (!status)
+        status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->model.equations, &c->measured,
+                                &c->functional);
     if (status)
         return status;
     c->nrow = c->functional.nresidual;
@@ -235,6 +237,7 @@ int columns_parameter(struct columns *c, int p, double *column)
         return ROTID_ERROR_CALLBACK;
     matrix_occupied(&c->dk, &k.from, &k.end);
     matrix_occupied(&c->dm, &m.from, &m.end);
+    functional_whole_derivative(&c->functional, &c->dm, column + c->nrow - c->functional.nwhole);
     const struct rows rows = either(k, m);
     ptrdiff_t length = rows.end - rows.from, n = equations->n;
     for (int i = 0; i < c->nmode; i++)

@@ -779,8 +779,9 @@ struct evidence_block {
 
 struct evidence_data {
     struct pool *pool;
-    int nrow, nline, nscale, nblock;
+    int nrow, nline, nwhole, nscale, nblock;
     char *is_line;    /* [nrow] the row is that of a frequency */
+    char *is_whole;   /* [nrow] of what the rotor weighs: its noise is as stated, whatever that of the modes is */
     double *noise;    /* [nrow] as stated, relative */
     double *measured; /* [nrow] components over their noise */
     struct evidence_block *block;

@@ -197,11 +197,12 @@ static int data_new(struct pool *pool, int rows, int modes, struct evidence_data
         return ROTID_ERROR_MEMORY;
     *d = (struct evidence_data){.pool = pool,
                                 .is_line = POOL_ARRAY(pool, char, rows),
+                                .is_whole = POOL_ARRAY(pool, char, rows),
                                 .noise = POOL_ARRAY(pool, double, rows),
                                 .measured = POOL_ARRAY(pool, double, rows),
                                 .block = POOL_ARRAY(pool, struct evidence_block, modes),
                                 .deviation = NOISE_STATED};
-    return d->is_line && d->noise && d->measured && d->block ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return d->is_line && d->is_whole && d->noise && d->measured && d->block ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 static void add_line(struct evidence_data *d, double std)
@@ -211,10 +212,23 @@ static void add_line(struct evidence_data *d, double std)
     d->nline++;
 }
 
+/* Behind those of the modes of a state. */
+static void add_whole(struct evidence_data *d, double mass_std, double centre_std)
+{
+    for (int i = 0; i < 2; i++) {
+        double std = i ? centre_std : mass_std;
+        if (!(std > 0))
+            continue;
+        d->is_whole[d->nrow] = 1;
+        d->noise[d->nrow++] = std;
+        d->nwhole++;
+    }
+}
+
 int evidence_open_model(struct pool *pool, const rotid_measured *m, int nsensor, const double *position, double length,
                         struct evidence_data **out)
 {
-    int status = data_new(pool, m->nmode * (nsensor + 1), m->nmode, out);
+    int status = data_new(pool, m->nmode * (nsensor + 1) + 2, m->nmode, out);
     for (int k = 0; k < m->nmode && !status; k++)
         if (!m->holdout || !m->holdout[k])
             add_line(*out, m->frequency_std[k]);
@@ -222,13 +236,15 @@ int evidence_open_model(struct pool *pool, const rotid_measured *m, int nsensor,
         if (!m->holdout || !m->holdout[k])
             status = add_block(*out, 0, k, nsensor, m->shape + (ptrdiff_t)k * nsensor, m->shape_std + (ptrdiff_t)k * nsensor,
                                position, 0.3 * length / (m->number[k] + 1));
+    if (!status && (*out)->nline)
+        add_whole(*out, m->mass_std, m->centre_std);
     return status;
 }
 
 int evidence_open(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                   struct evidence_data **out)
 {
-    int modes = states_modes(states, states->nstate), rows = modes, status = ROTID_OK;
+    int modes = states_modes(states, states->nstate), rows = modes + 2 * states->nstate, status = ROTID_OK;
     for (int s = 0; s < states->nstate; s++)
         rows += states->state[s].job.measurement.nmode * states->state[s].job.rotor.nsensor;
     double *position = POOL_ARRAY(pool, double, rows);
@@ -236,6 +252,7 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
     struct evidence_data *d = *out;
     for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
         const struct job *job = &states->state[s].job;
+        int lines = d->nline;
         if (!job_knows_frequency_noise(job))
             d->deviation = NOISE_ASSUMED;
         d->is_floor |= job->measurement.has_noise_floor;
@@ -249,17 +266,19 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
                 status = add_block(d, s, k, job->rotor.nsensor, job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor,
                                    job->measurement.shape_std + (ptrdiff_t)k * job->rotor.nsensor, position,
                                    0.3 * rotor_length(&job->rotor) / (number[mode + k] + 1)); /* half a wavelength */
+        if (!status && d->nline > lines)
+            add_whole(d, job->measurement.weighed.mass_std, job->measurement.weighed.centre_std);
     }
     return status;
 }
 
 /* ---- one explanation */
 
-struct normal { /* at one noise: N, b = J'r and r'r of frequencies and shapes apart */
+struct normal { /* at one noise: N, b = J'r and r'r of frequencies, shapes and the whole apart */
     int n;
     const struct unknown *u;
-    double *line, *shape; /* [n * n] */
-    double *line_b, *shape_b, line_square, shape_square;
+    double *line, *shape, *whole; /* [n * n] */
+    double *line_b, *shape_b, *whole_b, line_square, shape_square, whole_square;
     double *work, *step; /* [n * n], [n] */
 };
 
@@ -268,9 +287,9 @@ struct normal { /* at one noise: N, b = J'r and r'r of frequencies and shapes ap
 static double integrate(struct normal *w, double line, double shape)
 {
     int n = w->n;
-    double energy = (line * w->line_square + shape * w->shape_square) / 2, determinant, sum;
+    double energy = (line * w->line_square + shape * w->shape_square + w->whole_square) / 2, determinant, sum;
     for (int i = 0; i < n * n; i++)
-        w->work[i] = line * w->line[i] + shape * w->shape[i];
+        w->work[i] = line * w->line[i] + shape * w->shape[i] + w->whole[i];
     for (int i = 0; i < n; i++) {
         w->work[i + (ptrdiff_t)i * n] += w->u[i].precision;
         energy += w->u[i].precision * w->u[i].mean * w->u[i].mean / 2;
@@ -280,11 +299,12 @@ static double integrate(struct normal *w, double line, double shape)
     for (int i = 0; i < n; i++) {
         w->step[i] = 0;
         for (int j = 0; j < n; j++)
-            w->step[i] -=
-                w->work[i + (ptrdiff_t)j * n] * (line * w->line_b[j] + shape * w->shape_b[j] - w->u[j].precision * w->u[j].mean);
+            w->step[i] -= w->work[i + (ptrdiff_t)j * n] *
+                          (line * w->line_b[j] + shape * w->shape_b[j] + w->whole_b[j] - w->u[j].precision * w->u[j].mean);
     }
     for (int i = 0; i < n; i++)
-        energy += w->step[i] * (line * w->line_b[i] + shape * w->shape_b[i] - w->u[i].precision * w->u[i].mean) / 2;
+        energy +=
+            w->step[i] * (line * w->line_b[i] + shape * w->shape_b[i] + w->whole_b[i] - w->u[i].precision * w->u[i].mean) / 2;
     sum = -energy - determinant / 2 + n * LN_2PI / 2;
     for (int i = 0; i < n; i++) {
         const struct unknown *u = &w->u[i];
@@ -308,10 +328,9 @@ static double integrate_at(const struct evidence_data *d, struct normal *w, doub
     if (d->is_floor && fmin(a, b) < 0)
         return -INFINITY;
     double wrong = fmax(MISTAKE, d->deviation),
-           shapes = d->nrow == d->nline
-                        ? 0
-                        : log_sum(log1p(-MISSTATED) + log_normal(b, d->deviation), log(MISSTATED) + log_normal(b, wrong));
-    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nscale) * b +
+           shapes =
+               !d->nblock ? 0 : log_sum(log1p(-MISSTATED) + log_normal(b, d->deviation), log(MISSTATED) + log_normal(b, wrong));
+    return integrate(w, exp(-2 * a), exp(-2 * b)) - d->nline * a - (d->nrow - d->nline - d->nwhole - d->nscale) * b +
            log_normal(a, d->deviation) + shapes;
 }
 
@@ -349,7 +368,7 @@ static double integrate_noise(const struct evidence_data *d, struct normal *w, d
     static const double weight[] = {0.011257411327720689, 0.22207592200561264, 0.53333333333333333, 0.22207592200561264,
                                     0.011257411327720689};
     double spread[2], sum = -INFINITY, b0 = 0;
-    int shapes = d->nrow > d->nline;
+    int shapes = d->nblock > 0;
     *one = integrate(w, 1, 1);
     if (shapes)
         b0 = find_mode(d, w, 1, 0, &spread[1]);
@@ -397,11 +416,14 @@ static int normal_new(struct pool *pool, int n, const struct unknown *u, struct 
                          .u = u,
                          .line = POOL_ARRAY(pool, double, square),
                          .shape = POOL_ARRAY(pool, double, square),
+                         .whole = POOL_ARRAY(pool, double, square),
                          .line_b = POOL_ARRAY(pool, double, n + 1),
                          .shape_b = POOL_ARRAY(pool, double, n + 1),
+                         .whole_b = POOL_ARRAY(pool, double, n + 1),
                          .work = POOL_ARRAY(pool, double, square),
                          .step = POOL_ARRAY(pool, double, n + 1)};
-    return w->line && w->shape && w->line_b && w->shape_b && w->work && w->step ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return w->line && w->shape && w->whole && w->line_b && w->shape_b && w->whole_b && w->work && w->step ? ROTID_OK
+                                                                                                          : ROTID_ERROR_MEMORY;
 }
 
 /* One more normal of weight e^one into a mixture: out->mean [nown] its means, out->std the means of its squares, *weighed ln of
@@ -438,7 +460,7 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
     memcpy(all, u, (size_t)n * sizeof *u);
     memset(turned, 0, (size_t)nrow * (size_t)(total + 1) * sizeof *turned);
     for (int i = 0; i < nrow; i++)
-        for (int p = 0; p <= n && d->is_line[i]; p++)
+        for (int p = 0; p <= n && (d->is_line[i] || d->is_whole[i]); p++)
             turned[i + (ptrdiff_t)(p < n ? p : total) * nrow] = rows[i + (ptrdiff_t)p * nrow];
     for (int k = 0; k < d->nblock; k++) {
         const struct evidence_block *block = &d->block[k];
@@ -469,7 +491,11 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
             gather(1, total, turned + i, nrow, &square, w.line, w.line_b, &w.line_square);
             known_lines -= log(square) / 2;
         }
+    for (int i = 0; i < nrow; i++)
+        if (d->is_whole[i])
+            gather(1, total, turned + i, nrow, NULL, w.whole, w.whole_b, &w.whole_square);
     mirror(total, w.line);
+    mirror(total, w.whole);
     for (int a = none && d->nblock ? -1 : 0; a < shapes; a += none ? 2 : 1) {
         double amplitude = a < 0 ? 0 : ELSE_LEAST * exp(a * step_shape), determinant = 0;
         memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
@@ -591,12 +617,16 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
     int nrow = d->nrow, status = normal_new(pool, n, u, &w);
     double field;
     for (int i = 0; i < nrow && !status; i++)
-        gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
-               d->is_line[i] ? &w.line_square : &w.shape_square);
+        if (d->is_whole[i])
+            gather(1, n, rows + i, nrow, NULL, w.whole, w.whole_b, &w.whole_square);
+        else
+            gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
+                   d->is_line[i] ? &w.line_square : &w.shape_square);
     if (status)
         return status;
     mirror(n, w.line);
     mirror(n, w.shape);
+    mirror(n, w.whole);
     out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
     out->log_exact = out->log_stated;
     for (int p = 0; p < nown; p++) {

@@ -35,7 +35,7 @@ int functional_count_components(const struct functional *f, int mode)
 int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model,
                    const rotid_measured *measured, struct functional *f)
 {
-    int nmode = measured->nmode, nmaster = model->nmaster, highest = 0;
+    int nmode = measured->nmode, nmaster = model->nmaster, highest = 0, fitted = 0;
     *f = (struct functional){.kind = kind, .measured = measured};
     int status = measured_check(model, measured, kind, reduction, NULL);
     if (status)
@@ -67,9 +67,14 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
         if (!functional_fits(measured, k))
             continue;
         f->wanted[f->pair[k]] = 1;
+        fitted++;
         f->nresidual += 1 + (kind == ROTID_LIKELIHOOD ? functional_count_components(f, k) : 0);
     }
-    return ROTID_OK;
+    if (kind == ROTID_LIKELIHOOD && fitted)
+        f->nwhole = (measured->mass_std > 0) + (measured->centre_std > 0);
+    f->nresidual += f->nwhole;
+    f->whole_work = f->nwhole ? POOL_ARRAY(pool, double, model->n) : NULL;
+    return f->nwhole && !f->whole_work ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int uses_shape(const struct functional *f, int mode)
@@ -182,6 +187,41 @@ static void shape_residuals(const struct functional *f, int mode, int q, double 
             *r++ = (q < 0 ? a * phi[s] - measured[s] : a * dphi[s] + da * phi[s]) / std[s];
 }
 
+/* r'A r and r'A s of the motions of the whole. */
+static void whole_moments(struct functional *f, const rotid_matrix *a, double moment[2])
+{
+    const double *r = f->measured->whole, *s = r + f->prediction.model->n;
+    moment[0] = matrix_product(a, r, r, f->whole_work);
+    moment[1] = matrix_product(a, r, s, f->whole_work);
+}
+
+static void whole_residuals(struct functional *f, double *r)
+{
+    const rotid_measured *measured = f->measured;
+    double moment[2];
+    if (!f->nwhole)
+        return;
+    whole_moments(f, &f->prediction.m, moment);
+    if (measured->mass_std > 0)
+        *r++ = (moment[0] - measured->mass) / measured->mass_std;
+    if (measured->centre_std > 0)
+        *r = (moment[1] / moment[0] - measured->centre) / measured->centre_std;
+}
+
+void functional_whole_derivative(struct functional *f, const rotid_matrix *dm, double *r)
+{
+    const rotid_measured *measured = f->measured;
+    double moment[2], change[2];
+    if (!f->nwhole)
+        return;
+    whole_moments(f, &f->prediction.m, moment);
+    whole_moments(f, dm, change);
+    if (measured->mass_std > 0)
+        *r++ = change[0] / measured->mass_std;
+    if (measured->centre_std > 0)
+        *r = (change[1] - moment[1] / moment[0] * change[0]) / moment[0] / measured->centre_std;
+}
+
 static int residuals(struct functional *f, double *r)
 {
     const rotid_measured *measured = f->measured;
@@ -200,6 +240,8 @@ static int residuals(struct functional *f, double *r)
             shape_residuals(f, k, -1, shape_part);
             shape_part += functional_count_components(f, k);
         }
+    if (!status)
+        whole_residuals(f, shape_part);
     return status;
 }
 
@@ -228,6 +270,10 @@ int functional_jacobian(struct functional *f, const double *x, double *jacobian)
                 shape_residuals(f, k, q, column);
                 column += functional_count_components(f, k);
             }
+        if (f->nwhole)
+            status = prediction_matrix_derivatives(p, x, q);
+        if (!status)
+            functional_whole_derivative(f, &p->dm, column);
     }
     return status;
 }

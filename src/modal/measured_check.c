@@ -42,6 +42,22 @@ static int check_shapes(const rotid_model *model, const rotid_measured *measured
     return ROTID_OK;
 }
 
+static int check_whole(const rotid_measured *measured, char *failure)
+{
+    const double std[2] = {measured->mass_std, measured->centre_std}, value[2] = {measured->mass, measured->centre};
+    static const char *const name[2] = {"mass", "centre"};
+    for (int i = 0; i < 2; i++) {
+        if (!(std[i] >= 0 && isfinite(std[i])))
+            return refuse(failure, "measured->%s_std is %g, expected a standard deviation, or 0 where nothing is measured",
+                          name[i], std[i]);
+        if (std[i] > 0 && !measured->whole)
+            return refuse(failure, "measured->whole is NULL beside measured->%s, expected the two motions of the whole", name[i]);
+        if (std[i] > 0 && !(isfinite(value[i]) && (i || value[i] > 0)))
+            return refuse(failure, "measured->%s is %g, expected %s", name[i], value[i], i ? "a number" : "a positive number");
+    }
+    return ROTID_OK;
+}
+
 int measured_check(const rotid_model *model, const rotid_measured *measured, int kind, int reduction, char *failure)
 {
     int size = reduction == ROTID_REDUCTION_NONE ? model->n : model->nmaster;
@@ -63,7 +79,9 @@ int measured_check(const rotid_model *model, const rotid_measured *measured, int
     if (kind == ROTID_LIKELIHOOD && measured->shape && !measured->shape_std)
         return refuse(failure, "measured->shape_std is NULL beside shapes, which ROTID_LIKELIHOOD weighs by, expected nmaster x "
                                "nmode values");
-    int status = check_shapes(model, measured, failure);
+    int status = check_whole(measured, failure);
+    if (!status)
+        status = check_shapes(model, measured, failure);
     for (int k = 0; k < measured->nmode && !status; k++)
         if (measured->number[k] > size - model->nrigid)
             status = failure_say(failure, ROTID_ERROR_UNPAIRED,

@@ -188,14 +188,16 @@ struct functional {
     int kind; /* ROTID_HYBRID, ROTID_HYBRID_F or ROTID_LIKELIHOOD */
     const rotid_measured *measured;
     struct prediction prediction;
-    int with_vectors; /* the residual depends on shapes */
-    int *wanted;      /* [prediction.count]: pairs that a fitted mode uses */
-    int *pair;        /* [nmode] pair of each measured mode */
-    double *omega;    /* [nmode] measured, rad/s */
-    double *shape;    /* [nmaster * nmode] measured, largest component 1, or NULL */
-    int nresidual;    /* of the fitted modes: one a frequency, and one a measured shape component for the likelihood */
-    double *quotient; /* [nmode] R*_k of the last evaluation */
-    double *work;     /* [2 nmaster] */
+    int with_vectors;   /* the residual depends on shapes */
+    int *wanted;        /* [prediction.count]: pairs that a fitted mode uses */
+    int *pair;          /* [nmode] pair of each measured mode */
+    double *omega;      /* [nmode] measured, rad/s */
+    double *shape;      /* [nmaster * nmode] measured, largest component 1, or NULL */
+    int nresidual;      /* of the fitted modes: one a frequency, and one a measured shape component for the likelihood */
+    double *quotient;   /* [nmode] R*_k of the last evaluation */
+    double *work;       /* [2 nmaster] */
+    int nwhole;         /* residuals of the whole, the last ones: of mass and centre of mass */
+    double *whole_work; /* [n] */
 };
 
 /* Checks the measured data and makes room; with all modes held out there is no residual. ROTID_OK, MEMORY, ARGUMENT (data out of
@@ -203,12 +205,16 @@ struct functional {
 int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model,
                    const rotid_measured *measured, struct functional *f);
 
-/* r [nresidual] at x, frequencies of all fitted modes first, then shapes mode by mode. Allocates nothing. Statuses of the
- * prediction, and UNPAIRED where a shape is orthogonal to its partner. */
+/* r [nresidual] at x, frequencies of all fitted modes first, then shapes mode by mode, then (r'M r - m^)/s and (r'M s/r'M r -
+ * z^)/s as far as they were measured. Allocates nothing. Statuses of the prediction, and UNPAIRED where a shape is orthogonal to
+ * its partner. */
 int functional_residual(struct functional *f, const double *x, double *r);
 
 /* dr/dx [nresidual * nparam] at the x of the last functional_residual. */
 int functional_jacobian(struct functional *f, const double *x, double *jacobian);
+
+/* r [nwhole] of the residuals of the whole moves with dM at the last evaluation. */
+void functional_whole_derivative(struct functional *f, const rotid_matrix *dm, double *r);
 
 /* Whether a mode is fitted: it is not held out. */
 int functional_fits(const rotid_measured *measured, int mode);

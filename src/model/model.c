@@ -1,6 +1,7 @@
 #include "model/model.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "beam/beam.h"
 
@@ -120,6 +121,15 @@ int model_lateral_dof(const struct rotor_model *model, double z)
 void model_set(struct rotor_model *model, const double *x)
 {
     discrete_set(&model->discrete, x);
+}
+
+void model_whole(const struct rotor_model *model, double *whole)
+{
+    int n = model->equations.n;
+    memset(whole, 0, 2 * (size_t)n * sizeof *whole);
+    (void)discrete_rigid_motions(&model->discrete, whole);
+    for (int i = n; i < 2 * n; i++) /* theta = -dv/dz */
+        whole[i] = -whole[i];
 }
 
 void model_mass_properties(const struct rotor_model *model, struct mass_properties *properties)

@@ -209,6 +209,9 @@ int model_lateral_dof(const struct rotor_model *model, double z);
 /* Sets the parameters to x without solving anything: for mass and deflections. */
 void model_set(struct rotor_model *model, const double *x);
 
+/* The motions of the whole, as in rotid_measured: whole [2 n]. */
+void model_whole(const struct rotor_model *model, double *whole);
+
 /* At the values of the last evaluation or model_set. */
 void model_mass_properties(const struct rotor_model *model, struct mass_properties *properties);
 

@@ -321,6 +321,8 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     document_section(document, "verdict-parameters", "Parameters of the verdict");
     document_figures(document, "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
+    if (fit->nweighed)
+        document_table(document, table_of_weighed(document->pool, fit->nweighed, fit->weighed));
     if (fit->nrunup)
         document_table(document, table_of_runup(document->pool, fit->nrunup, fit->runup));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)

@@ -13,6 +13,8 @@ void section_agreement(struct document *document, const struct result *result)
     document_figures(document, "agreement");
     document_figures(document, "matrices");
     document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
+    if (result->identify->nweighed)
+        document_table(document, table_of_weighed(document->pool, result->identify->nweighed, result->identify->weighed));
     if (result->identify->nrunup)
         document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
 }

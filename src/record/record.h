@@ -27,8 +27,11 @@
 
 /* Words of results and of cards, in the order of the constants of rotid.h; NULL behind the last. */
 
-extern const char *const functional_words[], *const reduction_words[], *const derivative_words[], *const pairing_words[],
-    *const fit_status_words[], *const mode_type_words[], *const verdict_words[], *const whirl_words[];
+extern const char *const functional_words[],
+    *const reduction_words[], *const derivative_words[], *const pairing_words[], *const fit_status_words[],
+                                                                                     *const mode_type_words[],
+                                                                                         *const verdict_words[],
+                                                                                             *const whirl_words[];
 
 /* ---------------------------------------------------------------------------------------------------------------- record */
 
@@ -125,6 +128,7 @@ extern const struct record cause_record;                /* rotid_cause */
 extern const struct record detectable_record;           /* rotid_detectable */
 extern const struct record speed_margin_record;         /* rotid_speed_margin */
 extern const struct record stability_record;            /* rotid_stability */
+extern const struct record weighed_record;              /* rotid_weighed */
 extern const struct record runup_record;                /* rotid_runup_speed */
 extern const struct record speeds_record;               /* rotid_speeds */
 

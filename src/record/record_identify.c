@@ -108,6 +108,19 @@ static const struct record_field noise_fields[] = {
 };
 const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
+static const char *const weighed_words[] = {"mass", "centre", NULL};
+static const struct record_field weighed_fields[] = {
+    TEXT_OF(rotid_weighed, quantity, 0, weighed_words),
+    TEXT(rotid_weighed, unit, 0),
+    TEXT(rotid_weighed, state, IF_KNOWN),
+    NUMBER(rotid_weighed, measured, 0),
+    NUMBER(rotid_weighed, std, ABOVE_0),
+    NUMBER(rotid_weighed, predicted, 0),
+    NUMBER(rotid_weighed, z, 0),
+    {0},
+};
+const struct record weighed_record = RECORD(rotid_weighed, weighed_fields);
+
 static const struct record_field state_fields[] = {
     TEXT(rotid_identified_state, name, 0),
     INTEGER(rotid_identified_state, fitted_residuals, FROM_0),
@@ -170,6 +183,7 @@ static const struct record_field identification_fields[] = {
     STRUCTS(rotid_identification, baseline, 0, minimiser_record),
     NUMBER(rotid_identification, seconds, FROM_0),
     STRUCTS(rotid_identification, runup, SINCE_LATER, runup_record),
+    STRUCTS(rotid_identification, weighed, SINCE_LATER, weighed_record),
     STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
     {0},
 };

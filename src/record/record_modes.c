@@ -135,6 +135,7 @@ static const struct record_field check_fields[] = {
     STRUCTS(rotid_check, sensors, 0, sensor_record),
     TEXTS(rotid_check, parameters, 0),
     STRUCT(rotid_check, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    STRUCTS(rotid_check, weighed, SINCE_LATER, weighed_record),
     {0},
 };
 const struct record check_record = RECORD(rotid_check, check_fields);

@@ -748,6 +748,8 @@ void screen_diagnose(const struct screen *to, const struct result *result)
     print_shares(to, d);
     print_parameters(to, d);
     const rotid_identification *last = d->extended ? d->extended : d->base;
+    if (last && last->nweighed)
+        screen_table(to, table_of_weighed(to->pool, last->nweighed, last->weighed));
     if (last && last->nrunup)
         screen_table(to, table_of_runup(to->pool, last->nrunup, last->runup));
     print_today(to, d);

@@ -96,6 +96,22 @@ struct table *table_of_states(struct pool *pool, const rotid_identification *fit
     return table;
 }
 
+struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed *list)
+{
+    struct table *t = table_open(pool, "WEIGHED: mass and centre of mass beside the model's");
+    for (int i = 0; i < count; i++) {
+        int centre = same_text(list[i].quantity, "centre");
+        table_row(t);
+        text_column(t, "quantity", SHOW_TEXT, centre ? "centre of mass [m]" : "mass [kg]");
+        text_column(t, "state", SHOW_TEXT, list[i].state);
+        number_column(t, "measured", NULL, SHOW_TRIMMED(6), list[i].measured);
+        number_column(t, "std", NULL, SHOW_DIGITS(2), list[i].std);
+        number_column(t, "model", NULL, SHOW_DIGITS(6), list[i].predicted);
+        number_column(t, "z", NULL, SHOW_SIGNED(1), list[i].z);
+    }
+    return t;
+}
+
 struct table *table_of_minimisers(struct pool *pool, const rotid_identification *fit)
 {
     struct table *table = table_open(pool, "Minimisers from the same start");
@@ -282,6 +298,7 @@ void screen_identify(const struct screen *to, const struct result *result, int b
         screen_table(to, table_of_compared_modes(to->pool, &result->head, 0, fit, NULL));
     print_rms(out, fit);
     screen_table(to, table_of_runup(to->pool, fit->nrunup, fit->runup));
+    screen_table(to, table_of_weighed(to->pool, fit->nweighed, fit->weighed));
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
         screen_say(to,
                    "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies "

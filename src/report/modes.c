@@ -139,6 +139,7 @@ static void print_check(const struct screen *to, const struct result *result, co
                   human_plural(check->nparameters, "parameter", "parameters"));
     screen_table(to, table_of_groups(to->pool, check->geometry, &job->rotor));
     screen_table(to, table_of_causes(to->pool, job));
+    screen_table(to, table_of_weighed(to->pool, check->nweighed, check->weighed));
     const char *steps = doubt_steps(to->pool, job);
     if (steps)
         screen_say(to, "%s", steps);

@@ -404,6 +404,7 @@ const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const ro
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count);
 struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s);
+struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed *list);
 struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_speed *list);
 struct table *table_of_shares(struct pool *pool, const rotid_speeds *speeds);
 struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *speeds);

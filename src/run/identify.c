@@ -121,6 +121,23 @@ struct paired {
     struct mass_properties *mass; /* to be filled, or NULL */
 };
 
+int measured_whole(struct pool *pool, const struct job *job, const struct rotor_model *model, rotid_measured *measured)
+{
+    const struct weighed *w = &job->measurement.weighed;
+    if (!(w->mass_std > 0) && !(w->centre_std > 0))
+        return ROTID_OK;
+    double *whole = POOL_ARRAY(pool, double, 2 * (size_t)model->equations.n);
+    if (!whole)
+        return ROTID_ERROR_MEMORY;
+    model_whole(model, whole);
+    measured->whole = whole;
+    measured->mass = w->mass;
+    measured->mass_std = w->mass_std;
+    measured->centre = w->centre;
+    measured->centre_std = w->centre_std;
+    return ROTID_OK;
+}
+
 static int open_state(struct pool *pool, const struct state *state, const struct paired *paired, struct rotor_model *model,
                       rotid_measured *measured, rotid_state *out)
 {
@@ -140,7 +157,9 @@ static int open_state(struct pool *pool, const struct state *state, const struct
                                  .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
                                  .holdout = paired->holdout};
     *out = (rotid_state){sizeof *out, &model->equations, measured, state->unknown};
-    return model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
+    status =
+        model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
+    return status ? status : measured_whole(pool, job, model, measured);
 }
 
 static int fit_states(struct pool *pool, const struct states *states, const rotid_parameter *bounds, const struct paired *paired,

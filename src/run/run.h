@@ -85,6 +85,11 @@ struct numbering {
     double elastic, all;
 };
 
+/* The rotor on scales [kg, m from the left end]; a deviation of 0: not measured. */
+struct weighed {
+    double mass, mass_std, centre, centre_std;
+};
+
 /* What was measured, as it is judged: the corrections are applied already. */
 struct job_measurement {
     int nmode;
@@ -102,6 +107,7 @@ struct job_measurement {
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
      * none. frequency_hz of a mode that has any is then their mean over all sensors: see point_mean. */
     double *point_frequency_hz, *point_frequency_std;
+    struct weighed weighed;
     int hammer; /* id of the sensor beside the hammer while that accelerometer went round, 0 where not known */
 
     int ncorrection; /* raw is NULL where there are none */
@@ -272,6 +278,9 @@ int numbering_choose(struct pool *pool, struct job *job);
  * the notes say which). */
 int comparison_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, struct message_list *notes,
                     struct comparison *comparison);
+
+/* What the rotor weighs into *measured, by motions of its model. ROTID_OK or ROTID_ERROR_MEMORY. */
+int measured_whole(struct pool *pool, const struct job *job, const struct rotor_model *model, rotid_measured *measured);
 
 /* Warns where the mesh moves a measured mode by more than the noise of its frequency, on a solid by more than a third: the
  * intervals rest on the noise alone. */

@@ -1,0 +1,111 @@
+/* What a rotor weighs, and where its centre of mass is, beside its modes (*WEIGHT, *CENTRE): the card, the fit, and a diagnosis
+ * of effects that tools/hide hides, which modes alone hardly tell apart. The rows of the residual: test_functional, test_columns.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/deck.h"
+#include "diagnose/diagnose.h"
+#include "folder.h"
+#include "hidden.h"
+#include "reading.h"
+#include "support.h"
+
+TEST_GROUP(folder_make, folder_remove);
+
+#define DECK ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+
+/* Data of the rotor with an effect, and the cards behind them; on the test's pool. */
+static const char *hidden_deck(const char *effect, int shapes, const char *cards)
+{
+    struct hide_request request = hide_request_default();
+    char message[300], *given = hidden_read(DECK), *deck, *truth;
+    request.deck = given;
+    request.name = "input/paper_rotor.inp";
+    request.seed = 7;
+    request.effect = &effect;
+    request.effects = 1;
+    request.no_shapes = !shapes;
+    if (hide_case(&request, &deck, &truth, message, sizeof message))
+        fail_msg("%s", message);
+    const char *text = pool_format(&test_pool, "%s\n%s", deck, cards);
+    free(given);
+    free(deck);
+    free(truth);
+    return text;
+}
+
+/* Probability of a cause at a target. */
+static double share_of(const char *deck, const char *id, const char *target)
+{
+    struct message_list messages;
+    struct job job;
+    struct diagnosis d;
+    double sum = 0;
+    message_open(&messages, &test_pool);
+    read_job(deck, &messages, &job);
+    assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1, .seed = 3}, NULL, &messages, &d),
+                  ROTID_OK);
+    for (int i = 0; i < d.posterior.nmarginal; i++) {
+        const struct marginal *m = &d.posterior.marginal[i];
+        sum += !strcmp(m->cause.cause->id, id) && !strcmp(m->cause.target, target) ? m->probability : 0;
+    }
+    diagnose_free(&d);
+    return sum;
+}
+
+/* Mass and centre of mass of the model, and those of a group without layers and holes. */
+static void weigh(int group, double *mass, double *centre)
+{
+    struct message_list messages;
+    struct job job;
+    struct mass_properties all;
+    double z = 0, m = 0, first = 0;
+    char *deck = hidden_read(DECK);
+    message_open(&messages, &test_pool);
+    read_job(deck, &messages, &job);
+    free(deck);
+    assert_status(model_weigh(&test_pool, job.models, &job.rotor, 0, NULL, NULL, &all), ROTID_OK);
+    *mass = all.mass;
+    *centre = all.center;
+    for (int s = 0; s < job.rotor.nsegment && group >= 0; z += job.rotor.segment[s++].length) {
+        const struct segment *segment = &job.rotor.segment[s];
+        double own = (segment->outer * segment->outer - segment->inner * segment->inner) * segment->length;
+        if (segment->group != group)
+            continue;
+        m += own;
+        first += own * (z + segment->length / 2);
+    }
+    if (group < 0)
+        return;
+    *mass = rotor_group_mass(&job.rotor, group);
+    *centre = first / m;
+}
+
+/* By frequencies alone, then with the weight, then with the centre of mass as well; the left shaft is solid. */
+POOL_TEST(a_weight_tells_masses_apart)
+{
+    static const struct {
+        const char *effect, *id, *target;
+        double factor;                   /* of the mass of the left shaft; 0: a mass of 8 kg at 0.4 m */
+        double before, weighed, centred; /* at most, at least, at least */
+    } hidden[] = {{"density:group=left,factor=1.04", "density", "left", 1.04, 0.1, 0.5, 0.9},
+                  {"diameter:group=left,factor=1.02", "diameter", "left", 1.02 * 1.02, 0.6, 0.95, 0.95},
+                  {"added_mass:mass=8,z=0.4", "added_mass", "", 0, 0.4, 0.9, 0.9}};
+    double mass, centre, part[2], share[3];
+    weigh(-1, &mass, &centre);
+    weigh(0, &part[0], &part[1]);
+    for (int i = 0; i < 3; i++) {
+        double more = hidden[i].factor > 0 ? (hidden[i].factor - 1) * part[0] : 8, at = hidden[i].factor > 0 ? part[1] : 0.4;
+        const char *weight = pool_format(&test_pool, "*WEIGHT\n%.7g, 0.5\n", mass + more),
+                   *cards[3] = {
+                       "", weight,
+                       pool_format(&test_pool, "%s*CENTRE\n%.7g, 0.0003\n", weight, (mass * centre + more * at) / (mass + more))};
+        for (int k = 0; k < 3; k++)
+            share[k] = share_of(hidden_deck(hidden[i].effect, 0, cards[k]), hidden[i].id, hidden[i].target);
+        print_message("%s: %.3f, %.3f with the weight, %.3f with its centre\n", hidden[i].effect, share[0], share[1], share[2]);
+        assert_true(share[0] < hidden[i].before && share[1] > hidden[i].weighed && share[2] > hidden[i].centred);
+    }
+}
