@@ -75,6 +75,30 @@ static void check_list(void *context, const struct hidden_case *c, const struct 
     (*checked)++;
 }
 
+static struct candidate zone_at(double z)
+{
+    const struct cause_kind *cause = catalogue_find("stiffness_local");
+    struct candidate c = {.cause = cause, .state = -1, .target = ""};
+    c.effect.value[cause->place] = z;
+    return c;
+}
+
+/* Zones within an eighth of the length are one name, which counts once in a set that has it twice. */
+POOL_TEST(a_place_nearby_is_the_same_name)
+{
+    struct explanation item[] = {{.nmember = 2, .member = {zone_at(0.50), zone_at(0.55)}, .probability = 0.4},
+                                 {.nmember = 1, .member = {zone_at(0.45)}, .probability = 0.3},
+                                 {.nmember = 1, .member = {zone_at(0.90)}, .probability = 0.2, .something_else = 1},
+                                 {.probability = 0.1}};
+    struct posterior p = {.count = 4, .item = item, .length = 1};
+    assert_status(posterior_marginals(&test_pool, &p), ROTID_OK);
+    assert_int_equal(p.nmarginal, 2);
+    assert_close(p.marginal[0].probability, 0.7, 1e-12, 0);
+    assert_close(p.marginal[1].probability, 0.2, 1e-12, 0);
+    assert_close(p.nothing, 0.1, 1e-12, 0);
+    assert_close(p.something_else, 0.2, 1e-12, 0);
+}
+
 UNIT_TEST(what_is_hidden_leads)
 {
     char directory[] = "/tmp/hidden.XXXXXX", *deck = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp");

@@ -726,12 +726,12 @@ static int by_probability(const void *a, const void *b)
     return (one < two) - (one > two);
 }
 
-static int find_marginals(struct engine *engine, struct posterior *p)
+int posterior_marginals(struct pool *pool, struct posterior *p)
 {
     int room = 0;
     for (int i = 0; i < p->count; i++)
         room += p->item[i].probability > LEAST_SHARE ? p->item[i].nmember : 0;
-    p->marginal = POOL_ARRAY(engine->pool, struct marginal, room + 1);
+    p->marginal = POOL_ARRAY(pool, struct marginal, room + 1);
     if (!p->marginal)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < p->count; i++) {
@@ -813,7 +813,7 @@ void posterior_average(const struct posterior *p, const rotid_parameter *bounds,
 
 static int summarise(struct engine *engine, struct posterior *p)
 {
-    int status = find_marginals(engine, p);
+    int status = posterior_marginals(engine->pool, p);
     p->averaged = POOL_ARRAY(engine->pool, rotid_averaged_parameter, p->nown + 1);
     if (status || !p->averaged)
         return ROTID_ERROR_MEMORY;
