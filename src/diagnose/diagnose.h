@@ -875,11 +875,10 @@ int fault_correct(struct engine *engine, const struct candidate *fault);
 /* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits
  * and lists hang on the engine's pool; the fits that the search made are in posterior_free. */
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
-/* Probability of a cause, alone or with others; 0 where it is below LEAST_MARGINAL. */
 /* The marginals of a list whose items have their probabilities; something_else and nothing, which are 0 before, likewise.
  * ROTID_OK or ROTID_ERROR_MEMORY. */
 int posterior_marginals(struct pool *pool, struct posterior *p);
-
+/* Probability of a cause, alone or with others; 0 where it is below LEAST_MARGINAL. */
 double posterior_of_cause(const struct posterior *posterior, const struct candidate *cause);
 /* ln of the prior of a set of so many causes, without those of its causes. */
 double posterior_log_prior(int nmember, int something_else);
