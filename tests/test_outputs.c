@@ -168,6 +168,23 @@ POOL_TEST(the_schema_allows_what_is_not_known_of_a_mode)
     cJSON_Delete(result);
 }
 
+/* Its two rigid motions were taken for elastic modes 1 and 2 at 0 Hz where the compression was too small for the factors to
+ * notice. */
+POOL_TEST(compression_that_turns_a_free_rotor_over_is_refused)
+{
+    static const char *const model[] = {"BEAM", "SOLID"};
+    for (int i = 0; i < 4; i++) {
+        const char *output;
+        (void)shell(&test_pool,
+                    "cd %s && printf '*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, "
+                    "MATERIAL=m\n0.25, 0.015, 0, "
+                    "8\n*DISK\nstart, 7.5, 0.063, 0.008\n*PRELOAD, GROUP=s\n%d\n*FIT, MODEL=%s\n' > over.inp",
+                    folder, i < 2 ? -122 : 122, model[i % 2]);
+        assert_int_equal(shell_code(&test_pool, &output, ROTID "modes over.inp 2>&1", folder), i < 2 ? 2 : 0);
+        assert_true(i >= 2 || strstr(output, "over.inp:6:1: the stiffness matrix is not positive semidefinite"));
+    }
+}
+
 POOL_TEST(an_export_says_how_large_its_files_are)
 {
     const char *said = shell(&test_pool, ROTID "export " INPUT "/brake_reuss_beam.inp --format matrix-market -o size", folder);

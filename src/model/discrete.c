@@ -228,8 +228,11 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
     for (int j = 0; j < free && j < wanted; j++) {
         take_rigid_part(n, free, rigid, mass_rigid, phi + (ptrdiff_t)j * n, elastic);
         double first = lambda[free < wanted ? free : wanted - 1], energy = matrix_product(&elastic_k, elastic, elastic, work);
-        if (energy > fmax(1e-6 * first, rounding) && energy > 0.5 * lambda[j])
+        if (energy > fmax(1e-6 * first, rounding) && energy > 0.5 * lambda[j]) {
+            if (lambda[j] < 0) /* it bends, and gives way: compression turns a free rotor over */
+                return ROTID_ERROR_STIFFNESS;
             break;
+        }
         for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one */
             elastic[i] = phi[i + (ptrdiff_t)j * n] - elastic[i];
         if (all &&
