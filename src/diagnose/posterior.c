@@ -6,6 +6,7 @@
  *            by the evidence of its columns, the most promising are fitted, as is the set with one cause less, and scored by
  *            laplace.c, until none is left within WITHIN of the best; what was not fitted enters by its columns; widths that are
  *            free are integrated at last (over_width.c)
+ *   run-up   measured critical speeds multiply each of the likeliest by their probability under it (runup_learn)
  *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval;
  *            ADEQUATE: nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else
  *            AMBIGUOUS */
