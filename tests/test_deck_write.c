@@ -325,6 +325,33 @@ POOL_TEST(what_is_new_stands_in_the_units_of_the_deck)
     assert_close(back.bounds[1].start, 2000, 1e-14, 0);
 }
 
+/* Tables with a column of groups, one behind the other and between groups that have names, whose elements change. */
+POOL_TEST(a_table_of_groups_becomes_a_card_for_each)
+{
+    (void)folder_write("left.csv", "group,material,length,outer diameter,inner "
+                                   "diameter,elements\na,steel,0.2,0.05,0,4\n,,0.1,0.04,0,2\nb,other,0.2,0.06,0,4\n");
+    (void)folder_write("right.csv", "group,length,outer diameter,inner diameter,elements\nd,0.2,0.05,0,4\n");
+    const char *path = folder_write("deck.inp", STEEL
+                                    "*MATERIAL, NAME=other\n*ELASTIC\n1e11, 0.3\n*DENSITY\n7000\n*SHAFT, FILE=left.csv\n*SHAFT, "
+                                    "FILE=right.csv, MATERIAL=steel\n*SHAFT, NAME=e, MATERIAL=other\n0.3, 0.05, 0, 6\n*SHAFT, "
+                                    "FILE=last.csv, MATERIAL=steel\n*MODES\n1, 225\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n");
+    (void)folder_write("last.csv", "group,length,outer diameter,inner diameter,elements\nf,0.2,0.05,0,4\ng,0.1,0.05,0,4\n");
+    const struct states given = read_states_at(path, NULL);
+    struct states meant;
+    struct segment segment[7];
+    assert_int_equal(states_copy(&test_pool, &given, &meant), ROTID_OK);
+    assert_int_equal(meant.state->job.rotor.nsegment, 7);
+    memcpy(segment, meant.state->job.rotor.segment, sizeof segment);
+    for (int i = 0; i < 7; i++)
+        segment[i].elements *= 2;
+    meant.state->job.rotor.segment = segment;
+    const char *text = write_with(&given, &meant, NULL);
+    assert_null(strstr(text, "FILE"));
+    assert_non_null(strstr(text, "0.1, 0.04, 0, 4\n*SHAFT, NAME=b, MATERIAL=other\n0.2, 0.06, 0, 8\n"));
+    const struct states back = read_states(text);
+    assert_same_states(&meant, &back);
+}
+
 /* A file that is included stays one where none of its cards changes; a table becomes lines where its elements change. */
 POOL_TEST(files_stay_where_they_can)
 {

@@ -423,22 +423,49 @@ static void put_elements(struct deck_writer *out, const char *line, size_t lengt
         deck_put(out, "%.*s", (int)length, line);
 }
 
-/* The sections of a table become lines: a table is not ours to change. */
-static void write_sections(struct writing *w, int at, int s, int group)
+static void put_sections(struct deck_writer *lines, const struct rotor *rotor, int group)
+{
+    const struct segment *segment;
+    for (int i = 0; (segment = segment_of(rotor, group, i)); i++)
+        deck_put_values(lines, segment->rectangular ? deck_beam_rows : deck_shaft_rows, segment);
+}
+
+/* The sections of a table become lines: a table is not ours to change. first ... last: its groups, a card each; `named`: the card
+ * has the name of the only one. */
+static void write_sections(struct writing *w, int at, int s, int first, int last, int named)
 {
     const struct rotor *rotor = &w->meant.state[s].job.rotor;
     struct deck_writer lines = writer_of(w, s);
-    const struct segment *segment;
-    for (int i = 0; (segment = segment_of(rotor, group, i)); i++)
-        deck_put_values(&lines, segment->rectangular ? deck_beam_rows : deck_shaft_rows, segment);
+    const char *card = is_card(&w->edit.part[at], "BEAM") ? "BEAM" : "SHAFT";
+    for (int g = first; g <= last; g++) {
+        if (g > first)
+            deck_put(&lines, "*%s, NAME=%s, MATERIAL=%s\n", card, rotor->group[g].name, rotor->group[g].material.name);
+        put_sections(&lines, rotor, g);
+    }
+    if (!named) {
+        deck_edit_set(&w->edit, at, "NAME", rotor->group[first].name);
+        deck_edit_set(&w->edit, at, "MATERIAL", rotor->group[first].material.name);
+    }
     deck_edit_set(&w->edit, at, "FILE", NULL);
     deck_edit_append(&w->edit, at, lines.text);
     w->edit.status = w->edit.status ? w->edit.status : lines.status;
 }
 
+/* The last of the groups from `first` on that no *SHAFT or *BEAM has the name of: those of a table with a column of groups. */
+static int last_unnamed(struct writing *w, const struct rotor *rotor, int first)
+{
+    int last = first;
+    for (; last < rotor_axis_groups(rotor); last++)
+        for (int i = 0; i < w->edit.npart; i++)
+            if ((is_card(&w->edit.part[i], "SHAFT") || is_card(&w->edit.part[i], "BEAM")) &&
+                group_of(rotor, option_text(w, &w->edit.part[i], "NAME")) == last)
+                return last - 1;
+    return last - 1;
+}
+
 static void edit_elements(struct writing *w)
 {
-    for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+    for (int i = 0, before = -1; i < w->edit.npart && !w->edit.status; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
         size_t length;
@@ -448,11 +475,20 @@ static void edit_elements(struct writing *w)
             in.s++;
         if (in.s == w->meant.nstate)
             continue;
-        in.first = group_of(&w->meant.state[in.s].job.rotor, option_text(w, part, "NAME"));
-        if (in.first >= 0 && deck_edit_option(part, "FILE", &length))
-            write_sections(w, i, in.s, in.first);
-        else if (in.first >= 0)
+        const struct rotor *rotor = &w->meant.state[in.s].job.rotor;
+        int last = in.first = group_of(rotor, option_text(w, part, "NAME")), named = in.first >= 0;
+        int is_table = deck_edit_option(part, "FILE", &length) != NULL;
+        if (is_table && !named) {
+            in.first = before + 1;
+            last = last_unnamed(w, rotor, in.first);
+        }
+        if (is_table && in.first <= last)
+            write_sections(w, i, in.s, in.first, last, named);
+        else if (is_table) /* its groups stand with those of the table before */
+            deck_edit_clear(&w->edit, i);
+        else if (named)
             deck_edit_lines(&w->edit, i, put_elements, &in);
+        before = last > before ? last : before;
     }
 }
 
