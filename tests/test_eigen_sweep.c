@@ -102,6 +102,9 @@ POOL_TEST(soft_pairs_among_stiff_ones_are_all_found)
     solve_stated(*state, 2400, 1, 1, STIFF_PAIRS, 1e12, 1);
     solve_stated(*state, 2400, 1, 4, STIFF_PAIRS, 1e12, 1);
     solve_stated(*state, 2101, 1, 1, FEW_COPIES, 1e12, 1);
+    solve_stated(*state, 2101, 1, 9, FEW_COPIES, 1e12, 1);
+    solve_stated(*state, 2200, 3, 5, FEW_COPIES, 1e10, 1);
+    solve_stated(*state, 2400, 8, 9, FEW_COPIES, 1e12, 1);
 }
 
 /* The same of eigenvalues of which more are equal, or zero, than a solver keeps vectors: what is below them is counted. */
