@@ -195,6 +195,24 @@ POOL_TEST(critical_speeds_are_those_of_a_finer_diagram)
     running_case_close(&coarse);
 }
 
+/* A loss factor makes Im lambda jump where it crosses the speed: what is called critical lies between, side 0. */
+POOL_TEST(a_jump_at_a_critical_speed_hides_none)
+{
+    const char *deck =
+        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1.16756, 0.193758, 0, 6\n1.16756, "
+        "0.165926, 0, 6\n1.16756, 0.160297, 0, 6\n*RUNNING\n*BEARING, NAME=b0\n1.63375, 855800, 855800, 0, 0\n*PEDESTAL, "
+        "BEARING=b0\n196.375, 14.1673, 2.24159e+08, 4.04729e+07\n*BEARING, NAME=b1\n2.96963, 6.26429e+07, 1.47698e+08, 249306, "
+        "587808\n*PEDESTAL, BEARING=b1\n1.37719, 1.59502, 9.70873e+07, 4.48499e+07\n*LOSS\na, 0.01\n";
+    struct running_case coarse, fine;
+    assert_int_equal(running_case_open(deck, 20000, 6, 0, &coarse), ROTID_OK);
+    assert_int_equal(running_case_open(deck, 20000, 301, 0, &fine), ROTID_OK);
+    assert_int_equal(coarse.speeds.ncritical_speeds, fine.speeds.ncritical_speeds);
+    for (int i = 0; i < coarse.speeds.ncritical_speeds; i++)
+        assert_close(coarse.speeds.critical_speeds[i].speed_rpm, fine.speeds.critical_speeds[i].speed_rpm, 1e-8, 0);
+    running_case_close(&fine);
+    running_case_close(&coarse);
+}
+
 POOL_TEST(kxy_above_kyx_drives_forward_whirl)
 {
     struct running_case c;

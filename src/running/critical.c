@@ -8,6 +8,7 @@
 #define SLOW     1e-3 /* of the highest speed */
 #define SAME     0.3  /* |u'v|^2 of a critical speed's mode in another machine */
 #define CROSSED  1e-6 /* of the speed: what is left behind bisection */
+#define JUMP     0.05 /* and with the jump of Im lambda there by loss factors */
 #define ONE_MODE 0.8  /* and of one mode at two speeds of a bracket */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
@@ -161,7 +162,9 @@ static int cross(struct system *s, double from, double to, double h, struct crit
             above = middle;
         if (i == 1 || i % 8 == 7) {
             c->speed = middle;
-            if (!newton(s, h, below, above, &c->pair, &c->speed, &near)) {
+            /* a loss factor makes Im lambda jump at the crossing: it may lie outside of the bracket of either side */
+            if (!newton(s, h, s->hysteretic ? from * (1 - JUMP) : below, s->hysteretic ? to * (1 + JUMP) : above, &c->pair,
+                        &c->speed, &near)) {
                 pair_copy(s->size, &near, &c->pair);
                 system_at(s, c->speed);
                 return pair_left(s, 0, &c->pair);
@@ -169,7 +172,13 @@ static int cross(struct system *s, double from, double to, double h, struct crit
         }
     }
     c->speed = (below + above) / 2;
-    return !(fabs(cimag(c->pair.lambda) - h * c->speed) < CROSSED * h * c->speed); /* two modes at the ends of the interval */
+    return !(fabs(cimag(c->pair.lambda) - h * c->speed) < (s->hysteretic ? JUMP : CROSSED) * h * c->speed); /* two modes */
+}
+
+/* Whether the last one is the same: a jump may end in the next interval. */
+static int is_known(int count, const struct critical *all, const struct critical *c)
+{
+    return count && all[count - 1].mode == c->mode && fabs(all[count - 1].speed - c->speed) < 1e-9 * c->speed;
 }
 
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical)
@@ -190,7 +199,7 @@ int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, 
                 return ROTID_ERROR_MEMORY;
             *critical = grown;
             pair_copy(s->size, a, &c.pair);
-            if (!cross(s, t->speed[i], t->speed[i + 1], h, &c, near))
+            if (!cross(s, t->speed[i], t->speed[i + 1], h, &c, near) && !is_known(*count, grown, &c))
                 grown[(*count)++] = c;
         }
     if (*count)
