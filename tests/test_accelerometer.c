@@ -161,7 +161,7 @@ static double away(const rotid_fit_result *fit, int p, double truth)
 UNIT_TEST(thirty_grams_on_six_kilograms_are_found)
 {
     double worst[2] = {0, 0};
-    int named = 0; /* something in the rotor: 1 of 20 seeds */
+    int open = 0; /* something else may be in the rotor: 4 of 24 seeds */
     for (unsigned long seed = 1; seed <= 6; seed++) {
         const struct simulation s = {.mass = 0.03, .noise = 1e-4, .seed = seed};
         struct message_list notes, quiet;
@@ -184,7 +184,8 @@ UNIT_TEST(thirty_grams_on_six_kilograms_are_found)
         worst[0] = fmax(worst[0], fabs(away(d.base.fit, 0, YOUNG)));
         worst[1] = fmax(worst[1], fabs(away(d.base.fit, 1, SHEAR)));
         assert_true(fabs(away(loaded.fit, 0, YOUNG)) > 3);
-        named += d.result.verdict.kind != ROTID_ADEQUATE;
+        assert_int_not_equal(d.result.verdict.kind, ROTID_NAMED);
+        open += d.result.verdict.kind != ROTID_ADEQUATE;
         assert_null(detectable_of(&d)); /* in the model: not looked for a second time */
         /* the deck that is written gives the fit again, and nothing more is found in it */
         const struct deck_write_options options = {.x = d.base.fit->x};
@@ -208,7 +209,7 @@ UNIT_TEST(thirty_grams_on_six_kilograms_are_found)
         diagnose_free(&d);
     }
     assert_true(worst[0] < 1.5 && worst[1] < 1.5); /* the worst of six */
-    assert_true(named <= 1);
+    assert_true(open <= 2);
 }
 
 UNIT_TEST(without_a_mass_none_is_found_and_the_smallest_is_listed)

@@ -212,14 +212,13 @@ static int residuals(struct reading *r, double *residual, double predicted[MODES
     int failed;
     assert_status(model_open(&r->pool, NULL, &job->rotor, 0, NULL, 1, client, &failed), ROTID_OK);
     rotid_measured *measured = POOL_NEW(&r->pool, rotid_measured);
-    *measured = (rotid_measured){sizeof *measured,
-                                 MODES,
-                                 job->measurement.number,
-                                 job->measurement.frequency_hz,
-                                 job->measurement.frequency_std,
-                                 job->measurement.shape,
-                                 job->measurement.shape_std,
-                                 NULL};
+    *measured = (rotid_measured){.size = sizeof *measured,
+                                 .nmode = MODES,
+                                 .number = job->measurement.number,
+                                 .frequency_hz = job->measurement.frequency_hz,
+                                 .frequency_std = job->measurement.frequency_std,
+                                 .shape = job->measurement.shape,
+                                 .shape_std = job->measurement.shape_std};
     assert_status(
         functional_new(&r->pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &client->equations, measured, &f),
         ROTID_OK);
