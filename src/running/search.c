@@ -11,9 +11,9 @@
 #define REACH       2.5 /* the highest mode of the basis over the highest speed, at least */
 #define COUPLED     10
 #define ATTEMPTS    4
-#define TURN        0.2   /* of the speed, and */
+#define TURN        0.35  /* of the speed, and */
 #define STRIDE      0.025 /* of the highest one: steps at which modes are followed, at most */
-#define LOWEST      1e-4  /* of the highest one: the first of them */
+#define LOWEST      1e-3  /* of the highest one: the first of them */
 
 static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
 {
