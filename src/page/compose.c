@@ -112,8 +112,10 @@ static void compose_states(struct document *document, const struct result *resul
     for (int s = 0; s < page_state_count(result) && !document->failed; s++) {
         const struct result own = page_result_of_state(document->pool, result, s);
         document->of = pool_format(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", page_state_name(result, s));
-        document->failed |= !document->of;
+        document->failed |= !document->of || document->pool->out_of_memory; /* then the state has no result */
         document->state = s;
+        if (document->failed)
+            break;
         if (!drawn && !result->identify && !result->modes && geometry_of_result(&own))
             compose_rotor(document);
         add(document, kinds[rank_of(result)].state, &own);
