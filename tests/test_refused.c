@@ -512,7 +512,8 @@ POOL_TEST(what_a_newer_host_asks_for_is_refused_and_zeros_are_not)
     assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 96");
     f.model.size = sizeof f.model;
     f.measured.size = 1;
-    assert_refused(fit(&f, NULL), "measured->size is 1, expected sizeof(rotid_measured), here 64");
+    assert_refused(fit(&f, NULL),
+                   pool_format(&test_pool, "measured->size is 1, expected sizeof(rotid_measured), here %zu", sizeof f.measured));
 }
 
 UNIT_TEST(defaults_are_written_as_far_as_the_host_has_room)
