@@ -9,6 +9,7 @@
 #include "modal/modal.h"
 #include "rotid.h"
 
+#define UNSEEN       1e-11 /* of the largest column of the Jacobian */
 #define RANK         1e-10 /* singular values below this part of the largest are rounding */
 #define UNDETERMINED 0.5   /* relative standard deviation along a direction: about as much change is allowed as there is value */
 #define TAKES_PART   0.3   /* component of a unit direction */
@@ -170,6 +171,20 @@ void rotid_fit_defaults(size_t size, rotid_fit_options *options)
     memcpy(options, &standard, size < sizeof standard ? size : sizeof standard);
 }
 
+/* A column that is rounding beside the largest one is of an unknown that the data do not see: zero, or its steps are noise. */
+static void clear_rounding(int m, int n, double *jacobian)
+{
+    double largest = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int p = 0; p < n; p++) {
+            double *column = jacobian + (ptrdiff_t)m * p, norm = sqrt(product_dot(m, column, column));
+            if (!pass)
+                largest = fmax(largest, norm);
+            else if (norm < UNSEEN * largest)
+                memset(column, 0, (size_t)m * sizeof *column);
+        }
+}
+
 /* rotid_residual in the unbounded variables y */
 static int residual(void *user, int m, int n, const double *y, double *r, double *jacobian)
 {
@@ -187,6 +202,7 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
     } else {
         fit->callback_status = joint_jacobian(&fit->joint, fit->x, fit->bounded);
         bounds_jacobian(m, n, fit->parameter, chi, y, fit->bounded, jacobian);
+        clear_rounding(m, n, jacobian);
     }
     return fit->callback_status && fit->named ? failure_say_of(fit->failure, fit->callback_status, "state[%d]: ", fit->joint.last)
                                               : fit->callback_status;
