@@ -301,7 +301,7 @@ bench-check: all $(BUILD)/hide
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
 # figures, or run the commands of documents: what they call is in the others; without hosts in Fortran, of which none is compiled with these checks
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
-                 diagnose_solid stiff_supports held_mesh suggest chain
+                 diagnose_solid stiff_supports held_mesh suggest chain power posterior weighed hidden_pairs
 COUNT_MANY := worked tutorial evidence ema_statistics accelerometer hide sensor_check solid_frequencies page_browser report_sweep
 check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
