@@ -1197,7 +1197,6 @@ typedef struct rotid_excitation {
     double hz;             /* [Hz] */
 } rotid_excitation;
 
-/* The machine in operation. */
 /* A torsional natural frequency of the machine, free of its bearings. */
 typedef struct rotid_torsional_frequency {
     int number;          /* from 1, above the free rotation */
@@ -1205,6 +1204,7 @@ typedef struct rotid_torsional_frequency {
     double std_hz;       /* its standard deviation by the moduli and what changed in operation, in linear prediction [Hz] */
 } rotid_torsional_frequency;
 
+/* The machine in operation. */
 typedef struct rotid_speeds {
     double low_rpm;     /* lowest running speed [rpm]; NaN where no range is stated */
     double high_rpm;    /* highest running speed [rpm] */

@@ -108,11 +108,11 @@ rotid_identification *result_identification_states(struct pool *pool, const stru
 /* Measured mode k beside the frequency predicted for its partner. Without residual, which is NaN. */
 rotid_compared_mode result_compared_mode(const struct job *job, const struct comparison *compared, int k, double predicted_hz);
 
-/* Typical noise of the data of a job, and what the intervals of the fit rest on. NULL where memory is out. */
 /* *WEIGHT and *CENTRE of a job beside a model of this mass, [*count]; state: its name, or NULL. NULL where memory is out. */
 rotid_weighed *result_weighed(struct pool *pool, const struct job *job, const char *state, const struct mass_properties *mass,
                               int *count);
 
+/* Typical noise of the data of a job, and what the intervals of the fit rest on. NULL where memory is out. */
 rotid_noise *result_noise(struct pool *pool, const struct job *job, const rotid_fit_result *fit);
 
 #endif

@@ -52,7 +52,8 @@ struct mesh {
 
 /* A node at every end of a segment and of a hub, sensor, spring, disk, tie-rod end and bar centre; a node nearer than 1 % of the
  * element there is taken instead of a new one (coordinates of test files carry six digits, and a sliver of an element ruins the
- * conditioning). Nodes of sensors are added last: no sensor moves what acts on the rotor. Then each element is cut into `refine` equal parts. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * conditioning). Nodes of sensors are added last: no sensor moves what acts on the rotor. Then each element is cut into `refine`
+ * equal parts. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct mesh *mesh);
 
 /* The node on the axis nearest to z. */

@@ -80,7 +80,7 @@ static int find_sources(struct bands *b)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n && b->fit; p++)
         if (isfinite(b->fit->std[p]) && machine_has_unknown(machine, job, p))
-            add_source(b, SOURCE_MODULUS, p, machine_bounds(machine, job, p)->lower > 0, b->fit->std[p], "identified",
+            add_source(b, SOURCE_MODULUS, p, machine_by_logarithm(machine, job, p), b->fit->std[p], "identified",
                        machine_bounds(machine, job, p)->name);
     b->nmodulus = b->nsource;
     for (int i = 0; i < machine->nbearing; i++) {
@@ -109,13 +109,9 @@ static int find_sources(struct bands *b)
     return b->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
-/* Covariance of ln p, C_ij/(p_i p_j), of p itself where it may be zero. */
 static double covariance(const struct bands *b, int i, int j)
 {
-    int p = b->source[i].index, q = b->source[j].index, n = b->fit->n;
-    double value = b->fit->covariance[p + (ptrdiff_t)n * q];
-    value /= b->source[i].is_logarithm ? b->fit->x[p] : 1;
-    return value / (b->source[j].is_logarithm ? b->fit->x[q] : 1);
+    return machine_covariance(b->machine, b->job, b->fit, b->source[i].index, b->source[j].index);
 }
 
 static int factor_covariance(struct bands *b)

@@ -30,6 +30,17 @@ const rotid_parameter *machine_bounds(const struct machine *machine, const struc
     return own < 0 ? &job->unknowns.bounds[p] : &machine->unknown[own].bounds;
 }
 
+int machine_by_logarithm(const struct machine *machine, const struct job *job, int p)
+{
+    return machine_bounds(machine, job, p)->lower > 0;
+}
+
+double machine_covariance(const struct machine *machine, const struct job *job, const rotid_fit_result *fit, int p, int q)
+{
+    return fit->covariance[p + (ptrdiff_t)fit->n * q] / (machine_by_logarithm(machine, job, p) ? fit->x[p] : 1) /
+           (machine_by_logarithm(machine, job, q) ? fit->x[q] : 1);
+}
+
 double machine_bearing_factor(const struct machine *machine, const struct machine_values *values, int i, int damping)
 {
     int p = machine->bearing[i].unknown[damping];

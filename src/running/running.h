@@ -143,6 +143,12 @@ int machine_nominal(struct pool *pool, const struct machine *machine, const doub
 int machine_unknowns(const struct machine *machine, const struct job *job);
 const rotid_parameter *machine_bounds(const struct machine *machine, const struct job *job, int p);
 
+/* Whether u, in which an unknown is drawn and differentiated, is ln x: where its lower bound is above zero; else u = x. */
+int machine_by_logarithm(const struct machine *machine, const struct job *job, int p);
+
+/* Covariance of u of two unknowns that a fit of the machine's unknowns determines. */
+double machine_covariance(const struct machine *machine, const struct job *job, const rotid_fit_result *fit, int p, int q);
+
 /* On the stiffness or the damping of bearing i. */
 double machine_bearing_factor(const struct machine *machine, const struct machine_values *values, int i, int damping);
 

@@ -38,12 +38,6 @@ static int of_all(const struct runup *r, int p)
     return p < at_rest ? state_unknown(&r->states->state[0], p) : r->states->nparameter + p - at_rest;
 }
 
-/* Whether unknown p counts by its logarithm. */
-static int is_logarithm(const struct machine *machine, const struct job *job, int p)
-{
-    return machine_bounds(machine, job, p)->lower > 0;
-}
-
 /* The critical speeds of a machine up to all that were measured. */
 static int search_all(struct pool *pool, struct message_list *notes, struct search *s)
 {
@@ -147,7 +141,7 @@ static int jacobian(void *user, const double *x, int rows, double *out)
     for (int q = 0; q < n && !status; q++)
         for (int i = 0; i < nrunup; i++)
             out[i + (ptrdiff_t)rows * of_all(r, q)] += p->critical[i].speed * gradient[q + (ptrdiff_t)n * i] /
-                                                       (is_logarithm(r->machine, r->job, q) ? p->x[q] : 1) /
+                                                       (machine_by_logarithm(r->machine, r->job, q) ? p->x[q] : 1) /
                                                        r->machine->runup[i].std;
     pool_close(&scratch);
     r->out_of_memory |= status == ROTID_ERROR_MEMORY;
@@ -265,9 +259,7 @@ static int reach(struct pool *pool, const struct machine *machine, const struct 
         status = bands_gradient(pool, &r->search, r->count, r->critical, r->gradient, r->covariance);
     for (int p = 0; p < n && !status; p++)
         for (int q = 0; q < n; q++) {
-            double c = fit->covariance[p + (ptrdiff_t)n * q] /
-                       (is_logarithm(r->search.machine, r->search.job, p) ? fit->x[p] : 1) /
-                       (is_logarithm(r->search.machine, r->search.job, q) ? fit->x[q] : 1);
+            double c = machine_covariance(machine, job, fit, p, q);
             for (int i = 0; i < r->count && isfinite(fit->std[p]) && isfinite(fit->std[q]); i++)
                 r->spread[p + (ptrdiff_t)n * i] += c * r->gradient[q + (ptrdiff_t)n * i];
         }
@@ -384,7 +376,7 @@ static int innovate(const struct reached *r, int n, const double *start, const d
         v[i] = log(reading->speed / r->critical[i].speed);
         for (int p = 0; p < n; p++)
             v[i] += r->gradient[p + (ptrdiff_t)n * i] *
-                    (is_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / start[p]) : x[p] - start[p]);
+                    (machine_by_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / start[p]) : x[p] - start[p]);
         for (int k = 0; k < count; k++)
             factor[i + (ptrdiff_t)count * k] = r->covariance[i + (ptrdiff_t)count * k] + (i == k ? relative * relative : 0);
         gain[i] = v[i];
@@ -407,9 +399,10 @@ static double take_step(const struct reached *r, int n, const double *start, con
         double by = 0, was = x[p];
         for (int i = 0; i < r->count; i++)
             by += r->spread[p + (ptrdiff_t)n * i] * gain[i];
-        x[p] = fmin(fmax(is_logarithm(r->search.machine, r->search.job, p) ? start[p] * exp(by) : start[p] + by, bounds->lower),
-                    bounds->upper);
-        moved[p] = is_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / was) : x[p] - was;
+        x[p] = fmin(
+            fmax(machine_by_logarithm(r->search.machine, r->search.job, p) ? start[p] * exp(by) : start[p] + by, bounds->lower),
+            bounds->upper);
+        moved[p] = machine_by_logarithm(r->search.machine, r->search.job, p) ? log(x[p] / was) : x[p] - was;
     }
     for (int i = 0; i < r->count; i++)
         most = fmax(most, fabs(product_dot(n, r->gradient + (ptrdiff_t)n * i, moved)));
@@ -423,7 +416,7 @@ int runup_learn(struct pool *pool, const struct states *deck, const struct state
     struct machine machine;
     struct message_list quiet;
     struct reached r;
-    rotid_fit_result mine;
+    rotid_fit_result mine = {0};
     int most = deck->machine->nrunup, status = explained(pool, deck, states, fit, &machine, &mine), n = mine.n;
     double *x = POOL_ARRAY(pool, double, 2 * n), *v = POOL_ARRAY(pool, double, 2 * most),
            *factor = POOL_ARRAY(pool, double, most *most), determinant = 0, moved = INFINITY;
@@ -448,7 +441,7 @@ int runup_learn(struct pool *pool, const struct states *deck, const struct state
     *log_z = -(*chi2 + determinant + most * LN_2PI) / 2;
     for (int p = 0; p < state->job.unknowns.nparameter; p++) {
         int q = state_unknown(state, p);
-        double less = 0, scale = is_logarithm(&machine, &state->job, p) ? mine.x[p] : 1;
+        double less = 0, scale = machine_by_logarithm(&machine, &state->job, p) ? mine.x[p] : 1;
         if (q >= nown || !(mine.std[p] > 0))
             continue;
         for (int i = 0; i < most; i++)

@@ -1,6 +1,6 @@
 /* Torsional natural frequencies of the machine: the rotor of the test with the disks of the machine by their polar inertia, on
  * bearings that hold no torque. With C the covariance of the unknowns u as fitted, s of the factors c of *CHANGE,
- *   std f/f = sqrt(g'C g + sum (d ln f/d ln c s)^2),   g = d ln f/du by differences. */
+ *   std f/f = sqrt(g'C g + sum (d ln f/d ln c s)^2),   g = d ln f/du by differences, u of machine_by_logarithm. */
 #include <math.h>
 
 #include "running/running.h"
@@ -31,18 +31,18 @@ static int frequencies(struct pool *pool, const struct torsion *t, double *hz)
     return status;
 }
 
-/* rate [MODES] := d ln f/d ln of a value */
-static int differentiate(struct pool *pool, const struct torsion *t, double *value, double *rate)
+/* rate [MODES] := d ln f by a value at that step on both sides, `by` of what is differentiated by */
+static int differentiate(struct pool *pool, const struct torsion *t, double *value, double step, double by, double *rate)
 {
     double side[2][MODES], nominal = *value;
     int status = ROTID_OK;
     for (int i = 0; i < 2 && !status; i++) {
-        *value = nominal * (1 + (i ? STEP : -STEP));
+        *value = nominal + (i ? step : -step);
         status = frequencies(pool, t, side[i]);
     }
     *value = nominal;
     for (int k = 0; k < MODES && !status; k++)
-        rate[k] = log(side[1][k] / side[0][k]) / (2 * STEP);
+        rate[k] = log(side[1][k] / side[0][k]) / (2 * by);
     return status;
 }
 
@@ -53,18 +53,21 @@ static int spread(struct pool *pool, struct torsion *t, const rotid_fit_result *
     double *rate = POOL_ARRAY(pool, double, (size_t)MODES *(size_t)(n + 1)), *changed = rate + (ptrdiff_t)MODES * n;
     if (!rate)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < n && fit && !status; p++)
-        if (isfinite(fit->std[p]) && machine_has_unknown(t->machine, &t->job, p) && t->x[p] != 0)
-            status = differentiate(pool, t, &t->x[p], rate + (ptrdiff_t)MODES * p);
+    for (int p = 0; p < n && fit && !status; p++) {
+        int logarithm = machine_by_logarithm(t->machine, &t->job, p);
+        double step = STEP * (logarithm ? t->x[p] : fit->std[p]);
+        if (fit->std[p] > 0 && isfinite(step) && machine_has_unknown(t->machine, &t->job, p))
+            status = differentiate(pool, t, &t->x[p], step, logarithm ? STEP : step, rate + (ptrdiff_t)MODES * p);
+    }
     for (int p = 0; p < n && fit && !status; p++)
         for (int q = 0; q < n; q++)
             for (int k = 0; k < MODES && isfinite(fit->std[p]) && isfinite(fit->std[q]); k++)
                 variance[k] += rate[k + (ptrdiff_t)MODES * p] * rate[k + (ptrdiff_t)MODES * q] *
-                               fit->covariance[p + (ptrdiff_t)fit->n * q] / fit->x[p] / fit->x[q];
+                               machine_covariance(t->machine, &t->job, fit, p, q);
     for (int i = 0; i < t->machine->nchange && !status; i++) {
         double std = t->machine->change[i].std;
         if (std > 0)
-            status = differentiate(pool, t, &t->values.change[i], changed);
+            status = differentiate(pool, t, &t->values.change[i], STEP * t->values.change[i], STEP, changed);
         for (int k = 0; k < MODES && std > 0; k++)
             variance[k] += changed[k] * changed[k] * std * std;
     }

@@ -17,6 +17,7 @@
 
 struct worth {
     struct pool *pool;
+    const struct machine *machine;
     const struct job *job;
     int n, at_rest; /* unknowns of the machine; the first of them act at rest */
     const double *x;
@@ -27,11 +28,6 @@ struct worth {
     size_t room;
     rotid_suggestion *out;
 };
-
-static int is_logarithm(const struct worth *w, int p)
-{
-    return w->job->unknowns.bounds[p].lower > 0;
-}
 
 /* C^-1 of the unknowns that were measured; the others have none. */
 static int invert(struct worth *w, const rotid_fit_result *fit)
@@ -44,11 +40,8 @@ static int invert(struct worth *w, const rotid_fit_result *fit)
         if (isfinite(fit->std[p]) && fit->std[p] > 0)
             of[count++] = p;
     for (int j = 0; j < count; j++)
-        for (int i = 0; i < count; i++) {
-            double a = of[i] >= w->at_rest || is_logarithm(w, of[i]) ? fit->x[of[i]] : 1,
-                   b = of[j] >= w->at_rest || is_logarithm(w, of[j]) ? fit->x[of[j]] : 1;
-            c[i + (ptrdiff_t)count * j] = fit->covariance[of[i] + (ptrdiff_t)n * of[j]] / a / b * (i == j ? 1 + 1e-12 : 1);
-        }
+        for (int i = 0; i < count; i++)
+            c[i + (ptrdiff_t)count * j] = machine_covariance(w->machine, w->job, fit, of[i], of[j]) * (i == j ? 1 + 1e-12 : 1);
     if (cholesky_factor(count, c))
         return ROTID_ERROR_FINITE;
     for (int j = 0; j < count; j++) {
@@ -110,8 +103,8 @@ static int differentiate(struct pool *pool, const struct worth *w, const struct 
     for (int q = 0; q < w->at_rest && !status; q++)
         for (int k = 0; k < highest; k++) {
             int pair = nrigid + k;
-            rows[k + (ptrdiff_t)highest * q] =
-                p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / (2 * p.lambda[pair]) * (is_logarithm(w, q) ? w->x[q] : 1);
+            rows[k + (ptrdiff_t)highest * q] = p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / (2 * p.lambda[pair]) *
+                                               (machine_by_logarithm(w->machine, w->job, q) ? w->x[q] : 1);
         }
     return status;
 }
@@ -221,6 +214,7 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
               const rotid_fit_result *fit, const struct worth_options *options, struct message_list *notes, rotid_suggestion *out)
 {
     struct worth w = {.pool = pool,
+                      .machine = machine,
                       .job = job,
                       .n = machine_unknowns(machine, job),
                       .at_rest = job->unknowns.nparameter,
