@@ -66,6 +66,22 @@ rotid_deck *read_handle(const char *text, int nset, const char *const *set)
     return deck;
 }
 
+void read_frequencies(const char *text, int type, int count, double *hz)
+{
+    rotid_deck *deck = read_handle(text, 0, NULL);
+    rotid_spectrum *s;
+    char failure[ROTID_FAILURE_LENGTH];
+    int status = rotid_spectrum_of_type(deck, type, NULL, count, NULL, failure, &s);
+    if (status)
+        print_message("%s\n", failure);
+    assert_status(status, ROTID_OK);
+    assert_true(s->nmodes >= count);
+    for (int j = 0; j < count; j++)
+        hz[j] = s->modes[j].full_hz;
+    rotid_spectrum_free(s);
+    rotid_deck_free(deck);
+}
+
 const rotid_message *find_message(const struct message_list *messages, const char *words)
 {
     for (size_t i = 0; i < messages->count; i++)

@@ -25,6 +25,9 @@ struct states read_states_at(const char *path, const struct override *override);
 /* A right deck as a host reads it, from its text alone; set [nset] as above. */
 rotid_deck *read_handle(const char *text, int nset, const char *const *set);
 
+/* Frequencies [Hz] of the first modes of a type (ROTID_BENDING ...) of a right deck that are no rigid motion: hz [count] */
+void read_frequencies(const char *text, int type, int count, double *hz);
+
 /* The first message that holds these words; of that severity. NULL: there is none. */
 const rotid_message *find_message(const struct message_list *messages, const char *words);
 int warns(const struct message_list *messages, const char *words);

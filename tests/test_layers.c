@@ -9,6 +9,7 @@
 #include "effect_bench.h"
 #include "folder.h"
 #include "model/model.h"
+#include "reading.h"
 #include "solid/solid.h"
 #include "support.h"
 
@@ -666,8 +667,8 @@ POOL_TEST(the_shipped_motor_is_a_model)
 }
 
 /* Bars of twenty diameters: one material, soft within hard and hard within soft. What Cowper's average misses is a share of the
- * terms of shear and rotary inertia, which vanish with the wave number: alike in modes 3 to 6, some 2.7 % of one material, less than
- * twice that of two; a wrong kGS of the layers would be a share of another size, or of the first mode too. */
+ * terms of shear and rotary inertia, which vanish with the wave number: alike in modes 3 to 6, some 2.7 % of one material, less
+ * than twice that of two; a wrong kGS of the layers would be a share of another size, or of the first mode too. */
 POOL_TEST(two_materials_are_as_near_to_the_solid_of_a_long_bar_as_one)
 {
     static const double modulus[3][2] = {{2.1e11, 2.1e11}, {2e10, 2.1e11}, {2.1e11, 2e10}},
@@ -676,20 +677,13 @@ POOL_TEST(two_materials_are_as_near_to_the_solid_of_a_long_bar_as_one)
         double hz[2][6], share[6], ei = pi / 64 * (modulus[c][0] * pow(0.06, 4) + modulus[c][1] * (pow(0.1, 4) - pow(0.06, 4))),
                                    mass = 7850 * pi / 4 * 0.01;
         for (int solid = 0; solid < 2; solid++) {
-            rotid_deck *deck;
-            rotid_spectrum *s;
             const char *text =
                 pool_format(&test_pool,
                             "*MATERIAL, NAME=a\n*ELASTIC\n%g, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=b\n*ELASTIC\n%g, "
                             "0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=a\n2, 0.06, 0, 120\n*LAYER, NAME=ring, "
                             "GROUP=core, MATERIAL=b\n0.1, 0.06\n*FIT, MODEL=%s\n",
                             modulus[c][0], modulus[c][1], solid ? "SOLID" : "BEAM");
-            assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
-            assert_status(rotid_spectrum_compute(deck, NULL, 6, NULL, NULL, &s), ROTID_OK);
-            for (int k = 0; k < 6; k++)
-                hz[solid][k] = s->modes[k].full_hz;
-            rotid_spectrum_free(s);
-            rotid_deck_free(deck);
+            read_frequencies(text, ROTID_BENDING, 6, hz[solid]);
         }
         for (int k = 0; k < 6; k++) {
             double slender = beta[k] * beta[k] / (2 * pi * 4) * sqrt(ei / mass);

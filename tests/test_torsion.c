@@ -15,30 +15,13 @@ static const double pi = 3.14159265358979323846;
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8e10, 0.3\n*DENSITY\n7850\n"
 
-/* Frequencies [Hz] of the first modes of a type that are no rigid motion. */
-static void frequencies(const char *text, int type, int count, double *hz)
-{
-    rotid_deck *deck = read_handle(text, 0, NULL);
-    rotid_spectrum *s;
-    char failure[ROTID_FAILURE_LENGTH];
-    int status = rotid_spectrum_of_type(deck, type, NULL, count, NULL, failure, &s);
-    if (status)
-        print_message("%s\n", failure);
-    assert_status(status, ROTID_OK);
-    assert_true(s->nmodes >= count);
-    for (int j = 0; j < count; j++)
-        hz[j] = s->modes[j].full_hz;
-    rotid_spectrum_free(s);
-    rotid_deck_free(deck);
-}
-
 /* n elements of length l of a free bar: w^2 = 6 (c/j) (1 - cos b l)/(l^2 (2 + cos b l)), b = k pi/L */
 POOL_TEST(free_bar_has_the_frequencies_of_its_elements)
 {
     const double modulus[2] = {8e10, 2.1e11};
     for (int type = ROTID_TORSION; type <= ROTID_AXIAL; type++) {
         double hz[6];
-        frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.05, 0.02, 40\n", type, 6, hz);
+        read_frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.05, 0.02, 40\n", type, 6, hz);
         for (int k = 1; k <= 6; k++) {
             double l = 1.2 / 40, c = cos(k * pi / 40), speed2 = modulus[type - 1] / 7850;
             assert_close(hz[k - 1], sqrt(6 * speed2 * (1 - c) / (2 + c)) / l / (2 * pi), 1e-9, 0);
@@ -98,7 +81,7 @@ POOL_TEST(stepped_bar_with_disk_and_spring_is_exact)
         }
         exact_frequencies(&s, 4, exact);
         /* the lowest one has more energy in the spring than in the bar and counts as one of the supports */
-        frequencies(text, type, 4, hz);
+        read_frequencies(text, type, 4, hz);
         int skipped = fabs(hz[0] / exact[0] - 1) > 0.01;
         for (int k = 0; k + skipped < 4; k++) {
             double exactly = exact[k + skipped], raised = pow(2 * pi * exactly / s.speed * 0.002, 2) / 24;
@@ -123,7 +106,7 @@ POOL_TEST(chains_of_inertias_have_the_printed_frequencies)
                 pool_format(&test_pool, "%s0.1, %.15g, 0, 1\n", text, pow(32 * 0.1 * cases[c].stiffness[i] / (8e10 * pi), 0.25));
         for (int i = 0; i < cases[c].count; i++, z += 0.1)
             text = pool_format(&test_pool, "%s*DISK\n%.12g, 0, 0, %g\n", text, z, cases[c].inertia[i]);
-        frequencies(text, ROTID_TORSION, cases[c].count - 1, hz);
+        read_frequencies(text, ROTID_TORSION, cases[c].count - 1, hz);
         for (int k = 0; k + 1 < cases[c].count; k++)
             assert_close(hz[k], cases[c].hz[k], c ? 1e-4 : 5e-4, 0); /* within the printed digits */
     }
@@ -314,7 +297,7 @@ POOL_TEST(free_solid_has_the_frequencies_of_a_continuous_bar)
     const double modulus[2] = {8e10, 2.1e11}, gyration2 = (0.025 * 0.025 + 0.01 * 0.01) / 2;
     for (int type = ROTID_TORSION; type <= ROTID_AXIAL; type++) {
         double hz[4];
-        frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.05, 0.02\n*FIT, MODEL=SOLID\n", type, 4, hz);
+        read_frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.05, 0.02\n*FIT, MODEL=SOLID\n", type, 4, hz);
         for (int k = 1; k <= 4; k++) {
             double slender = pow(0.3 * k * pi / 1.2, 2) * gyration2, love = type == ROTID_AXIAL ? 1 - slender / 2 : 1;
             assert_close(hz[k - 1], k / 2.4 * sqrt(modulus[type - 1] / 7850) * love,
@@ -336,10 +319,10 @@ POOL_TEST(layers_disk_and_spring_of_a_solid_are_those_of_a_bar)
     struct stepped s = {sqrt(8e10 / 7850), 2e4, 0.02, {0.45, 0.45}, {0, 0}};
     s.impedance[0] = s.impedance[1] = 8e10 * pi / 32 * pow(0.06, 4);
     exact_frequencies(&s, 4, exact);
-    frequencies(held, ROTID_TORSION, 3, hz);
+    read_frequencies(held, ROTID_TORSION, 3, hz);
     for (int k = 0; k < 3; k++)
         assert_close(hz[k], exact[k + (fabs(hz[0] / exact[0] - 1) > 0.05)], 1e-6, 0);
-    frequencies(layered, ROTID_TORSION, 3, hz);
+    read_frequencies(layered, ROTID_TORSION, 3, hz);
     for (int k = 0; k < 3; k++)
         assert_close(hz[k], (k + 1) / 1.8 * s.speed, 1e-6, 0);
 }
@@ -356,8 +339,8 @@ static const char *const words[3] = {"BENDING", "TORSION", "AXIAL"};
 static char *measured(int type, int count)
 {
     double hz[6];
-    frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 100\n*SENSORS\n1, 0\n2, 0.3\n3, 0.55\n4, 1.0\n", type,
-                count, hz);
+    read_frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 100\n*SENSORS\n1, 0\n2, 0.3\n3, 0.55\n4, 1.0\n", type,
+                     count, hz);
     char *text = pool_format(&test_pool, "*MODES, TYPE=%s\n", words[type]);
     for (int k = 0; k < count; k++)
         text = pool_format(&test_pool, "%s%d, %.12g\n", text, k + 1, hz[k]);
@@ -420,7 +403,7 @@ POOL_TEST(shapes_of_torsion_pair_its_modes)
 {
     double hz[2];
     const double z[4] = {0, 0.3, 0.55, 1};
-    frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 100\n", ROTID_TORSION, 2, hz);
+    read_frequencies(STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 100\n", ROTID_TORSION, 2, hz);
     char *text = pool_format(&test_pool, HUNG "*MODES, TYPE=TORSION\n1, %.12g\n*SHAPE, MODE=1\n", hz[1]);
     for (int s = 0; s < 4; s++)
         text = pool_format(&test_pool, "%s%d, %.9g\n", text, s + 1, 3 * cos(2 * pi * z[s]));
