@@ -777,11 +777,13 @@ struct evidence_block {
     double *vector, *value;
 };
 
+/* What a row is of. The noise of what the rotor weighs is as stated, whatever that of the modes is. */
+enum evidence_kind { EVIDENCE_SHAPE, EVIDENCE_FREQUENCY, EVIDENCE_WHOLE, EVIDENCE_KINDS };
+
 struct evidence_data {
     struct pool *pool;
     int nrow, nline, nwhole, nscale, nblock;
-    char *is_line;    /* [nrow] the row is that of a frequency */
-    char *is_whole;   /* [nrow] of what the rotor weighs: its noise is as stated, whatever that of the modes is */
+    char *kind;       /* [nrow] enum evidence_kind */
     double *noise;    /* [nrow] as stated, relative */
     double *measured; /* [nrow] components over their noise */
     struct evidence_block *block;

@@ -81,7 +81,7 @@ int fit_explains(const struct scan *scan, const struct evidence_data *data, cons
     int dof = scan->dof - (fit->n - scan->nfree) - (scan->nrow - fit->nresidual);
     double lines = 0;
     for (int i = 0; i < data->nrow && data->nrow == fit->nresidual; i++)
-        lines += data->is_line[i] ? fit->r[i] * fit->r[i] : 0;
+        lines += data->kind[i] == EVIDENCE_FREQUENCY ? fit->r[i] * fit->r[i] : 0;
     return dof > 0 && chi_square_tail(lines, data->nline) > BLOCK_LEVEL && chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
 }
 

@@ -196,18 +196,17 @@ static int data_new(struct pool *pool, int rows, int modes, struct evidence_data
     if (!d)
         return ROTID_ERROR_MEMORY;
     *d = (struct evidence_data){.pool = pool,
-                                .is_line = POOL_ARRAY(pool, char, rows),
-                                .is_whole = POOL_ARRAY(pool, char, rows),
+                                .kind = POOL_ARRAY(pool, char, rows),
                                 .noise = POOL_ARRAY(pool, double, rows),
                                 .measured = POOL_ARRAY(pool, double, rows),
                                 .block = POOL_ARRAY(pool, struct evidence_block, modes),
                                 .deviation = NOISE_STATED};
-    return d->is_line && d->is_whole && d->noise && d->measured && d->block ? ROTID_OK : ROTID_ERROR_MEMORY;
+    return d->kind && d->noise && d->measured && d->block ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 static void add_line(struct evidence_data *d, double std)
 {
-    d->is_line[d->nrow] = 1;
+    d->kind[d->nrow] = EVIDENCE_FREQUENCY;
     d->noise[d->nrow++] = std;
     d->nline++;
 }
@@ -219,7 +218,7 @@ static void add_whole(struct evidence_data *d, double mass_std, double centre_st
         double std = i ? centre_std : mass_std;
         if (!(std > 0))
             continue;
-        d->is_whole[d->nrow] = 1;
+        d->kind[d->nrow] = EVIDENCE_WHOLE;
         d->noise[d->nrow++] = std;
         d->nwhole++;
     }
@@ -274,11 +273,14 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 
 /* ---- one explanation */
 
-struct normal { /* at one noise: N, b = J'r and r'r of frequencies, shapes and the whole apart */
+struct part { /* N [n * n], b = J'r [n] and r'r of the rows of one kind */
+    double *normal, *b, square;
+};
+
+struct normal { /* at one noise */
     int n;
     const struct unknown *u;
-    double *line, *shape, *whole; /* [n * n] */
-    double *line_b, *shape_b, *whole_b, line_square, shape_square, whole_square;
+    struct part part[EVIDENCE_KINDS];
     double *work, *step; /* [n * n], [n] */
 };
 
@@ -287,9 +289,10 @@ struct normal { /* at one noise: N, b = J'r and r'r of frequencies, shapes and t
 static double integrate(struct normal *w, double line, double shape)
 {
     int n = w->n;
-    double energy = (line * w->line_square + shape * w->shape_square + w->whole_square) / 2, determinant, sum;
+    const struct part *f = &w->part[EVIDENCE_FREQUENCY], *s = &w->part[EVIDENCE_SHAPE], *whole = &w->part[EVIDENCE_WHOLE];
+    double energy = (line * f->square + shape * s->square + whole->square) / 2, determinant, sum;
     for (int i = 0; i < n * n; i++)
-        w->work[i] = line * w->line[i] + shape * w->shape[i] + w->whole[i];
+        w->work[i] = line * f->normal[i] + shape * s->normal[i] + whole->normal[i];
     for (int i = 0; i < n; i++) {
         w->work[i + (ptrdiff_t)i * n] += w->u[i].precision;
         energy += w->u[i].precision * w->u[i].mean * w->u[i].mean / 2;
@@ -300,11 +303,10 @@ static double integrate(struct normal *w, double line, double shape)
         w->step[i] = 0;
         for (int j = 0; j < n; j++)
             w->step[i] -= w->work[i + (ptrdiff_t)j * n] *
-                          (line * w->line_b[j] + shape * w->shape_b[j] + w->whole_b[j] - w->u[j].precision * w->u[j].mean);
+                          (line * f->b[j] + shape * s->b[j] + whole->b[j] - w->u[j].precision * w->u[j].mean);
     }
     for (int i = 0; i < n; i++)
-        energy +=
-            w->step[i] * (line * w->line_b[i] + shape * w->shape_b[i] + w->whole_b[i] - w->u[i].precision * w->u[i].mean) / 2;
+        energy += w->step[i] * (line * f->b[i] + shape * s->b[i] + whole->b[i] - w->u[i].precision * w->u[i].mean) / 2;
     sum = -energy - determinant / 2 + n * LN_2PI / 2;
     for (int i = 0; i < n; i++) {
         const struct unknown *u = &w->u[i];
@@ -386,18 +388,17 @@ static double integrate_noise(const struct evidence_data *d, struct normal *w, d
     return sum;
 }
 
-/* N, b and r'r of some rows [m * (n + 1)], the last column the residual, with weights [m]. */
-static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, double *normal, double *b,
-                   double *square)
+/* Adds some rows [m * (n + 1)], the last column the residual, with weights [m] or 1. */
+static void gather(int m, int n, const double *rows, ptrdiff_t stride, const double *weight, struct part *to)
 {
     for (int i = 0; i < m; i++) {
         double w = weight ? weight[i] : 1, r = rows[i + n * stride];
-        *square += w * r * r;
+        to->square += w * r * r;
         for (int p = 0; p < n; p++) {
             double one = w * rows[i + p * stride];
-            b[p] += one * r;
+            to->b[p] += one * r;
             for (int q = 0; q <= p; q++)
-                normal[p + (ptrdiff_t)q * n] += one * rows[i + q * stride];
+                to->normal[p + (ptrdiff_t)q * n] += one * rows[i + q * stride];
         }
     }
 }
@@ -412,18 +413,13 @@ static void mirror(int n, double *a)
 static int normal_new(struct pool *pool, int n, const struct unknown *u, struct normal *w)
 {
     size_t square = (size_t)n * (size_t)n + 1;
-    *w = (struct normal){.n = n,
-                         .u = u,
-                         .line = POOL_ARRAY(pool, double, square),
-                         .shape = POOL_ARRAY(pool, double, square),
-                         .whole = POOL_ARRAY(pool, double, square),
-                         .line_b = POOL_ARRAY(pool, double, n + 1),
-                         .shape_b = POOL_ARRAY(pool, double, n + 1),
-                         .whole_b = POOL_ARRAY(pool, double, n + 1),
-                         .work = POOL_ARRAY(pool, double, square),
-                         .step = POOL_ARRAY(pool, double, n + 1)};
-    return w->line && w->shape && w->whole && w->line_b && w->shape_b && w->whole_b && w->work && w->step ? ROTID_OK
-                                                                                                          : ROTID_ERROR_MEMORY;
+    *w = (struct normal){.n = n, .u = u, .work = POOL_ARRAY(pool, double, square), .step = POOL_ARRAY(pool, double, n + 1)};
+    int missing = !w->work || !w->step;
+    for (int k = 0; k < EVIDENCE_KINDS; k++) {
+        w->part[k] = (struct part){POOL_ARRAY(pool, double, square), POOL_ARRAY(pool, double, n + 1), 0};
+        missing |= !w->part[k].normal || !w->part[k].b;
+    }
+    return missing ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* One more normal of weight e^one into a mixture: out->mean [nown] its means, out->std the means of its squares, *weighed ln of
@@ -460,7 +456,7 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
     memcpy(all, u, (size_t)n * sizeof *u);
     memset(turned, 0, (size_t)nrow * (size_t)(total + 1) * sizeof *turned);
     for (int i = 0; i < nrow; i++)
-        for (int p = 0; p <= n && (d->is_line[i] || d->is_whole[i]); p++)
+        for (int p = 0; p <= n && d->kind[i] != EVIDENCE_SHAPE; p++)
             turned[i + (ptrdiff_t)(p < n ? p : total) * nrow] = rows[i + (ptrdiff_t)p * nrow];
     for (int k = 0; k < d->nblock; k++) {
         const struct evidence_block *block = &d->block[k];
@@ -486,21 +482,19 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
            step_line = log(ELSE_MOST / ELSE_LEAST) / (ELSE_LINES - 1);
     double known_lines = 0; /* half ln det of what is known of the frequencies */
     for (int i = 0; i < nrow; i++)
-        if (d->is_line[i]) {
-            double more = known ? known[0] / d->noise[i] : 0, square = 1 / (1 + more * more);
-            gather(1, total, turned + i, nrow, &square, w.line, w.line_b, &w.line_square);
+        if (d->kind[i] != EVIDENCE_SHAPE) {
+            double more = known && d->kind[i] == EVIDENCE_FREQUENCY ? known[0] / d->noise[i] : 0, square = 1 / (1 + more * more);
+            gather(1, total, turned + i, nrow, &square, &w.part[(int)d->kind[i]]);
             known_lines -= log(square) / 2;
         }
-    for (int i = 0; i < nrow; i++)
-        if (d->is_whole[i])
-            gather(1, total, turned + i, nrow, NULL, w.whole, w.whole_b, &w.whole_square);
-    mirror(total, w.line);
-    mirror(total, w.whole);
+    mirror(total, w.part[EVIDENCE_FREQUENCY].normal);
+    mirror(total, w.part[EVIDENCE_WHOLE].normal);
+    struct part *of_shapes = &w.part[EVIDENCE_SHAPE];
     for (int a = none && d->nblock ? -1 : 0; a < shapes; a += none ? 2 : 1) {
         double amplitude = a < 0 ? 0 : ELSE_LEAST * exp(a * step_shape), determinant = 0;
-        memset(w.shape, 0, (size_t)total * (size_t)total * sizeof *w.shape);
-        memset(w.shape_b, 0, (size_t)total * sizeof *w.shape_b);
-        w.shape_square = 0;
+        memset(of_shapes->normal, 0, (size_t)total * (size_t)total * sizeof *of_shapes->normal);
+        memset(of_shapes->b, 0, (size_t)total * sizeof *of_shapes->b);
+        of_shapes->square = 0;
         for (int k = 0; k < d->nblock; k++)
             for (int i = 0; i < d->block[k].count; i++) {
                 double one = known ? known[1] / d->noise[d->block[k].row] : amplitude,
@@ -509,9 +503,8 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
                 determinant += log1p(more) / 2;
             }
         for (int k = 0; k < d->nblock; k++)
-            gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, w.shape, w.shape_b,
-                   &w.shape_square);
-        mirror(total, w.shape);
+            gather(d->block[k].count, total, turned + d->block[k].row, nrow, weight + d->block[k].row, of_shapes);
+        mirror(total, of_shapes->normal);
         for (int c = 0; c < sizes; c++) {
             double size = PROFILE_LEAST * pow(PROFILE_MOST / PROFILE_LEAST, (double)c / (PROFILE_SIZES - 1));
             for (int p = n - nprofile; p < n; p++) {
@@ -617,16 +610,11 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
     int nrow = d->nrow, status = normal_new(pool, n, u, &w);
     double field;
     for (int i = 0; i < nrow && !status; i++)
-        if (d->is_whole[i])
-            gather(1, n, rows + i, nrow, NULL, w.whole, w.whole_b, &w.whole_square);
-        else
-            gather(1, n, rows + i, nrow, NULL, d->is_line[i] ? w.line : w.shape, d->is_line[i] ? w.line_b : w.shape_b,
-                   d->is_line[i] ? &w.line_square : &w.shape_square);
+        gather(1, n, rows + i, nrow, NULL, &w.part[(int)d->kind[i]]);
     if (status)
         return status;
-    mirror(n, w.line);
-    mirror(n, w.shape);
-    mirror(n, w.whole);
+    for (int k = 0; k < EVIDENCE_KINDS; k++)
+        mirror(n, w.part[k].normal);
     out->log_z = integrate_noise(d, &w, &out->log_stated, out->noise);
     out->log_exact = out->log_stated;
     for (int p = 0; p < nown; p++) {

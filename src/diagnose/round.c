@@ -107,7 +107,7 @@ static int noise_settle(struct engine *engine, const struct posterior *p, int *c
     int rows = lead->data->nrow - lead->data->nline - lead->data->nwhole - lead->data->nscale;
     double chi2 = 0, level = lead->evidence.noise[1], std = level / sqrt(2.0 * (rows > 0 ? rows : 1));
     for (int i = 0; i < lead->data->nrow; i++)
-        chi2 += lead->data->is_line[i] || lead->data->is_whole[i] ? 0 : fit->r[i] * fit->r[i] / (rows > 0 ? rows : 1);
+        chi2 += lead->data->kind[i] == EVIDENCE_SHAPE ? fit->r[i] * fit->r[i] / (rows > 0 ? rows : 1) : 0;
     double shared = lead->data->nrow == p->data->nrow ? shared_noise(engine, fit->r, chi2) : 1;
     int coloured = shared > 1 + SLIGHT, status;
     if (!coloured && (p->something_else > 0.5 || !is_misstated(engine, level, rows)))
