@@ -95,6 +95,18 @@ POOL_TEST(eigenvalues_are_those_stated)
                         solve_stated(*state, sizes[s][0], sizes[s][1], counts[c], (enum spectrum)spectrum, highs[h], rotated);
 }
 
+/* Blocks that nothing connects, in wide panels: what is left of an image after projection is 1e-12 of it, and M times it is not
+ * what the same subtractions leave of M times the image. */
+POOL_TEST(little_that_is_left_has_its_own_image)
+{
+    for (int count = 2; count < 8; count++) {
+        solve_stated(*state, 60, 12, count, STIFF_PAIRS, 1e6, 1);
+        solve_stated(*state, 62, 12, count, STIFF_PAIRS, 1e8, 1);
+        solve_stated(*state, 60, 12, count, FEW_COPIES, 1e11, 1);
+        solve_stated(*state, 62, 12, count, FEW_COPIES, 1e12, 1);
+    }
+}
+
 /* Too many rows for the dense solver, which would answer in place of the bands: the count below a shift sees the rounding of the
  * stiff pairs in the soft ones. */
 POOL_TEST(soft_pairs_among_stiff_ones_are_all_found)

@@ -2,14 +2,10 @@
 #include "base/base.h"
 #include "linalg/linalg.h"
 
-/* Rows up to which the dense solver is asked at once: 0.2 s at most. Where blocks that nothing connects have pairs 1e6 and more
- * apart the block iteration leaves up to 1e-9 of the highest eigenvalue in the lowest ones, at 60 rows in four of ten cases. */
-#define FEW 400
-
 static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double *lambda, double *phi)
 {
     struct eigen_full e;
-    int status = k->n <= FEW ? eigen_full_new_dense(pool, k, count, &e) : eigen_full_new(pool, k, count, &e);
+    int status = eigen_full_new(pool, k, count, &e);
     if (!status)
         status = eigen_full_solve(&e, k, m, lambda, phi);
     /* The block iteration cannot count eigenvalues where more are equal than it has vectors. The dense solver does not mind. */

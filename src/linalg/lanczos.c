@@ -72,11 +72,9 @@ static int again(struct lanczos *l, int size, int columns, double *w, double *mw
 {
     int n = l->n;
     double *square = l->component + (ptrdiff_t)l->most * l->behind, *least = l->work;
-    if (size) {
+    if (size)
         project_out(l, size, columns, w, l->component);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, l->mass_basis, n, l->component, l->most, 1,
-                    mw, n);
-    }
+    pencil_multiply_mass(l->pencil, columns, w, mw); /* what was subtracted from M W left rounding of the whole column there */
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, columns, columns, n, 1, w, n, mw, n, 0, square, columns);
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', columns, square, columns)) {
         for (int c = 0; c < columns; c++)
