@@ -19,7 +19,7 @@
  *                  fit, the bearings, losses, pull; every critical speed solved again
  *   torsion        torsion.c (torsion_run): its natural frequencies with the disks of the machine
  *   worth          worth.c (worth_run): which test at rest narrows a critical speed most
- *   run-up         runup.c: measured critical speeds as residuals of a fit; beside the model's
+ *   run-up         runup.c: measured critical speeds as residuals of a fit; beside the model's; as evidence of an explanation
  *   all of it      search.c (search_within): the range, the basis, the critical speeds; speeds.c (speeds_run)
  *
  * Loss factors: x + iy = f e^{iwt} + conj(b) e^{-iwt}; the elastic K of the group is multiplied by 1 + i eta sgn(w - W) on f and
