@@ -18,11 +18,11 @@ const struct command_entry command_table[] = {
      "rotid identify rotor.inp\n"
      "rotid identify rotor.inp --set FIT.HOLDOUT=5,6 --json result.json",
      "inp", command_identify, READS_DECK},
-    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the detection limits",
+    {"diagnose", "causes of a misfit, extended model, gain, detection limits",
      "rotid diagnose rotor.inp\n"
      "rotid diagnose rotor.inp --extended extended.inp --json result.json",
      "inp", command_diagnose, READS_DECK | PARALLEL},
-    {"suggest", "what to measure next: sensors, modes and intervals before a test, tests that end an ambiguous diagnosis",
+    {"suggest", "the next measurement: sensors, modes and intervals before a test, tests that separate ambiguous explanations",
      "rotid suggest plan.inp --sensors 10 --interval 1\n"
      "rotid suggest rotor.inp --extended next.inp",
      "inp", command_suggest, READS_DECK | PARALLEL},
@@ -51,8 +51,8 @@ const struct command_entry command_table[] = {
      "rotid uff records.unv --verbose\n"
      "rotid uff modes.unv --csv modes",
      "unv|uff|uf", command_uff, 0},
-    {"report", "results that were written with --json as a page with figures",
-     "rotid report identify.json diagnose.json -o page.html", "json|jsonl", command_report, SEVERAL_FILES},
+    {"report", "results of --json as a page with figures", "rotid report identify.json diagnose.json -o page.html", "json|jsonl",
+     command_report, SEVERAL_FILES},
     {"study", "many runs from one plan, or of many decks, resumable",
      "rotid study plan.inp -o results.jsonl\n"
      "rotid study part1.jsonl part2.jsonl -o results.jsonl --merge",

@@ -108,7 +108,7 @@ const struct option_row option_table[] = {
     {.name = "pick", .commands = "ema", .kind = OPTION_PICK, AT(ema.options), FROM(0, 1e7), .value = "F1,F2,...",
      .help = "the modes nearest to these frequencies [Hz] instead of the stable ones"},
     {.name = "per-point", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.options.per_point),
-     .help = "a frequency for each point as well, by which a roving accelerometer is weighed"},
+     .help = "also a frequency for each point, which shows the mass of a roving accelerometer"},
     {.name = "no-refinement", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.options.no_refinement),
      .help = "poles as the least-squares complex frequency method leaves them"},
     {.name = "reference", .commands = "ema test", .kind = OPTION_WHOLE, AT(ema.measurement.reference), FROM(1, 2147483647),

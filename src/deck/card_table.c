@@ -296,7 +296,7 @@ const struct deck_card deck_card_table[] = {
     {"LOSS", CARD_RUNNING, 10, NULL, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, MACHINE(loss, loss), .check = deck_check_loss},
     {"PULL", CARD_RUNNING, 10, NULL, "stiffness of the magnetic pull, without its sign [N/m]", pull, MACHINE(pull, pull), .single = 1},
     {"CHANGE", CARD_RUNNING, 10, NULL, "parameter, factor [, standard deviation of its logarithm]", change, MACHINE(change, change), .check = deck_check_change},
-    {"UNBALANCE", CARD_RUNNING, 10, NULL, "position, unbalance [kg.m] [, phase [deg]]; with G: position, share of what the grade permits [, phase [deg]]", unbalance, MACHINE(unbalance, unbalance)},
+    {"UNBALANCE", CARD_RUNNING, 10, NULL, "position, unbalance [kg.m] [, phase [deg]]; with G: position, fraction of the permitted unbalance [, phase [deg]]", unbalance, MACHINE(unbalance, unbalance)},
     {"PROBE", CARD_RUNNING, 10, NULL, "position [, angle from x [deg]]", probe, MACHINE(probe, probe), .single = 1},
     {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
     {"RUNUP", CARD_RUNNING, 10, NULL, "number, critical speed, standard deviation [rpm] [, BACKWARD]", runup, MACHINE(runup_reading, runup), .check = deck_check_runup, .once = 1},

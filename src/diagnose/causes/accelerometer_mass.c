@@ -39,6 +39,6 @@ const struct cause_kind cause_accelerometer_mass = {
     .variant_option = "MOUNT",
     .bounds = bounds,
     .value = {"mass", "kg"},
-    .sentence = "the mass of the accelerometer, which the model does not have",
+    .sentence = "the mass of the accelerometer is not in the model",
     .check = "repeat one measurement with a second accelerometer beside the first, or weigh it with its cable",
 };

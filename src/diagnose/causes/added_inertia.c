@@ -32,6 +32,6 @@ const struct cause_kind cause_added_inertia = {
     .place = -1,
     .width = -1,
     .bounds = bounds,
-    .sentence = "a disk whose inertia about a diameter is another one than stated",
+    .sentence = "a disk with another diametral inertia than stated",
     .check = "compute the inertia from a drawing of the disk, or swing it on two wires",
 };

@@ -59,6 +59,6 @@ const struct cause_kind cause_added_mass = {
     .variant_option = "SHAPE",
     .bounds = bounds,
     .widest = 4, /* a tenth of a rotor and more */
-    .sentence = "a mass that is on the rotor and not in the model",
-    .check = "weigh the rotor, and look for what was fixed to it there",
+    .sentence = "a mass that is not in the model",
+    .check = "weigh the rotor, and look for a part that was fixed to it there",
 };

@@ -12,6 +12,6 @@ const struct cause_kind cause_beam_theory = {
     .place = -1,
     .width = -1,
     .solid = 1,
-    .sentence = "a rotor that is no beam: the same rotor as a solid, without a parameter more, is nearer to the data",
+    .sentence = "a rotor that is no beam: the same rotor as a solid fits the data better",
     .check = "identify with *FIT, MODEL=SOLID",
 };

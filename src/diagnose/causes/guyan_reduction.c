@@ -7,6 +7,6 @@ const struct cause_kind cause_guyan_reduction = {
     .target = TARGET_NONE,
     .place = -1,
     .width = -1,
-    .sentence = "condensation to the measured points: the reduced model's frequencies are too high by more than the measurement",
+    .sentence = "the error of the condensation to the sensors exceeds the noise",
     .check = "repeat the fit with REDUCTION=NONE and see whether the moduli move",
 };

@@ -59,6 +59,6 @@ const struct cause_kind cause_joint = {
     .applies = applies,
     .bounds = bounds,
     .widest = 100,
-    .sentence = "an interface between two parts that gives way in bending",
+    .sentence = "an interface between two parts that is flexible in bending",
     .check = "measure both sides of the interface close to it and look for a kink, and repeat after tightening it",
 };

@@ -58,7 +58,7 @@ const struct cause_kind cause_layer_slip = {
     .width = -1,
     .applies = applies,
     .bounds = bounds,
-    .sentence = "a layer that carries nothing at its ends: its fit needs a length to hand over the stress",
+    .sentence = "a layer without stress at its ends: the fit transfers the stress over a length",
     .check =
         "check the interference of the fit and the pressing of the stack, or measure more points across the ends of the layer",
 };

@@ -7,6 +7,6 @@ const struct cause_kind cause_mesh = {
     .target = TARGET_NONE,
     .place = -1,
     .width = -1,
-    .sentence = "elements too long for these modes: the model's own frequencies are off by more than the measurement",
+    .sentence = "the error of the mesh exceeds the noise",
     .check = "double the number of elements and see whether the frequencies move",
 };

@@ -31,6 +31,6 @@ const struct cause_kind cause_sensor_gain = {
     .bounds = bounds,
     .value = {"gain", "1"},
     .correct = correct,
-    .sentence = "a channel that reads too much or too little by one factor in every mode",
+    .sentence = "a channel with a wrong gain",
     .check = "check the sensitivity entered for this channel, and exchange its accelerometer with a neighbour's",
 };

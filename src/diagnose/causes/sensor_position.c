@@ -82,6 +82,6 @@ const struct cause_kind cause_sensor_position = {
     .bounds = bounds,
     .value = {"shift", "m"},
     .correct = correct,
-    .sentence = "a sensor that sits elsewhere than stated",
+    .sentence = "a sensor at another position than stated",
     .check = "measure the position of this accelerometer from the left end",
 };

@@ -25,6 +25,6 @@ const struct cause_kind cause_shear_coefficient = {
     .applies = applies_to_known_group,
     .bounds = bounds_of_factor,
     .widest = 4,
-    .sentence = "a part that shears more or less than its cross section says",
+    .sentence = "a part with another shear coefficient than its section has",
     .check = "compare with a solid model of the part under a lateral load",
 };

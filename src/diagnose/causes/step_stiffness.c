@@ -241,6 +241,6 @@ const struct cause_kind cause_step_stiffness = {
     .discrepancy_shape = 0.025,
     .applies = applies,
     .bounds = bounds,
-    .sentence = "corners behind the steps of the diameter that carry no load: only a cone from the smaller diameter is stiff",
+    .sentence = "corners at steps of the diameter carry no load: only a cone from the smaller diameter is stiff",
     .check = "compare with a solid model of the bare rotor, or give the stiff diameter of each section by hand",
 };

@@ -24,6 +24,6 @@ const struct cause_kind cause_stiffness = {
     .applies = applies_to_known_group,
     .bounds = bounds_of_factor,
     .widest = 4,
-    .sentence = "a part whose stiffness was taken as known and is another one",
+    .sentence = "a part with another stiffness than stated",
     .check = "measure the modulus of a sample, or identify E of this part with the others",
 };

@@ -31,6 +31,6 @@ const struct cause_kind cause_support_extra = {
     .place = 1,
     .width = -1,
     .bounds = bounds,
-    .sentence = "something that holds the rotor and is not in the model",
+    .sentence = "a lateral support that is not in the model",
     .check = "look for what touches the rotor there: a seal, a cable, a guard, the stand",
 };

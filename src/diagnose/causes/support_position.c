@@ -34,6 +34,6 @@ const struct cause_kind cause_support_position = {
     .width = -1,
     .applies = applies_to_felt_spring,
     .bounds = bounds,
-    .sentence = "a support that acts elsewhere than stated",
+    .sentence = "a support at another position than stated",
     .check = "measure where the rotor really rests, from both ends",
 };

@@ -28,6 +28,6 @@ const struct cause_kind cause_support_rotation = {
     .place = 1,
     .width = -1,
     .bounds = bounds,
-    .sentence = "something that holds the rotation of the shaft and is not in the model",
-    .check = "look at the length of what the rotor rests in there, and for a coupling that was left on",
+    .sentence = "a rotational support that is not in the model",
+    .check = "look for a long support there, or for a coupling that was left on",
 };
