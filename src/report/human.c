@@ -168,7 +168,7 @@ const char *human_quote(struct pool *pool, double value, const double ci[2], con
     (void)snprintf(text, sizeof text, "%.1e", half);
     (void)sscanf(strchr(text, 'e'), "e%d", &exponent); /* NOLINT: of two or three digits */
     int last = *text < '3' ? exponent - 1 : exponent;  /* power of ten of the last digit */
-    double whole = last > 0 ? pow(10, last) : 1;       /* 123 +- 40 is 120 +- 40 */
+    double whole = pow(10, last);                      /* 123 +- 40 is 120 +- 40, 115.002 +- 0.138 is 115.00 +- 0.14 */
     return or_nothing(pool_format(
         pool, "%s \xc2\xb1 %s%s%s", human_fixed(pool, round(value * shown.factor / whole) * whole, last < 0 ? -last : 0),
         human_fixed(pool, round(half / whole) * whole, last < 0 ? -last : 0), *shown.text ? NARROW_SPACE : "", shown.text));
