@@ -274,8 +274,9 @@ static void full_pairs(const struct running_case *c, double w, double complex *l
     discrete_spread(&discrete, 1, 1e7, &pull);
     for (int i = 0; i < 2; i++) {
         rotid_matrix one;
+        int from, end;
         assert_int_equal(matrix_new(&test_pool, s.n, s.kd, s.nfar, s.far, &one), ROTID_OK);
-        discrete_differentiate(&discrete, i, &one, &none);
+        discrete_differentiate(&discrete, i, &one, &none, &from, &end);
         matrix_combine(1, &loss, x[i], &one, &loss);
     }
     int n = s.n, size = 2 * n + 2, two = 2 * size;

@@ -173,6 +173,18 @@ POOL_TEST(uniform_strains_have_their_energy_exactly)
 
 /* ---- derivatives */
 
+/* Rows and columns from ... end - 1 of the band hold all there is; the block goes with all of them. */
+static int zero_outside(const rotid_matrix *a, int from, int end)
+{
+    int zero = 1;
+    for (int g = 0; g < a->nfar * a->nfar; g++)
+        zero &= (from == 0 && end == a->n) || a->block[g] == 0;
+    for (int j = 0; j < a->n; j++)
+        for (int d = 0; d <= a->kd && j + d < a->n; d++)
+            zero &= (j >= from && j + d < end) || a->band[d + (ptrdiff_t)j * (a->kd + 1)] == 0;
+    return zero;
+}
+
 static double largest_difference(const rotid_matrix *a, const rotid_matrix *b) /* b: NULL for zero */
 {
     double largest = 0;
@@ -267,7 +279,7 @@ POOL_TEST(derivatives_agree_with_differences)
     for (int p = 0; p < COUNT; p++) {
         struct solid solid;
         rotid_matrix k[2], m[2], dk, dm;
-        int failed;
+        int failed, from, end;
         assert_status(
             solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){.corner = 0.03, .largest = 0.15}, 1, &solid, &failed),
             ROTID_OK);
@@ -281,7 +293,9 @@ POOL_TEST(derivatives_agree_with_differences)
         }
         x[p] = at;
         solid_set(&solid, x);
-        solid_differentiate(&solid, p, &dk, &dm);
+        solid_differentiate(&solid, p, &dk, &dm, &from, &end);
+        if (!zero_outside(&dk, from, end) || !zero_outside(&dm, from, end))
+            fail_msg("parameter %d moves more than rows %d to %d", p, from, end - 1);
         double scale_k = largest_difference(&k[0], NULL) * 1e-9 / h, scale_m = largest_difference(&m[0], NULL) * 1e-9 / h;
         matrix_combine(0.5 / h, &k[1], -0.5 / h, &k[0], &k[0]);
         matrix_combine(0.5 / h, &m[1], -0.5 / h, &m[0], &m[0]);

@@ -254,11 +254,12 @@ POOL_TEST(derivatives_are_those_of_differences)
                       ROTID_OK);
         for (int p = 0; p < PARAMETERS; p++) {
             rotid_matrix a[2][2], exact[2];
+            int from, end;
             double start = x[p], step = 1e-4 * start;
             assemble(&d, x, &exact[0], &exact[1]);
             matrix_zero(&exact[0]);
             matrix_zero(&exact[1]);
-            discrete_differentiate(&d, p, &exact[0], &exact[1]);
+            discrete_differentiate(&d, p, &exact[0], &exact[1], &from, &end);
             for (int side = 0; side < 2; side++) {
                 x[p] = start + (side ? step : -step);
                 assemble(&d, x, &a[side][0], &a[side][1]);

@@ -233,8 +233,8 @@ int columns_parameter(struct columns *c, int p, double *column)
     const struct prediction *prediction = &c->functional.prediction;
     struct rows k, m;
     int row = c->nmode;
-    if (equations->derivatives(equations->user, c->x, p, &c->dk, &c->dm))
-        return ROTID_ERROR_CALLBACK;
+    model_differentiate(&c->model, c->x, p, &c->dk, &c->dm, &k.from, &k.end);
+    m = k;
     matrix_occupied(&c->dk, &k.from, &k.end);
     matrix_occupied(&c->dm, &m.from, &m.end);
     functional_whole_derivative(&c->functional, &c->dm, column + c->nrow - c->functional.nwhole);

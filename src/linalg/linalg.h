@@ -515,8 +515,8 @@ void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double
 /* x' A y; work [n]. */
 double matrix_product(const rotid_matrix *a, const double *x, const double *y, double *work);
 
-/* Rows and columns *from ... *end - 1 hold all that is not zero; all of them where the block holds anything, *from = *end where
- * there is nothing. */
+/* Rows and columns *from ... *end - 1 hold all that is not zero: within those given, outside of which the band is known to be
+ * zero; all of them where the block holds anything, *from = *end where there is nothing. */
 void matrix_occupied(const rotid_matrix *a, int *from, int *end);
 
 /* *part := rows and columns from ... from + length - 1 of a, in the same storage, with the block where those are all. */

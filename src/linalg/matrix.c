@@ -246,16 +246,18 @@ int matrix_is_zero(const rotid_matrix *a)
 void matrix_occupied(const rotid_matrix *a, int *from, int *end)
 {
     size_t ld = (size_t)a->kd + 1;
-    *from = 0;
-    *end = a->n;
-    if (!all_zero(block_length(a), a->block))
+    if (!all_zero(block_length(a), a->block)) {
+        *from = 0;
+        *end = a->n;
         return;
+    }
+    int known = *end;
     while (*from < *end && all_zero(ld, a->band + (size_t)*from * ld))
         ++*from;
     while (*end > *from && all_zero(ld, a->band + (size_t)(*end - 1) * ld))
         --*end;
     if (*end > *from) /* the rows that the last of the columns reaches */
-        *end = *end + a->kd < a->n ? *end + a->kd : a->n;
+        *end = *end + a->kd < known ? *end + a->kd : known;
 }
 
 void matrix_rows(const rotid_matrix *a, int from, int length, rotid_matrix *part)

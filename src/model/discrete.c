@@ -98,10 +98,12 @@ void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix 
         beam_assemble(&discrete->beam, x, k, m);
 }
 
-void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm)
+void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end)
 {
+    *from = 0;
+    *end = dk->n;
     if (is_solid(discrete))
-        solid_differentiate(&discrete->solid, p, dk, dm);
+        solid_differentiate(&discrete->solid, p, dk, dm, from, end);
     else if (is_bar(discrete))
         bar_differentiate(&discrete->beam, p, dk, dm);
     else

@@ -15,10 +15,16 @@ static int matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_
 /* rotid_model gives x here too; the model already stands at it, since derivatives follow matrices at the same point */
 static int derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
 {
-    struct rotor_model *model = user;
-    parameters_set(discrete_rotor(&model->discrete), model->equations.nparam, model->parameter, x);
-    discrete_differentiate(&model->discrete, p, stiffness, mass);
+    int from, end;
+    model_differentiate(user, x, p, stiffness, mass, &from, &end);
     return 0;
+}
+
+void model_differentiate(const struct rotor_model *model, const double *x, int p, rotid_matrix *dk, rotid_matrix *dm, int *from,
+                         int *end)
+{
+    parameters_set(discrete_rotor(&model->discrete), model->equations.nparam, model->parameter, x);
+    discrete_differentiate(&model->discrete, p, dk, dm, from, end);
 }
 
 static int choose_masters(struct pool *pool, struct rotor_model *model)

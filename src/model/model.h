@@ -59,7 +59,8 @@ void discrete_structure(const struct discrete *discrete, rotid_matrix *structure
 
 void discrete_set(struct discrete *discrete, const double *x);
 void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix *k, rotid_matrix *m);
-void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm);
+/* dK and dM are zero but in rows and columns *from ... *end - 1 of the band. */
+void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end);
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties);
 
 /* *p: the polar inertia P of what turns; *s: a lateral stiffness > 0 to the ground [N/m] evenly over the length of a group. Both
@@ -199,6 +200,10 @@ struct rotor_model {
  * discrete_build. */
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed);
+
+/* equations.derivatives, with the rows that they are in, as discrete_differentiate. */
+void model_differentiate(const struct rotor_model *model, const double *x, int p, rotid_matrix *dk, rotid_matrix *dm, int *from,
+                         int *end);
 
 /* m: where master i is. */
 double model_master_z(const struct rotor_model *model, int i);

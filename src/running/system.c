@@ -61,12 +61,13 @@ static int assemble(struct builder *b, const double *x)
     for (int i = 0, p = 0; i < machine->nloss; i++) {
         const struct material *material = &discrete_rotor(&s->discrete)->group[machine->loss[i].group].material;
         for (int part = 0; part < 2 - material->isotropic; part++, p++) {
+            int from, end;
             matrix_zero(&b->held);
             rotid_matrix none = b->held;
             status = new_matrix(&b->scratch, &structure, &none);
             if (status)
                 return status;
-            discrete_differentiate(&s->discrete, p, &b->held, &none);
+            discrete_differentiate(&s->discrete, p, &b->held, &none, &from, &end);
             matrix_combine(1, &b->loss[i], x[p], &b->held, &b->loss[i]);
         }
     }

@@ -680,8 +680,7 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
 {
     const struct solid_element *element = &solid->mesh.element[index];
     struct share share;
-    double mass[SOLID_NODES * SOLID_NODES] = {0};
-    memset(k, 0, SOLID_DOFS * SOLID_DOFS * sizeof *k);
+    double mass[SOLID_NODES * SOLID_NODES];
     *has_k = *has_m = 0;
     int harmonic = solid->mesh.type == MODE_BENDING;
     for (int s = 0; s < SHARES; s++) {
@@ -690,10 +689,14 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
         else if (!field_derivative(solid, element, s, solid->parameter[p], &share))
             continue;
         if (share.elasticity.c33 != 0 || share.elasticity.c44 != 0 || share.stress != 0) {
+            if (!*has_k)
+                memset(k, 0, SOLID_DOFS * SOLID_DOFS * sizeof *k);
             integrals_add_stiffness(&solid->integrals[index], s, harmonic, &share.elasticity, share.stress, k);
             *has_k = 1;
         }
         if (share.rho != 0) {
+            if (!*has_m)
+                memset(mass, 0, sizeof mass);
             solid_add_mass(&solid->integrals[index], s, harmonic ? share.rho : 2 * share.rho, mass);
             *has_m = 1;
         }
@@ -702,7 +705,47 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
         spread_mass(mass, m);
 }
 
-static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+static void take_in(int dof, int *from, int *end)
+{
+    *from = dof >= 0 && dof < *from ? dof : *from;
+    *end = dof >= *end ? dof + 1 : *end;
+}
+
+static void take_in_element(const struct solid *solid, const struct solid_element *element, int *from, int *end)
+{
+    for (int n = 0; n < SOLID_NODES; n++)
+        for (int c = 0; c < 3; c++)
+            take_in(solid->mesh.node[element->node[n]].dof[c], from, end);
+}
+
+/* Rows of what attached_assemble adds for parameter p: those of the sections and of the surface at the points of an effect; all
+ * of them where something else is attached that moves with p. */
+static void take_in_attached(const struct solid *solid, int p, int *from, int *end)
+{
+    const struct parameter parameter = solid->parameter[p];
+    const struct effect *e = parameter.kind == PARAMETER_EFFECT ? &solid->rotor.effect[parameter.index] : NULL;
+    const struct solid_mesh *mesh = &solid->mesh;
+    struct effect_point point;
+    if (parameter.kind <= PARAMETER_RHO)
+        return;
+    if (!e || e->kind->spring || e->kind->tierod) {
+        *from = 0;
+        *end = mesh->ndof;
+        return;
+    }
+    for (int i = 0; e->kind->point && e->kind->point(e, &solid->rotor, i, -1, &point); i++) {
+        int slice = solid_mesh_slice(mesh, fmin(fmax(point.z, 0), mesh->z[mesh->nslice]));
+        take_in_element(solid, &mesh->element[solid_mesh_outermost(mesh, slice)], from, end);
+        for (const struct solid_line *line = &solid->line[slice]; line <= &solid->line[slice + 1]; line++)
+            for (int t = 0; t < 2; t++) {
+                const struct motion *motion = t ? &line->theta : &line->v;
+                for (int j = 0; j < motion->count; j++)
+                    take_in(motion->dof[j], from, end);
+            }
+    }
+}
+
+static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m, int *from, int *end)
 {
     double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS];
     int has_k, has_m;
@@ -713,6 +756,8 @@ static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_ma
             solid_add_element(solid, element, ek, k);
         if (has_m)
             solid_add_element(solid, element, em, m);
+        if (p >= 0 && (has_k || has_m))
+            take_in_element(solid, element, from, end);
     }
     attached_assemble(solid, p, k, m);
 }
@@ -720,12 +765,16 @@ static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_ma
 void solid_assemble(struct solid *solid, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
     solid_set(solid, x);
-    assemble(solid, -1, k, m);
+    assemble(solid, -1, k, m, NULL, NULL);
 }
 
-void solid_differentiate(const struct solid *solid, int p, rotid_matrix *dk, rotid_matrix *dm)
+void solid_differentiate(const struct solid *solid, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end)
 {
-    assemble(solid, p, dk, dm);
+    *from = solid->mesh.ndof;
+    *end = 0;
+    take_in_attached(solid, p, from, end);
+    assemble(solid, p, dk, dm, from, end);
+    *from = *from < *end ? *from : *end;
 }
 
 /* ------------------------------------------------------------------------------------------------ mass, motion, energy */
@@ -808,6 +857,8 @@ void solid_strain_energy(const struct solid *solid, const double *u, double *ene
         element_matrices_of(solid, e, -1, ek, em, &has_k, &has_m);
         solid_element_motion(solid, &solid->mesh.element[e], u, local);
         energy[e] = 0;
+        if (!has_k)
+            continue;
         for (int j = 0; j < SOLID_DOFS; j++)
             for (int i = 0; i < SOLID_DOFS; i++)
                 energy[e] += 0.5 * local[i] * ek[i + SOLID_DOFS * j] * local[j];
