@@ -268,9 +268,10 @@ figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
-LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases diagnose embedding hidden_effects diagnose_states page_browser hidden_faults \
-           chain hidden_shifts api_memory diagnose_solid limits accelerometer study_program install api_cancel held_mesh report_sweep \
-           page_input ema_statistics diagnose_bounds study_run api_diagnosis solid_attached host sensor_check run)
+LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagnose embedding evidence suggest diagnose_states page_browser \
+           hidden_effects solid_frequencies limits chain runup weighed api_memory stiff_supports hidden_faults wrong_decks hidden_shifts \
+           api_cancel diagnose_model page_input host held_mesh diagnose_solid accelerometer study_program study_run install \
+           running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of hidden_effects and chain.
 LONG := hidden_numbers hidden_rivals hidden_pairs power
@@ -299,10 +300,10 @@ bench-check: all $(BUILD)/hide
 	@$(PYTHON) tools/bench/instructions.py $(BUILD)/rotid $(BUILD)/hide $(BUILD) $(RECORD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
-# figures, or run the commands of documents: what they call is in the others; without hosts in Fortran, of which none is compiled with these checks
+# figures, run the commands of documents or build hosts: what they call is in the others
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
                  diagnose_solid stiff_supports held_mesh suggest chain power posterior weighed hidden_pairs
-COUNT_MANY := worked tutorial evidence ema_statistics accelerometer hide sensor_check solid_frequencies page_browser report_sweep
+COUNT_MANY := worked tutorial evidence ema_statistics accelerometer hide solid_frequencies page_browser report_sweep embedding fortran install
 check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \

@@ -348,9 +348,9 @@ POOL_TEST(the_document_links_every_program_that_was_built)
 POOL_TEST(the_document_shows_what_the_programs_print)
 {
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
-    const char *built[] = {"paper-c-shared", "curve-c-shared", "margins-c-shared", "stepped_beam-fortran-shared"};
-    for (int i = 0; i < 4; i++) {
-        if (i == 3 && !has_compiler(&test_pool, "FC"))
+    const char *built[] = {"paper-c-shared", "curve-c-shared", "margins-c-shared", "frame-c-shared", "stepped_beam-fortran-shared"};
+    for (int i = 0; i < 5; i++) {
+        if (i == 4 && !has_compiler(&test_pool, "FC"))
             continue;
         if (!strstr(document, pool_format(&test_pool, "\n```\n%s```\n", left(built[i], "out"))))
             fail_msg("%s prints something else than docs/embedding.md says:\n%s", built[i], left(built[i], "out"));
