@@ -239,7 +239,8 @@ void solid_assemble(struct solid *solid, const double *x, rotid_matrix *k, rotid
 /* Sets the parameters to x, without K and M. */
 void solid_set(struct solid *solid, const double *x);
 
-/* dK/dx_p and dM/dx_p at the values of the last solid_assemble, in rows and columns *from ... *end - 1 alone, but for the block. */
+/* dK/dx_p and dM/dx_p at the values of the last solid_assemble, in rows and columns *from ... *end - 1 alone, but for the block.
+ */
 void solid_differentiate(const struct solid *solid, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end);
 
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last solid_assemble. */
