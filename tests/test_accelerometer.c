@@ -78,6 +78,7 @@ struct simulation {
     double mass, drift, noise;
     int missing; /* points near nodes have no frequency */
     int bad;     /* one reading is 1 % off */
+    int means;   /* of the frequencies at the points alone */
     unsigned long seed;
 };
 
@@ -93,8 +94,12 @@ static void write_deck(const struct simulation *s, const char *cards)
     for (int j = 0; j < POINTS; j++)
         append("%d, %.12g\n", j + 1, LENGTH * j / (POINTS - 1));
     append("*MODES\n");
-    for (int k = 0; k < MODES; k++)
-        append("%d, %.12g\n", k + 1, m.hz[1 + POINTS * k]);
+    for (int k = 0; k < MODES; k++) {
+        double mean = 0;
+        for (int j = 0; j < POINTS; j++)
+            mean += m.hz[j + POINTS * k] / POINTS;
+        append("%d, %.12g\n", k + 1, s->means ? mean : m.hz[1 + POINTS * k]);
+    }
     for (int k = 0; k < MODES; k++) {
         double largest = 0;
         for (int j = 0; j < POINTS; j++)
@@ -102,8 +107,9 @@ static void write_deck(const struct simulation *s, const char *cards)
         append("*SHAPE, MODE=%d\n", k + 1);
         for (int j = 0; j < POINTS; j++)
             append("%d, %.9g\n", j + 1, m.shape[j + POINTS * k] / largest + 0.005 * random_normal(&stream));
-        append("*FREQUENCIES, MODE=%d\n", k + 1);
-        for (int j = 0; j < POINTS; j++) {
+        if (!s->means)
+            append("*FREQUENCIES, MODE=%d\n", k + 1);
+        for (int j = 0; j < POINTS && !s->means; j++) {
             double hz = m.hz[j + POINTS * k] * (1 + s->drift * (j / (POINTS - 1.0) - 0.5) + s->noise * random_normal(&stream));
             if (s->bad && j == 20 && k == 2)
                 hz *= 0.99;
@@ -111,7 +117,8 @@ static void write_deck(const struct simulation *s, const char *cards)
                 append("%d, %.12g, %.6g\n", j + 1, hz, hz * s->noise);
         }
     }
-    append("*NOISE, SHAPE=0.005\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\ncore.G, 0.4e11, 1.2e11, 0.8e11\n%s", cards);
+    append("*NOISE, SHAPE=0.005%s\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\ncore.G, 0.4e11, 1.2e11, 0.8e11\n%s",
+           s->means ? ", FREQUENCY=1e-4" : "", cards);
 }
 
 static void diagnose(const struct job *job, struct message_list *notes, struct diagnosis *out)
@@ -228,6 +235,27 @@ UNIT_TEST(without_a_mass_none_is_found_and_the_smallest_is_listed)
         assert_true(listed->smallest > 2e-4 && listed->smallest < 2e-3);
         diagnose_free(&d);
     }
+}
+
+/* Without frequencies at the points its mass is one explanation of a few; the next step says to weigh it. */
+UNIT_TEST(an_accelerometer_that_is_not_weighed_is_not_sure)
+{
+    const struct simulation s = {.mass = 0.03, .noise = 1e-4, .seed = 7, .means = 1};
+    struct message_list notes;
+    struct diagnosis d;
+    struct job job;
+    judge(&s, "", &job, &notes, &d);
+    show(&d);
+    const struct explanation *lead = d.posterior.item;
+    assert_int_equal(d.result.verdict.kind, ROTID_AMBIGUOUS);
+    assert_true(lead->nmember == 1 && lead->probability > 0.5);
+    assert_string_equal(lead->member[0].cause->id, "accelerometer_mass");
+    for (int p = 0; p < d.posterior.naveraged; p++) {
+        const rotid_averaged_parameter *one = &d.posterior.averaged[p];
+        double truth = p ? SHEAR : YOUNG;
+        assert_true(one->ci95[0] < truth && truth < one->ci95[1]);
+    }
+    diagnose_free(&d);
 }
 
 UNIT_TEST(a_drift_is_a_drift)

@@ -142,16 +142,6 @@ int is_unweighed_accelerometer(const struct job *job, const struct effect *effec
     return is_moving_accelerometer(effect) && job_fits_shapes(job) && !job->measurement.point_frequency_hz;
 }
 
-struct effect moving_accelerometer_at(const struct effect *effect, int sensor)
-{
-    const struct cause_kind *cause = catalogue_of(effect);
-    struct effect there = *effect;
-    while (strcmp(cause->variant[there.variant], "FIXED") != 0)
-        there.variant++;
-    there.target = sensor;
-    return there;
-}
-
 static int open_weighing(struct pool *pool, const struct engine *engine, struct weighing *w)
 {
     int status = columns_open(pool, engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &w->columns);

@@ -393,9 +393,6 @@ int is_moving_accelerometer(const struct effect *effect);
 /* Such an effect beside fitted shapes that nothing has freed of it: there are no frequencies at single sensors. */
 int is_unweighed_accelerometer(const struct job *job, const struct effect *effect);
 
-/* The accelerometer of the effect while it is at one sensor. */
-struct effect moving_accelerometer_at(const struct effect *effect, int sensor);
-
 /* ------------------------------------------------------------------------------------------------------------- bootstrap */
 
 /* How good the best of many looks by chance: a parametric bootstrap of the linearised scan. Each replicate is white noise on the

@@ -85,32 +85,6 @@ static int acts_in(const struct scan *scan, const struct scan_item *item, int s,
            (place < 0 || s == c->home || item->effect.value[place] <= rotor_length(&part->state->job.rotor));
 }
 
-/* An accelerometer that goes from sensor to sensor without being weighed by the frequencies there: every component of a shape is
- * that of the rotor with the mass at its own sensor, a frequency the mean over all of them. The model has the mass spread over
- * the sensors, which to first order is the same for frequencies alone. */
-static int fill_moving(struct part *part, const struct scan_item *item, int size, double *column)
-{
-    struct columns *columns = &part->columns;
-    int nsensor = part->state->job.rotor.nsensor, status = ROTID_OK;
-    double *one = POOL_ARRAY(columns->pool, double, columns->nrow);
-    if (!one)
-        return ROTID_ERROR_MEMORY;
-    memset(column, 0, (size_t)columns->nrow * sizeof *column);
-    for (int s = 0; s < nsensor && !status; s++) {
-        const struct effect there = moving_accelerometer_at(&item->effect, s);
-        status = columns_probe(columns, &there);
-        if (!status)
-            status = columns_parameter(columns, part->state->job.unknowns.nparameter + size, one);
-        for (int m = 0, row = columns->nmode; m < columns->nmode && !status; row += columns->mode[m++].sensors) {
-            column[m] += one[m] / nsensor;
-            for (int i = 0; i < columns->mode[m].sensors; i++)
-                if (columns->mode[m].sensor[i] == s)
-                    column[row + i] = one[row + i];
-        }
-    }
-    return status;
-}
-
 /* The rows of state s. */
 static int fill_columns(int s, struct part *part, struct scan *scan)
 {
@@ -122,10 +96,6 @@ static int fill_columns(int s, struct part *part, struct scan *scan)
         if (is_secant(cause) || !acts_in(scan, item, s, part))
             continue;
         double *column = scan->column + (ptrdiff_t)i * scan->nrow + part->row;
-        if (is_unweighed_accelerometer(&part->state->job, &item->effect)) {
-            status = fill_moving(part, item, cause->size, column);
-            continue;
-        }
         status = columns_probe(columns, &item->effect);
         if (!status)
             status = columns_parameter(columns, part->state->job.unknowns.nparameter + cause->size, column);
