@@ -171,7 +171,7 @@ UNIT_TEST(a_table_belongs_to_the_state_of_its_card)
     (void)folder_write("table.csv", "mode,frequency\n1,500\n2,1300\n");
     const char *path = folder_write("deck.inp", MATERIAL "*SHAFT, FILE=sections.csv, MATERIAL=steel\n*STATE, NAME=bare\n"
                                                          "*MODES, FILE=table.csv\n*STATE, NAME=other\n*MODES\n1, 510\n");
-    (void)folder_write("sections.csv", "group,length,outer,inner,elements\na,0.5,0.1,0,10\nb,0.5,0.12,0,10\n");
+    (void)folder_write("sections.csv", "group,length,outer,elements\na,0.5,0.1,10\nb,0.5,0.12,10\n"); /* no bore: solid */
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
     assert_status(deck_read_states(&pool, path, NULL, 0, NULL, &messages, &states), ROTID_OK);
@@ -179,6 +179,8 @@ UNIT_TEST(a_table_belongs_to_the_state_of_its_card)
     assert_int_equal(states.state[0].job.measurement.nmode, 2);
     assert_int_equal(states.state[1].job.measurement.nmode, 1);
     assert_int_equal(states.state[1].job.rotor.ngroup, 2);
+    assert_close(states.state[1].job.rotor.segment[1].inner, 0, 0, 1e-15);
+    assert_int_equal(states.state[1].job.rotor.segment[1].elements, 10);
     pool_close(&pool);
 }
 

@@ -24,6 +24,7 @@ POOL_TEST(numbers_are_written_for_people)
     assert_string_equal(human_quote(pool, 115.75e9, wide, "Pa"), "120 \xc2\xb1 60" SPACE "GPa");
     assert_string_equal(human_quote(pool, 210.2415e9, narrow, "Pa"), "210.24 \xc2\xb1 0.26" SPACE "GPa");
     assert_null(human_quote(pool, 60e9, none, "Pa"));
+    assert_string_equal(human_quote(pool, 1, mass, "kg"), "1.0 \xc2\xb1 1.5" SPACE "kg");
     assert_string_equal(human_value(pool, 9790, "N/m"), "9.79" SPACE "kN/m");
     assert_string_equal(human_value(pool, 1e6, "Pa"), "1" SPACE "MPa");
     assert_string_equal(human_value(pool, -999, "N/m"), MINUS "999" SPACE "N/m");

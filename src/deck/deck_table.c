@@ -66,7 +66,7 @@ static const struct table_kind table_kinds[] = { /* ended by one without card */
     {"SHAFT", 0,
      {{"length|l", "m", 0},
       {"outer diameter|outer|od|diameter|d", "m", 0},
-      {"inner diameter|inner|id|bore", "m", 0},
+      {"inner diameter|inner|id|bore|bore diameter", "m", 1},
       {"elements|number of elements", NULL, 1},
       {"stiffness diameter|stiff outer diameter|stiffness outer diameter", "m", 1}, NOTHING},
      {{"group|name|section", NULL, 1}, {"material", NULL, 1}, NOTHING}},
