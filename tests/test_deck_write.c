@@ -352,6 +352,28 @@ POOL_TEST(a_table_of_groups_becomes_a_card_for_each)
     assert_same_states(&meant, &back);
 }
 
+/* Lines without elements, and without a bore or with an empty one, get those of a finer mesh; comments stay. */
+POOL_TEST(elements_are_written_where_none_were_given)
+{
+    const struct states given = read_states(
+        STEEL
+        "*SHAFT, NAME=bar, MATERIAL=steel\n0.2, 0.05 ** solid\n0.2, 0.06,\n0.2, 0.05, , \n0.2, 0.06, 0.01\n0.2, 0.05, 0, 9\n"
+        "*BEAM, NAME=flat, MATERIAL=steel\n0.2, 0.01, 0.03\n" FREE);
+    struct states meant;
+    struct segment segment[6];
+    assert_int_equal(states_copy(&test_pool, &given, &meant), ROTID_OK);
+    memcpy(segment, meant.state->job.rotor.segment, sizeof segment);
+    for (int i = 0; i < 6; i++)
+        segment[i].elements = 1000 + i;
+    meant.state->job.rotor.segment = segment;
+    const char *text = write_with(&given, &meant, NULL);
+    assert_non_null(strstr(text, "0.2, 0.05, 0, 1000 ** solid\n"));
+    assert_non_null(strstr(text, "0.2, 0.06, 0.01, 1003\n0.2, 0.05, 0, 1004\n"));
+    assert_non_null(strstr(text, "0.2, 0.01, 0.03, 1005\n"));
+    const struct states back = read_states(text);
+    assert_same_states(&meant, &back);
+}
+
 /* A file that is included stays one where none of its cards changes; a table becomes lines where its elements change. */
 POOL_TEST(files_stay_where_they_can)
 {

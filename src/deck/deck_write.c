@@ -416,9 +416,10 @@ static void put_elements(struct deck_writer *out, const char *line, size_t lengt
                          *from = segment_of(&in->w->given->state[in->s].job.rotor, in->first, number);
     char text[16];
     int count, has = deck_edit_field(line, length, 3, &count) >= 0 && count > 0;
-    (void)snprintf(text, sizeof text, "%d", to ? to->elements : 0);
+    int solid = deck_edit_field(line, length, 2, &count) < 0; /* the inner diameter was left out */
+    (void)snprintf(text, sizeof text, "%s%d", solid ? "0, " : "", to ? to->elements : 0);
     if (to && (!has || !from || to->elements != from->elements))
-        deck_edit_put_field(out, line, length, 3, text);
+        deck_edit_put_field(out, line, length, solid ? 2 : 3, text);
     else
         deck_put(out, "%.*s", (int)length, line);
 }
