@@ -105,6 +105,25 @@ UNIT_TEST(states_count_for_themselves)
     assert_true(s.state[1].job.rotor.count_all);
 }
 
+/* In kHz the same modes have the same numbers, on bearings and in cords, and the unit is told. */
+UNIT_TEST(a_wrong_unit_changes_no_numbers)
+{
+    struct message_list messages;
+    struct job job = job_of(BAR ON("3e6") "*MODES\n1, 0.08859\n2, 0.13692\n3, 0.25607\n4, 0.62460\n" FIND, &messages);
+    assert_true(job.rotor.count_all);
+    job = job_of(BAR ON("2000") "*MODES\n1, 0.2287\n2, 0.6229\n" FIND, &messages);
+    assert_false(job.rotor.count_all);
+    struct identification found;
+    struct message_list notes;
+    message_open(&notes, &test_pool);
+    assert_status(identify_run(&test_pool, &job, 0, NULL, &notes, &found), ROTID_OK);
+    assert_non_null(find_message(&notes, "frequencies in kHz?"));
+    rotid_fit_free(found.fit);
+    job = job_of(BAR ON("2000") "*MODES\n1, 228.7\n" FIND, &messages); /* far above the cords, which is no unit */
+    assert_false(job.rotor.count_all);
+    assert_int_equal(messages.count, 0);
+}
+
 /* A slender cantilever: w = 1.8751^2 sqrt(EI/(rho A L^4)); the clamp is stiff to 1e-6. */
 UNIT_TEST(a_clamped_end_is_clamped)
 {

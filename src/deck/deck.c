@@ -392,14 +392,15 @@ static void count_modes(struct deck_reader *reader)
     if (job->rotor.count_all)
         deck_note(
             reader, card->place,
-            "modes are counted from the lowest vibration on the supports (COUNT=ALL): so they lie %.2g %% from the model as "
-            "it stands, counted from the first bending mode (COUNT=ELASTIC) %.2g %%",
+            "modes are counted from the lowest vibration on the supports (COUNT=ALL): they differ from the model at the start by "
+            "%.3g %% then, and by %.3g %% if counted from the first bending mode (COUNT=ELASTIC)",
             100 * n->all, 100 * n->elastic);
     else if (!(n->elastic < NUMBERING_CLEAR * n->all))
         deck_note(
             reader, card->place,
-            "modes are counted from the first bending mode (COUNT=ELASTIC, %.2g %% from the model as it stands), but counted "
-            "from the lowest vibration on the supports (COUNT=ALL) they lie %.2g %% from it: state COUNT=ELASTIC or ALL",
+            "modes are counted from the first bending mode (COUNT=ELASTIC): they differ from the model at the start by %.3g %% "
+            "then, and by %.3g %% if counted from the lowest vibration on the supports (COUNT=ALL): state COUNT=ELASTIC or ALL, "
+            "or mend the stiffness of the supports",
             100 * n->elastic, 100 * n->all);
 }
 

@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define BEYOND      3         /* modes of the model above the highest number that a measured shape may turn out to be */
@@ -93,11 +94,19 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
         memcpy(c->number, job->measurement.number, (size_t)nmode * sizeof *c->number);
     int clash = pair_modes(nmode, candidates, correlation, c->number, c->basis, used);
     if (clash) {
+        char counted[128] = "";
+        for (int j = 0; j < candidates && j < 6; j++)
+            (void)snprintf(counted + strlen(counted), sizeof counted - strlen(counted), "%s%.4g", j ? ", " : "",
+                           spectrum->full_hz[j]);
         c->clash = clash - 1;
         message_add(notes, SEVERITY_ERROR, job->measured.file, job->measured.line, job->measured.column,
-                    "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
-                    "that differ; a mode of the rotor on its supports is none of them (leave it out: rotid ema --band)",
-                    job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1]);
+                    "measured mode %d at %.6g Hz is left without a mode of the model: by its shape another one takes its number. "
+                    "The model at the start has %s Hz: expected modes that differ, numbered as these are (%s), and supports, "
+                    "moduli and lengths in the units of the deck",
+                    job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1], counted,
+                    !job->measurement.numbering.nsupport ? "rigid-body motions do not count"
+                    : job->rotor.count_all               ? "COUNT=ALL"
+                                                         : "COUNT=ELASTIC: those on the supports do not count");
         return ROTID_ERROR_UNPAIRED;
     }
     for (int k = 0; k < nmode; k++) {

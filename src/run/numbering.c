@@ -8,10 +8,24 @@
 #include "fit/fit.h"
 
 #define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
+#define UNIT        5    /* the least factor between frequencies that a unit explains is 2 pi */
 #define UNEXPLAINED 1e-3 /* p-value of a misfit that makes other numbers worth a try */
 
-/* root mean square over the measured modes: the partner of mode n is mode n + above of the spectrum */
-static double misfit(const struct job *job, const struct spectrum *spectrum, int above)
+/* ln of the mean factor of measured over computed frequencies: the partner of mode n is mode n + above of the spectrum */
+static double mean_factor(const struct job *job, const struct spectrum *spectrum, int above)
+{
+    const struct job_measurement *measured = &job->measurement;
+    double sum = 0;
+    for (int k = 0; k < measured->nmode; k++) {
+        int j = measured->number[k] + above - 1;
+        if (j < spectrum->count && spectrum->full_hz[j] > 0)
+            sum += log(measured->frequency_hz[k] / spectrum->full_hz[j]);
+    }
+    return sum / measured->nmode;
+}
+
+/* root mean square over the measured modes, of the frequencies over exp(factor) */
+static double misfit(const struct job *job, const struct spectrum *spectrum, int above, double factor)
 {
     const struct job_measurement *measured = &job->measurement;
     double sum = 0;
@@ -19,7 +33,7 @@ static double misfit(const struct job *job, const struct spectrum *spectrum, int
         int j = measured->number[k] + above - 1;
         if (j >= spectrum->count || !(spectrum->full_hz[j] > 0))
             return INFINITY;
-        double shape = 0, frequency = log(measured->frequency_hz[k] / spectrum->full_hz[j]);
+        double shape = 0, frequency = log(measured->frequency_hz[k] / spectrum->full_hz[j]) - factor;
         if (measured->shape) {
             double mac = rotid_mac(spectrum->nmaster, measured->shape + (ptrdiff_t)k * spectrum->nmaster,
                                    spectrum->shape + (ptrdiff_t)j * spectrum->nmaster);
@@ -48,8 +62,11 @@ static int choose(struct pool *scratch, struct job *job)
     numbering->nsupport = elastic.equations.nrigid - spectrum.nrigid;
     if (numbering->stated || numbering->nsupport < 1)
         return ROTID_OK;
-    numbering->elastic = misfit(job, &spectrum, numbering->nsupport);
-    numbering->all = misfit(job, &spectrum, 0);
+    /* a factor in both numberings that no modulus explains is one of units, of which check_units tells */
+    double bending = mean_factor(job, &spectrum, numbering->nsupport), lowest = mean_factor(job, &spectrum, 0);
+    int unit = (bending > 0) == (lowest > 0) && fmin(fabs(bending), fabs(lowest)) > log(UNIT);
+    numbering->elastic = misfit(job, &spectrum, numbering->nsupport, unit ? bending : 0);
+    numbering->all = misfit(job, &spectrum, 0, unit ? lowest : 0);
     job->rotor.count_all = numbering->all < NUMBERING_CLEAR * numbering->elastic;
     return ROTID_OK;
 }
