@@ -109,3 +109,27 @@ POOL_TEST(a_weight_tells_masses_apart)
         assert_true(share[0] < hidden[i].before && share[1] > hidden[i].weighed && share[2] > hidden[i].centred);
     }
 }
+
+/* Frequencies that no bar has: the model weighs 7850 pi/4 0.05^2 = 15.41 kg, and the verdict says so. */
+POOL_TEST(what_is_unexplained_is_to_be_weighed)
+{
+    static const char *const bar =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, "
+        "MATERIAL=steel\n1.0, 0.05, 0, 40\n*MODES\n1, 200\n2, 680\n3, 1100\n4, 2100\n5, 2700\n6, 4300\n7, "
+        "4600\n*NOISE, FREQUENCY=1e-3\n*IDENTIFY\nbar.E, 1e11, 4e11, 1.8e11\n";
+    static const char *const cards[] = {"", "*WEIGHT\n12, 0.1\n", "*WEIGHT\n15.3, 0.1\n"},
+                             *const said[] = {"Weigh the rotor first: the model has 15.41 kg.",
+                                              "The model has 15.41 kg and the rotor 12 kg: correct diameters", NULL};
+    for (int i = 0; i < 3; i++) {
+        struct message_list messages;
+        struct job job;
+        struct diagnosis d;
+        read_job(pool_format(&test_pool, "%s%s", bar, cards[i]), &messages, &job);
+        assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1, .seed = 3}, NULL, &messages, &d),
+                      ROTID_OK);
+        assert_int_equal(d.result.verdict.kind, ROTID_UNEXPLAINED);
+        assert_true(said[i] ? strstr(d.result.verdict.sentence, said[i]) != NULL
+                            : !strstr(d.result.verdict.sentence, "correct diameters"));
+        diagnose_free(&d);
+    }
+}

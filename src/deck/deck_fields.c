@@ -70,7 +70,7 @@ static const struct {
     double least, most, typical;
     const char *share; /* what a hundredth of it is, NULL: its unit may be another one */
 } usual[] = {
-    {"Young's modulus", 1e8, 1.5e12, 2e11, NULL},
+    {"Young's modulus", 1e6, 1.5e12, 2e11, NULL}, /* from rubber on */
     {"shear modulus", 1e6, 7e11, 8e10, NULL},
     {"density", 100, 25e3, 7800, NULL},
     {"length [m]", 1e-4, 30, 0.3, NULL},
@@ -486,7 +486,11 @@ static int has_decimal_comma(const char *text)
 static void doubt_commas(struct deck_reader *reader, const struct card *card)
 {
     for (int i = 0; i < card->nline; i++)
-        if (has_decimal_comma(card->line[i].text)) {
+        if (strchr(card->line[i].text, ';')) {
+            deck_note(reader, card->line[i].place, "'%s': commas separate the values of a line, expected no semicolon",
+                      card->line[i].text);
+            return;
+        } else if (has_decimal_comma(card->line[i].text)) {
             deck_note(reader, card->line[i].place,
                       "'%s': a decimal comma? Numbers have a decimal point, and commas separate them", card->line[i].text);
             return;

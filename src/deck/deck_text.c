@@ -50,7 +50,8 @@ struct reader {
     struct message_list *messages;
     struct deck_text *text;
     long bytes_left;
-    int over; /* a limit of the whole deck is passed, which has been said: nothing more is read */
+    int early; /* data lines before the first card; the first is told */
+    int over;  /* a limit of the whole deck is passed, which has been said: nothing more is read */
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
@@ -287,8 +288,9 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     if (first == last)
         return;
     if (!text->ncard) {
-        text_error(reader, at(reader, begin, first, line),
-                   "a data line stands before the first card, expected a line that begins with *");
+        if (!reader->early++)
+            text_error(reader, at(reader, begin, first, line),
+                       "a data line stands before the first card, expected a line that begins with *, or ** and a comment");
         return;
     }
     struct card *card = &text->card[text->ncard - 1];

@@ -221,7 +221,7 @@ static const char *describe(struct pool *pool, const struct job_units *units, co
     const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists */
     const char *text = candidate_label(pool, c);
     if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
-        text = pool_format(pool, "%s, as well at z = %s", text, job_value_text(pool, units, 3, c->other_place, "m"));
+        text = pool_format(pool, "%s, or at z = %s", text, job_value_text(pool, units, 3, c->other_place, "m"));
     if (!cause->effect) { /* a rival that is no part of a model */
         const struct effect_parameter_name *name;
         for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
@@ -349,6 +349,23 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     }
 }
 
+#define FAULTS_TOLD 3
+#define HEAVIER     3 /* standard deviations between the weight and that of the model */
+
+/* What to look at first where nothing of the catalogue explains the data: the weight shows wrong diameters, bores, densities. */
+static const char *weigh_first(const struct engine *engine)
+{
+    const struct weighed *weighed = &engine->states.state[0].job.measurement.weighed;
+    double mass = engine->out->base.mass.mass;
+    if (!(weighed->mass_std > 0))
+        return pool_format(engine->pool, " Weigh the rotor first: the model has %.4g kg.", mass);
+    if (fabs(mass - weighed->mass) > HEAVIER * weighed->mass_std)
+        return pool_format(engine->pool,
+                           " The model has %.4g kg and the rotor %.4g kg: correct diameters, bores and densities first.", mass,
+                           weighed->mass);
+    return "";
+}
+
 static const char *verdict_sentence(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
@@ -365,15 +382,18 @@ static const char *verdict_sentence(struct engine *engine)
             solid =
                 " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
                 "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
-    if (out->result.ndata_findings)
-        faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->result.ndata_findings,
-                             out->result.ndata_findings == 1 ? "" : "s", out->result.ndata_findings == 1 ? "was" : "were");
+    for (int i = 0; i < out->result.ndata_findings && i < FAULTS_TOLD && faults; i++)
+        faults = pool_format(pool, "%s%s %s", faults, i ? ";" : " In the measurement", out->result.data_findings[i].text);
+    if (out->result.ndata_findings && faults)
+        faults = pool_format(pool, out->result.ndata_findings > FAULTS_TOLD ? "%s; and %d more." : "%s.", faults,
+                             out->result.ndata_findings - FAULTS_TOLD);
     const char *chance = pool_format(pool,
                                      !isfinite(verdict->p_value) ? "no p-value can be stated"
                                      : verdict->p_value < 1e-99  ? "p below 1e-99"
                                                                  : "p = %.2g",
                                      verdict->p_value);
-    if (!causes || !others || !open || !faults || !chance)
+    const char *weigh = weigh_first(engine);
+    if (!causes || !others || !open || !faults || !chance || !weigh)
         return NULL;
     if (engine->before) {
         const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
@@ -394,8 +414,8 @@ static const char *verdict_sentence(struct engine *engine)
                            chance, others, text_of_probability(pool, 2, verdict->nothing), faults, open);
     default:
         return pool_format(
-            pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s",
-            chance, 100 * verdict->something_else, others, faults, open);
+            pool, "The model does not explain the data (%s), and with %.0f %% what it lacks is not in the catalogue: %s.%s%s%s",
+            chance, 100 * verdict->something_else, others, weigh, faults, open);
     }
 }
 
