@@ -122,6 +122,29 @@ UNIT_TEST(a_mode_that_is_no_mode_of_the_model_is_said)
     pool_close(&pool);
 }
 
+UNIT_TEST(shapes_of_something_else_are_said)
+{
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    struct random_stream stream = {9};
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 6, &job);
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)job.rotor.nsensor * 5; i++)
+        job.measurement.shape[i] = random_normal(&stream);
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
+    assert_false(says(&notes, "no measured shape resembles")); /* the last one does */
+    rotid_fit_free(result.fit);
+    for (int s = 0; s < job.rotor.nsensor; s++)
+        job.measurement.shape[s + (ptrdiff_t)5 * job.rotor.nsensor] = random_normal(&stream);
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
+    assert_true(says(&notes, "no measured shape resembles a mode of the model"));
+    rotid_fit_free(result.fit);
+    pool_close(&pool);
+}
+
 UNIT_TEST(jobs_without_data_are_refused_and_without_parameters_compared)
 {
     struct pool pool;

@@ -104,6 +104,8 @@ static void print_length(FILE *out, const char *what, double value, const char *
     (void)fprintf(out, "%-16s%12.*f %s%s\n", what, unit.factor > 1 ? 3 : 6, value * unit.factor, unit.text, more);
 }
 
+#define REST_HZ 0.01 /* below, a motion is that of a free rotor and its rounding */
+
 static void print_check(const struct screen *to, const struct result *result, const struct job *job)
 {
     const rotid_check *check = result->check;
@@ -127,10 +129,13 @@ static void print_check(const struct screen *to, const struct result *result, co
     (void)fprintf(out, "measured modes  %12d\n", check->measured_modes);
     (void)fprintf(out, "rigid-body modes%12d", check->rigid_modes);
     const struct human_unit hz = human_unit(1, "Hz");
+    int free = check->nrigid_hz > 0;
     for (int i = 0; i < check->nrigid_hz; i++)
+        free &= check->rigid_hz[i] < REST_HZ;
+    for (int i = 0; i < check->nrigid_hz && !free; i++)
         (void)fprintf(out, "%s%.*f", i ? ", " : " (modes on the supports at ", hz.factor < 1 ? 6 : 3,
                       check->rigid_hz[i] * hz.factor);
-    (void)fprintf(out, check->nrigid_hz ? " %s)\n" : "\n", hz.text);
+    (void)fprintf(out, free ? " (the rotor is free)\n" : check->nrigid_hz ? " %s)\n" : "\n", hz.text);
     if (job->measurement.numbering.nsupport)
         (void)fprintf(out, "modes counted   %12s, from the lowest %s%s\n", job->rotor.count_all ? "ALL" : "ELASTIC",
                       job->rotor.count_all ? "vibration on the supports" : "mode that bends the rotor",

@@ -96,7 +96,8 @@ static void say_where(const char *file, struct message_list *messages, const cha
         message_add(messages, SEVERITY_ERROR, file, line, column, "byte %d is no JSON, expected a value, a comma or a bracket",
                     (unsigned char)*at);
     else
-        message_add(messages, SEVERITY_ERROR, file, line, column, "'%.*s' is no JSON, expected a value, a comma or a bracket",
+        message_add(messages, SEVERITY_ERROR, file, line, column,
+                    "'%.*s' is no JSON, expected a value, a comma or a bracket: a result of --json?",
                     (int)strcspn(at, "\r\n \t,]}") + !strcspn(at, "\r\n \t,]}"), at);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #define BEYOND      3         /* modes of the model above the highest number that a measured shape may turn out to be */
+#define ALIKE       0.5       /* MAC below which shapes are of something else than the modes */
 #define SOLID_SHARE (1.0 / 3) /* of the noise: what the mesh of a solid may leave of a frequency */
 
 int comparison_highest(const struct job *job)
@@ -49,9 +50,12 @@ static void note(struct message_list *notes, const char *format, int mode, doubl
 static void say_what_is_odd(const struct job *job, const struct spectrum *spectrum, const struct comparison *c,
                             struct message_list *notes)
 {
-    int highest = 0;
+    int highest = 0, shapes = 0;
+    double alike = 0;
     for (int k = 0; k < c->nmode; k++) {
         highest = c->number[k] > highest ? c->number[k] : highest;
+        shapes += isfinite(c->mac[k]);
+        alike = isfinite(c->mac[k]) ? fmax(alike, c->mac[k]) : alike;
         if (c->number[k] != job->measurement.number[k] && !isfinite(c->nco[k]))
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "measured mode %d at %.6g Hz is mode %d of the model by its shape",
                         job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k]);
@@ -64,6 +68,12 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
                  "correlates by %.2f only",
                  job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
     }
+    if (shapes > 1 && alike < ALIKE)
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0,
+            "no measured shape resembles a mode of the model (MAC %.2f at most): shapes of another test, positions of the "
+            "sensors from the other end or in another unit, or channels exchanged?",
+            alike);
     for (int j = 1; j <= highest && j <= spectrum->count; j++) {
         int found = 0;
         for (int k = 0; k < c->nmode; k++)
