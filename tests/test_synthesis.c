@@ -100,6 +100,24 @@ POOL_TEST(the_sum_is_the_exact_receptance_and_the_residual_makes_it_so)
     assert_true(with < 2e-4 && without > 50 * with);
 }
 
+/* COUNT=ALL counts the suspension modes among the others, and their eigenvalues are no shift for the residuals. */
+POOL_TEST(suspension_modes_may_be_counted)
+{
+    static struct setup t;
+    static const double hz[] = {3, 40, 150, 400, 620, 900, 1200, 1600, 1990};
+    struct spring springs[2] = {{.name = "left", .position = 0, .lateral = 500},
+                                {.name = "right", .position = 1.1, .lateral = 800}};
+    struct rotor *rotor = stepped_rotor(160);
+    rotor->nspring = 2;
+    rotor->spring = springs;
+    rotor->count_all = 1;
+    open_setup(&t, rotor, 4 * 2000, 0);
+    assert_int_equal(t.s.nrigid, 0);
+    double error = worst_error(&t, rotor, 0, 9, hz);
+    print_message("suspension modes from %.2f Hz: error %.1e\n", sqrt(t.s.lambda[0]) / TWO_PI, error);
+    assert_true(error < 2e-4);
+}
+
 /* What is left out enters with the square of (f/f_next)^2: from twice to four times the highest line it drops by 2^4 and more. */
 POOL_TEST(more_modes_help_as_the_formula_says)
 {

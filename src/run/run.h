@@ -471,7 +471,7 @@ struct synthesis {
     int npoint, nmode, nrigid; /* modes, rigid and suspension modes first */
     double *lambda;            /* [nmode] (rad/s)^2, ascending */
     double *shape;             /* [nmode * npoint] the modes of a point beside each other, 1/sqrt(kg) */
-    double shift;              /* c, the first elastic eigenvalue */
+    double shift;              /* c, the first elastic eigenvalue, or (2 pi up_to_hz/32)^2 if that is larger */
     int npair;
     struct synthesis_pair *pair; /* [npair] */
 };
