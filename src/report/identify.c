@@ -212,7 +212,7 @@ static void print_intervals(const struct screen *to, const struct result_head *h
                    "%.0f %% of tests",
                    wide, 100 * fit_p_value(fit));
     if (fit_is_inadequate(fit)) {
-        (void)fputs("the model is not adequate for these data: its parameters are biased by what it lacks; rotid diagnose ", out);
+        (void)fputs("the model is not adequate for these data, which biases its parameters; rotid diagnose ", out);
         name_cell(out, 0, head->deck ? head->deck : "DECK");
         (void)fputs(" looks for the cause\n", out);
     }
