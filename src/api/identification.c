@@ -78,6 +78,8 @@ static int identify(struct call *call, const struct states *given, const struct 
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
     status = numbering_warn(pool, states, found, fit, &call->environment, &call->notes);
+    if (!status)
+        status = exchange_warn(pool, states, found, fit, &call->environment, &call->notes);
     if (status && status != ROTID_STOP_CANCELLED) {
         rotid_fit_free(fit);
         return status;

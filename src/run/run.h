@@ -7,6 +7,7 @@
  *
  *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
  *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted; numbering_search: modes missed
+ *   ends             exchange.c (exchange_warn): two bearings of a symmetric rotor that frequencies do not tell apart
  *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
  *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
  *   mesh             identify.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
@@ -448,6 +449,13 @@ const char *numbering_text(struct pool *pool, const struct states *states, const
  * it; of beams alone, whose fits cost little. ROTID_OK, or as numbering_search. */
 int numbering_warn(struct pool *pool, const struct states *states, const struct identification *found,
                    const rotid_fit_result *fit, const rotid_environment *environment, struct message_list *notes);
+
+/* Warns of two unknowns of one kind (front.k, back.k) whose fitted values are clearly apart and, exchanged, fit as well: a fit
+ * started there ends within 1 of chi2 (times chi2 over dof above 1; objective within a tenth where the noise is unknown). Of
+ * states without fitted shapes and of beams, whose fits cost little, up to six pairs. found [nstate], fit: of these states.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int exchange_warn(struct pool *pool, const struct states *states, const struct identification *found, const rotid_fit_result *fit,
+                  const rotid_environment *environment, struct message_list *notes);
 
 /* ------------------------------------------------------------------------------------------------------------- synthesis */
 
