@@ -449,6 +449,7 @@ def from_nastran(checks, folder):
         "another element": (bulk().replace("ENDDATA", "CROD,9,1,1,2\nENDDATA"), "CROD: 1 of them"),
         "a grid that is not there": (bulk().replace("GRID,4,,1000.,0.,0.\n", ""), "GRID 4 is not there"),
         "a property that is not there": (bulk().replace("CBAR,1,1,", "CBAR,1,8,"), "CBAR 1: property 8 is not there"),
+        "a factor on all masses": (bulk().replace("BEGIN BULK", "BEGIN BULK\nPARAM,WTMASS,.00259"), "PARAM WTMASS: multiplies all masses by 0.00259"),
         "no bulk data": ("hello world, this is no deck\n", str(path)),
     }
     for name, (text, part) in wrong.items():
@@ -519,6 +520,9 @@ def from_abaqus(checks, folder):
     said = written(rotid.from_abaqus(path, units="MM"), deck)
     checks.close("from Abaqus in mm: frequencies", bending_hz(deck), bending_hz(hand), 1e-12)
     checks.true("from Abaqus: *BOUNDARY is said to be left out", any("BOUNDARY" in s for s in said), said)
+    path.write_text(ABAQUS.replace("2.1E11, 0.3", "2.1E11, 0.3, 20.\n1.6E11, 0.3, 500."))
+    said = written(rotid.from_abaqus(path), deck)
+    checks.true("from Abaqus: the temperature of E is said", any("of E at 2 temperatures the first one, 2.1e+11, is taken" in s for s in said), said)
     wrong = {
         "another element": (ABAQUS.replace("TYPE=B31, ELSET=LEFT", "TYPE=B32, ELSET=LEFT"), "line 8: *ELEMENT: TYPE=B32"),
         "a card that it does not know": (ABAQUS.replace("*STEP", "*EQUATION\n1\n*STEP"), "*EQUATION: has no place in a deck"),
@@ -532,6 +536,7 @@ def from_abaqus(checks, folder):
         "a material without density": (ABAQUS.replace("*DENSITY\n7850.,\n", ""), "line 17: *MATERIAL, NAME=STEEL has no *DENSITY"),
         "a material that is not there": (ABAQUS.replace("ELSET=LEFT, MATERIAL=STEEL", "ELSET=LEFT, MATERIAL=IRON"), "the material IRON is not there"),
         "a spring along the axis": (ABAQUS.replace("\n1\n1e6", "\n3\n1e6"), "acts on degree of freedom 3"),
+        "a spring by a curve": (ABAQUS.replace("ELSET=SUPPORT\n1\n1e6", "ELSET=SUPPORT, NONLINEAR\n1\n0., 0.\n1e3, 1e-3"), "expected a degree of freedom and one stiffness"),
         "a part": (ABAQUS.replace("*NODE", "*PART, NAME=P\n*NODE"), "line 3: *PART: has no place"),
         "no cards": ("nothing\n", "line 1: 'nothing' belongs to no card"),
     }

@@ -152,6 +152,8 @@ class Reader:
             e, g = value(card, line, fields, 0, "E1", 0), value(card, line, fields, 6, "G12", 0)
         else:
             e, nu = value(card, line, fields, 0, "E", 0), value(card, line, fields, 1, "Poisson's ratio", default=0.0)
+            if len(card.rows) > 1:
+                self.notes[f"line {line}: of E at {len(card.rows)} temperatures the first one, {e:g}, is taken"] = None
             if not -1 < nu <= 0.5:
                 card.wrong(f"Poisson's ratio is {nu:g}, expected one above -1 and at most 0.5", line)
             g = e / (2 * (1 + nu))
@@ -195,8 +197,8 @@ class Reader:
         self.masses.append((card, card.need("ELSET"), np.array([[i[0], i[3], i[4]], [i[3], i[1], i[5]], [i[4], i[5], i[2]]])))
 
     def spring(self, card):
-        if len(card.rows) < 2:
-            card.wrong("expected a degree of freedom and a stiffness")
+        if "NONLINEAR" in card.options or len(card.rows) != 2:
+            card.wrong("expected a degree of freedom and one stiffness")
         dof = whole(card, card.rows[0][0], card.rows[0][1][0], "the degree of freedom")
         stiffness = value(card, *card.rows[1], 0, "the stiffness", 0) * self.scale["modulus"] * self.scale["length"]
         self.springs.append((card, card.need("ELSET"), dof, stiffness))

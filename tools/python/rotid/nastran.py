@@ -36,6 +36,9 @@ def from_nastran(source, units="SI"):
     left = sorted(set(model.card_count) & {"SPC", "SPC1", "SPCADD", "MPC"})
     if left:
         notes[f"{', '.join(left)} are left out: state supports as *SPRING"] = None
+    factor = model.params["WTMASS"].values[0] if "WTMASS" in model.params else 1
+    if factor != 1:
+        refuse(source, "PARAM WTMASS", f"multiplies all masses by {factor}, expected masses and densities without a factor")
     place = {}
     for node, grid in model.nodes.items():
         try:
