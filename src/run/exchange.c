@@ -32,8 +32,8 @@ static int fits_as_well(const rotid_fit_result *fit, const rotid_fit_result *oth
 int exchange_warn(struct pool *pool, const struct states *states, const struct identification *found, const rotid_fit_result *fit,
                   const rotid_environment *environment, struct message_list *notes)
 {
-    int all = states_modes(states, states->nstate), n = fit->n, tried = 0, *number = POOL_ARRAY(pool, int, 2 * all),
-        *holdout = number + all;
+    int all = states_modes(states, states->nstate), n = fit->n, tried = 0, *number = POOL_ARRAY(pool, int, all),
+        *holdout = POOL_ARRAY(pool, int, all);
     rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n);
     struct states exchanged = *states;
     rotid_fit_options options = states->state->job.options.fit;
@@ -41,7 +41,7 @@ int exchange_warn(struct pool *pool, const struct states *states, const struct i
                                      .cancelled = environment ? environment->cancelled : NULL,
                                      .context = environment ? environment->context : NULL,
                                      .allocator = environment ? environment->allocator : NULL};
-    if (!number || !bounds)
+    if (!number || !holdout || !bounds)
         return ROTID_ERROR_MEMORY;
     if (fit->status == ROTID_STOP_CANCELLED || states->state->job.options.solid || states->more || n != states->nparameter)
         return ROTID_OK;
