@@ -24,10 +24,9 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
     message_open(&refusals, pool);
     if (d->result.verdict.sentence && d->base.fit && !d->result.before)
         (void)deck_write_extended(pool, d, &refusals, &text);
-    for (size_t i = 0; i < refusals.count && !text; i++) { /* the diagnosis stands without a deck */
-        const rotid_message *m = &refusals.item[i];
-        message_add(&call->notes, SEVERITY_WARNING, m->file, m->line, m->column, "%s", m->text);
-    }
+    for (size_t i = 0; i < refusals.count && !text;
+         i++) /* the diagnosis stands without a deck; what has a place was said before */
+        message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", refusals.item[i].text);
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
     if (compare_runup(call, states, &d->judged, made->base) || compare_runup(call, states, &d->extended_states, made->extended))
