@@ -343,7 +343,7 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
 }
 
 /* Of a measured dynamic stiffness k - m w^2 + i w c the mass takes its share: at the frequency of the spin, where critical speeds
- * and responses are, nothing depends on it. */
+ * and responses are, nothing depends on it but what is interpolated between the rows, k and c. */
 static void split_mass(const double m[2], struct coefficients *pedestal)
 {
     for (int i = 0; i < pedestal->count; i++)
