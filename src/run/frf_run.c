@@ -232,7 +232,7 @@ static int frf_place_points(struct pool *pool, const struct job *job, int parame
     if (!status)
         status = model_open(pool, job->models, &rotor, parameters ? job->unknowns.nparameter : 0, job->unknowns.parameter, 1,
                             model, &failed);
-    for (int i = 0; i < *npoint && !status; i++)
+    for (int i = 0; !status && i < *npoint; i++)
         dof[i] = model_lateral_dof(model, point[i].z);
     for (int i = 0; i < out->nrow && !status; i++) {
         struct frf_row *row = &out->row[i];
