@@ -63,6 +63,13 @@ int test_main(int argc, char **argv);
 void set_blas_threads(int threads);
 int blas_threads(void);
 
+/* Sweeps of whole diagnoses go in steps so many times as large where each is ten times as slow. */
+#ifdef __SANITIZE_ADDRESS__
+#define SPARSE 3
+#else
+#define SPARSE 1
+#endif
+
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)
 

@@ -17,12 +17,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-#ifdef __SANITIZE_ADDRESS__ /* ten times as slow */
-#define SPARSE 3
-#else
-#define SPARSE 1
-#endif
-
 struct host {
     int stop_at, once; /* the poll that says so; once: the next ones do not */
     const char *stage; /* NULL, or polls are counted from the first time that this is told */

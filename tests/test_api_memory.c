@@ -137,12 +137,6 @@ static long run_once(const rotid_deck *deck, attempt try_it, void (*release)(voi
 
 #define LAST 3 /* that are made to fail, each behind nearly all of the work */
 
-#ifdef __SANITIZE_ADDRESS__ /* ten times as slow */
-#define SPARSE 3
-#else
-#define SPARSE 1
-#endif
-
 /* Every n up to `early`, then further apart by `factor`, and the last ones. */
 static void sweep(const char *name, const rotid_deck *deck, attempt try_it, void (*release)(void *result), long early,
                   double factor)

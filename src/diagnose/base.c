@@ -206,22 +206,11 @@ const char *base_bound_side(const struct engine *engine, int p)
 /* Numbers and held-out modes of all states, one behind the other, as the base has them. */
 static int take_numbers(struct engine *engine)
 {
-    const struct states *states = &engine->states;
-    int modes = states_modes(states, states->nstate);
     engine->number = engine->out->base.compared.number;
     engine->holdout = engine->job->measurement.holdout;
-    if (states->nstate == 1)
+    if (engine->states.nstate == 1)
         return ROTID_OK;
-    engine->number = POOL_ARRAY(engine->pool, int, modes);
-    engine->holdout = POOL_ARRAY(engine->pool, int, modes);
-    if (!engine->number || !engine->holdout)
-        return ROTID_ERROR_MEMORY;
-    for (int s = 0, at = 0; s < states->nstate; s++)
-        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
-            engine->number[at] = engine->out->state_base[s].compared.number[k];
-            engine->holdout[at] = states->state[s].job.measurement.holdout[k];
-        }
-    return ROTID_OK;
+    return identify_numbers(engine->pool, &engine->states, engine->out->state_base, &engine->number, &engine->holdout);
 }
 
 /* Measured modes keep the numbers that they have beside the base: a spring that a candidate adds or stiffens makes its suspension

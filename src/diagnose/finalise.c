@@ -350,7 +350,6 @@ static const char *change_sentence(const struct engine *engine, const char *caus
 }
 
 #define FAULTS_TOLD 3
-#define HEAVIER     3 /* standard deviations between the weight and that of the model */
 
 /* What to look at first where nothing of the catalogue explains the data: the weight shows wrong diameters, bores, densities. */
 static const char *weigh_first(const struct engine *engine)
@@ -359,7 +358,7 @@ static const char *weigh_first(const struct engine *engine)
     double mass = engine->out->base.mass.mass;
     if (!(weighed->mass_std > 0))
         return pool_format(engine->pool, " Weigh the rotor first: the model has %.4g kg.", mass);
-    if (fabs(mass - weighed->mass) > HEAVIER * weighed->mass_std)
+    if (fabs(mass - weighed->mass) > ANOTHER_MASS * weighed->mass_std)
         return pool_format(engine->pool,
                            " The model has %.4g kg and the rotor %.4g kg: correct diameters, bores and densities first.", mass,
                            weighed->mass);

@@ -225,26 +225,12 @@ int refit_until(struct pool *pool, const struct states *states, const int *numbe
                 const rotid_environment *environment, rotid_fit_result **fit)
 {
     rotid_fit_options options = states->state->job.options.fit;
-    const rotid_environment quiet = {.size = sizeof quiet,
-                                     .cancelled = environment ? environment->cancelled : NULL,
-                                     .context = environment ? environment->context : NULL,
-                                     .allocator = environment ? environment->allocator : NULL};
-    options.baseline = 0;
     options.max_iterations = 40;
     options.gradient_tolerance = REFIT_GRADIENT;
     options.step_tolerance = REFIT_STEP;
     options.decrease_tolerance = REFIT_DECREASE;
     options.objective_tolerance = objective;
-    struct pool scratch; /* the model of a fit is not needed behind it */
-    pool_open(&scratch, pool->allocator);
-    int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, fit);
-    pool_close(&scratch);
-    if (!status && (*fit)->status == ROTID_STOP_CANCELLED) {
-        rotid_fit_free(*fit);
-        *fit = NULL;
-        return ROTID_STOP_CANCELLED;
-    }
-    return status;
+    return identify_fit_states(pool, states, number, holdout, &options, environment, fit);
 }
 
 int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,

@@ -96,8 +96,6 @@ struct table *table_of_states(struct pool *pool, const rotid_identification *fit
     return table;
 }
 
-#define HEAVIER 3 /* standard deviations: beyond, the model has another mass than the rotor */
-
 struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed *list)
 {
     struct table *t = table_open(pool, "WEIGHED: mass and centre of mass beside the model's");
@@ -110,7 +108,7 @@ struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed
         number_column(t, "std", NULL, SHOW_DIGITS(2), list[i].std);
         number_column(t, "model", NULL, SHOW_DIGITS(6), list[i].predicted);
         number_column(t, "z", NULL, SHOW_SIGNED(1), list[i].z);
-        if (!centre && fabs(list[i].z) > HEAVIER && t)
+        if (!centre && fabs(list[i].z) > ANOTHER_MASS && t)
             t->note = pool_format(pool,
                                   "the model is %.2g %% too %s: correct diameters, bores and densities first (rotid check prints "
                                   "the mass of each group)",

@@ -32,28 +32,16 @@ static int fits_as_well(const rotid_fit_result *fit, const rotid_fit_result *oth
 int exchange_warn(struct pool *pool, const struct states *states, const struct identification *found, const rotid_fit_result *fit,
                   const rotid_environment *environment, struct message_list *notes)
 {
-    int all = states_modes(states, states->nstate), n = fit->n, tried = 0, *number = POOL_ARRAY(pool, int, all),
-        *holdout = POOL_ARRAY(pool, int, all);
+    int n = fit->n, tried = 0, *number, *holdout, status = identify_numbers(pool, states, found, &number, &holdout);
     rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n);
     struct states exchanged = *states;
-    rotid_fit_options options = states->state->job.options.fit;
-    const rotid_environment quiet = {.size = sizeof quiet,
-                                     .cancelled = environment ? environment->cancelled : NULL,
-                                     .context = environment ? environment->context : NULL,
-                                     .allocator = environment ? environment->allocator : NULL};
-    if (!number || !holdout || !bounds)
+    if (status || !bounds)
         return ROTID_ERROR_MEMORY;
     if (fit->status == ROTID_STOP_CANCELLED || states->state->job.options.solid || states->more || n != states->nparameter)
         return ROTID_OK;
-    for (int s = 0, at = 0; s < states->nstate; s++) {
+    for (int s = 0; s < states->nstate; s++)
         if (found[s].shapes_fitted)
             return ROTID_OK;
-        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
-            number[at] = found[s].compared.number[k];
-            holdout[at] = states->state[s].job.measurement.holdout[k];
-        }
-    }
-    options.baseline = 0;
     exchanged.bounds = bounds;
     for (int p = 0; p < n; p++)
         for (int q = p + 1; q < n; q++) {
@@ -66,20 +54,16 @@ int exchange_warn(struct pool *pool, const struct states *states, const struct i
             for (int i = 0; i < n; i++)
                 if (fit->x[i] > bounds[i].lower && fit->x[i] < bounds[i].upper)
                     bounds[i].start = i == p ? y : i == q ? x : fit->x[i];
-            struct pool scratch;
-            rotid_fit_result *other = NULL;
-            pool_open(&scratch, pool->allocator);
-            int status = identify_fit_states(&scratch, &exchanged, number, holdout, &options, &quiet, &other);
-            pool_close(&scratch);
-            int well = !status && other && other->status != ROTID_STOP_CANCELLED && fits_as_well(fit, other, p, q);
-            if (well)
+            rotid_fit_result *other;
+            status = identify_fit_states(pool, &exchanged, number, holdout, &states->state->job.options.fit, environment, &other);
+            if (!status && fits_as_well(fit, other, p, q))
                 message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                             "%s and %s fit as well if they are exchanged: frequencies alone do not tell the ends of a symmetric "
                             "rotor apart; shapes do, or a known mass near one end (*STATE)",
                             a->name, b->name);
             rotid_fit_free(other);
-            if (status == ROTID_ERROR_MEMORY)
-                return status;
+            if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED) /* the fit is a result all the same */
+                return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
         }
     return ROTID_OK;
 }

@@ -193,14 +193,43 @@ static int fit_states(struct pool *pool, const struct states *states, const roti
 }
 
 int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
-                        const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
+                        const rotid_fit_options *given, const rotid_environment *environment, rotid_fit_result **fit)
 {
-    struct paired *paired = POOL_ARRAY(pool, struct paired, states->nstate);
-    if (!paired)
-        return ROTID_ERROR_MEMORY;
-    for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++)
+    const rotid_environment quiet = {.size = sizeof quiet,
+                                     .cancelled = environment ? environment->cancelled : NULL,
+                                     .context = environment ? environment->context : NULL,
+                                     .allocator = environment ? environment->allocator : NULL};
+    rotid_fit_options options = *given;
+    struct pool scratch; /* the models of a fit are not needed behind it */
+    options.baseline = 0;
+    *fit = NULL;
+    pool_open(&scratch, pool->allocator);
+    struct paired *paired = POOL_ARRAY(&scratch, struct paired, states->nstate);
+    for (int s = 0, mode = 0; s < states->nstate && paired; mode += states->state[s].job.measurement.nmode, s++)
         paired[s] = (struct paired){number + mode, holdout + mode, NULL};
-    return fit_states(pool, states, states->bounds, paired, options, environment, fit);
+    int status = paired ? fit_states(&scratch, states, states->bounds, paired, &options, &quiet, fit) : ROTID_ERROR_MEMORY;
+    pool_close(&scratch);
+    if (status || (*fit)->status != ROTID_STOP_CANCELLED)
+        return status;
+    rotid_fit_free(*fit);
+    *fit = NULL;
+    return ROTID_STOP_CANCELLED;
+}
+
+int identify_numbers(struct pool *pool, const struct states *states, const struct identification *found, int **number,
+                     int **holdout)
+{
+    int all = states_modes(states, states->nstate);
+    *number = POOL_ARRAY(pool, int, all);
+    *holdout = POOL_ARRAY(pool, int, all);
+    if (!*number || !*holdout)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, at = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
+            (*number)[at] = found[s].compared.number[k];
+            (*holdout)[at] = states->state[s].job.measurement.holdout[k];
+        }
+    return ROTID_OK;
 }
 
 /* Also while NLopt ran: the fit itself is complete then. */

@@ -97,21 +97,12 @@ static int attempt(struct pool *pool, const struct states *states, const int *nu
                    const rotid_environment *environment, double *chi2)
 {
     rotid_fit_options options = states->state->job.options.fit;
-    const rotid_environment quiet = {.size = sizeof quiet,
-                                     .cancelled = environment ? environment->cancelled : NULL,
-                                     .context = environment ? environment->context : NULL,
-                                     .allocator = environment ? environment->allocator : NULL};
-    struct pool scratch;
-    rotid_fit_result *fit = NULL;
-    options.baseline = 0;
+    rotid_fit_result *fit;
     options.max_iterations = 40;
-    pool_open(&scratch, pool->allocator);
-    int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, &fit);
-    pool_close(&scratch);
-    int cancelled = fit && fit->status == ROTID_STOP_CANCELLED;
-    *chi2 = fit && !cancelled ? 2 * fit->objective : INFINITY;
+    int status = identify_fit_states(pool, states, number, holdout, &options, environment, &fit);
+    *chi2 = fit ? 2 * fit->objective : INFINITY;
     rotid_fit_free(fit);
-    return cancelled ? ROTID_STOP_CANCELLED : status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    return status == ROTID_STOP_CANCELLED || status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
 int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
@@ -160,19 +151,14 @@ const char *numbering_text(struct pool *pool, const struct states *states, const
 int numbering_warn(struct pool *pool, const struct states *states, const struct identification *found,
                    const rotid_fit_result *fit, const rotid_environment *environment, struct message_list *notes)
 {
-    int all = states_modes(states, states->nstate), *number = POOL_ARRAY(pool, int, 2 * all), *holdout = number + all;
+    int *number, *holdout, status = identify_numbers(pool, states, found, &number, &holdout);
     struct renumbering best;
-    if (!number)
-        return ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
     if (fit->status == ROTID_STOP_CANCELLED || states->state->job.options.solid || states->more || !fit->n || fit->dof < 1 ||
         (isfinite(fit->chi2) && chi_square_tail(fit->chi2, fit->dof) > UNEXPLAINED))
         return ROTID_OK;
-    for (int s = 0, at = 0; s < states->nstate; s++)
-        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
-            number[at] = found[s].compared.number[k];
-            holdout[at] = states->state[s].job.measurement.holdout[k];
-        }
-    int status = numbering_search(pool, states, number, holdout, environment, &best);
+    status = numbering_search(pool, states, number, holdout, environment, &best);
     if (status == ROTID_STOP_CANCELLED) /* the fit is a result all the same */
         return ROTID_OK;
     if (status || !(best.chi2 < NUMBERING_CLEAR * NUMBERING_CLEAR * 2 * fit->objective))

@@ -91,6 +91,8 @@ struct weighed {
     double mass, mass_std, centre, centre_std;
 };
 
+#define ANOTHER_MASS 3 /* standard deviations: beyond, the model has another mass than the rotor */
+
 /* What was measured, as it is judged: the corrections are applied already. */
 struct job_measurement {
     int nmode;
@@ -399,9 +401,14 @@ struct identification {
 };
 
 /* One fit of several states together with the pairing number and the modes holdout left out, [nmode] of all one behind the other;
- * no notes, no spectrum. Statuses of rotid_fit and model_open. */
+ * no notes, no spectrum, no progress, no NLopt; nothing of it stays on the pool. ROTID_STOP_CANCELLED without a fit; statuses of
+ * rotid_fit and model_open. */
 int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                         const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit);
+
+/* Its pairing, as found [nstate] has it: *number and *holdout on the pool. ROTID_OK or ROTID_ERROR_MEMORY. */
+int identify_numbers(struct pool *pool, const struct states *states, const struct identification *found, int **number,
+                     int **holdout);
 
 enum {
     IDENTIFY_BASELINE = 1, /* NLopt as well */
