@@ -6,10 +6,13 @@
 #include <string.h>
 
 #include "fit/fit.h"
+#include "linalg/linalg.h"
 
 #define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
 #define UNIT        5    /* the least factor between frequencies that a unit explains is 2 pi */
 #define UNEXPLAINED 1e-3 /* p-value of a misfit that makes other numbers worth a try */
+#define STEP        1e-3 /* of ln x for a derivative of ln f, whose error is its square */
+#define ASSUMED     0.01 /* noise of frequencies where the deck states none */
 
 /* ln of the mean factor of measured over computed frequencies: the partner of mode n is mode n + above of the spectrum */
 static double mean_factor(const struct job *job, const struct spectrum *spectrum, int above)
@@ -105,14 +108,115 @@ static int attempt(struct pool *pool, const struct states *states, const int *nu
     return status == ROTID_STOP_CANCELLED || status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
+/* What the frequencies of all modes that numbers reach do near the start, so that a numbering costs no fit: ln f is nearly linear
+ * in ln x, ln f_j(h) = ln f_j + sum_p slope_jp h_p, h in shares of the width of a parameter's bounds. */
+struct outlook {
+    int n, *first, *count; /* parameters; of each state the row of its mode 1, and its modes */
+    double *frequency;     /* [rows] ln f, NaN where the model has none */
+    double *slope;         /* [n * rows] */
+};
+
+/* h = 1 of parameter p, and x at a share of it */
+static double at_share(const rotid_parameter *bound, double h)
+{
+    return bound->lower > 0 ? bound->start * pow(bound->upper / bound->lower, h)
+                            : bound->start + h * (bound->upper - bound->lower);
+}
+
+static int log_frequencies(const rotid_allocator *allocator, const struct state *state, const double *x, int count, double *out)
+{
+    const struct job *job = &state->job;
+    struct spectrum s;
+    struct pool scratch;
+    int guyan = job->options.fit.reduction != ROTID_REDUCTION_NONE;
+    pool_open(&scratch, allocator);
+    double *own = state_values(&scratch, state, x);
+    int status =
+        !own ? ROTID_ERROR_MEMORY
+             : spectrum_compute_parts(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, own,
+                                      guyan ? job->options.fit.reduction : ROTID_GUYAN, count, guyan ? SPECTRUM_REDUCED : 0, &s);
+    for (int j = 0; j < count; j++)
+        out[j] = status || j >= s.count ? NAN : log(guyan ? s.reduced_hz[j] : s.full_hz[j]);
+    pool_close(&scratch);
+    return status;
+}
+
+static int look_ahead(struct pool *pool, const struct states *states, const int *number, struct outlook *o)
+{
+    int rows = 0, n = states->nparameter, status = ROTID_OK;
+    double *x = POOL_ARRAY(pool, double, n);
+    *o = (struct outlook){n, POOL_ARRAY(pool, int, states->nstate), POOL_ARRAY(pool, int, states->nstate), NULL, NULL};
+    if (!x || !o->first || !o->count)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < states->nstate; rows += o->count[s++]) {
+        o->first[s] = rows;
+        o->count[s] = 0;
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, number++)
+            o->count[s] = *number + MOST_SHIFT > o->count[s] ? *number + MOST_SHIFT : o->count[s];
+    }
+    o->frequency = POOL_ARRAY(pool, double, rows);
+    o->slope = POOL_ARRAY(pool, double, (size_t)n *(size_t)rows);
+    if (!o->frequency || !o->slope)
+        return ROTID_ERROR_MEMORY;
+    for (int p = -1; p < n && !status; p++) {
+        for (int q = 0; q < n; q++)
+            x[q] = at_share(&states->bounds[q], q == p ? STEP : 0);
+        for (int s = 0; s < states->nstate && !status; s++)
+            status = log_frequencies(pool->allocator, &states->state[s], x, o->count[s],
+                                     (p < 0 ? o->frequency : o->slope + (ptrdiff_t)p * rows) + o->first[s]);
+        for (int j = 0; j < rows && p >= 0; j++)
+            o->slope[j + (ptrdiff_t)p * rows] = (o->slope[j + (ptrdiff_t)p * rows] - o->frequency[j]) / STEP;
+    }
+    return status;
+}
+
+/* min over h of sum ((ln f~ - ln f(h))/std)^2 + |h|^2; INFINITY where the model has no such modes. work: [m * n + m + n +
+ * least_squares_workspace] */
+static double outlook_of(const struct outlook *o, const struct states *states, const int *number, const int *holdout,
+                         double *work)
+{
+    int m = states_modes(states, states->nstate), n = o->n, at = 0;
+    ptrdiff_t rows = o->first[states->nstate - 1] + o->count[states->nstate - 1];
+    double *jacobian = work, *r = jacobian + (ptrdiff_t)m * n, *h = r + m, *one = h + n, sum = 0, damping = 0, length;
+    for (int s = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
+            const struct job_measurement *measured = &states->state[s].job.measurement;
+            ptrdiff_t row = o->first[s] + number[at] - 1;
+            double std = measured->frequency_std[k], weight = holdout[at] ? 0 : 1 / (std > 0 ? std : ASSUMED);
+            if (!isfinite(o->frequency[row]))
+                return INFINITY;
+            r[at] = weight * (o->frequency[row] - log(measured->frequency_hz[k]));
+            for (int p = 0; p < n; p++)
+                jacobian[at + (ptrdiff_t)p * m] = weight * o->slope[row + p * rows];
+        }
+    for (int p = 0; p < n; p++)
+        one[p] = 1;
+    if (n && least_squares_damped_step(m, n, jacobian, r, one, one, INFINITY, &damping, h, &length, one + n))
+        return INFINITY;
+    for (int i = 0; i < m; i++) {
+        for (int p = 0; p < n; p++)
+            r[i] += jacobian[i + (ptrdiff_t)p * m] * h[p];
+        sum += r[i] * r[i];
+    }
+    for (int p = 0; p < n; p++)
+        sum += h[p] * h[p];
+    return sum;
+}
+
 int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                      const rotid_environment *environment, struct renumbering *best)
 {
-    int all = states_modes(states, states->nstate), status = ROTID_OK, *trial = POOL_ARRAY(pool, int, all);
-    double chi2;
+    int all = states_modes(states, states->nstate), n = states->nparameter, *trial = POOL_ARRAY(pool, int, all);
+    struct outlook outlook;
+    double chi2,
+        *work = POOL_ARRAY(pool, double, (size_t)all *(size_t)n + (size_t)all + 2 * (size_t)n + least_squares_workspace(all, n));
     *best = (struct renumbering){.chi2 = INFINITY, .number = POOL_ARRAY(pool, int, all)};
-    if (!trial || !best->number)
+    if (!trial || !best->number || !work)
         return ROTID_ERROR_MEMORY;
+    int status = look_ahead(pool, states, number, &outlook);
+    if (status)
+        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    double as_it_is = outlook_of(&outlook, states, number, holdout, work);
     for (int s = 0, at = 0; s < states->nstate; at += states->state[s].job.measurement.nmode, s++) {
         const struct job_measurement *measured = &states->state[s].job.measurement;
         if (measured->shape || measured->paired)
@@ -123,7 +227,7 @@ int numbering_search(struct pool *pool, const struct states *states, const int *
                 memcpy(trial, number, (size_t)all * sizeof *trial);
                 for (int k = 0; k < measured->nmode; k++)
                     whole &= (trial[at + k] = renumbered(from, shift, k, number + at)) > 0;
-                if (!whole)
+                if (!whole || !(outlook_of(&outlook, states, trial, holdout, work) < as_it_is))
                     continue;
                 status = attempt(pool, states, trial, holdout, environment, &chi2);
                 if (status || chi2 >= best->chi2)

@@ -445,7 +445,8 @@ struct renumbering {
 };
 
 /* The one of least chi2 among shifts by up to 3 of the modes of each state without shapes, `number` being those of all states,
- * and the states started where the fits are to begin. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
+ * and the states started where the fits are to begin. Fits only those whose frequencies, to first order in ln x about the start,
+ * come nearer than those of `number`; shift 0 where there is none. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
 int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                      const rotid_environment *environment, struct renumbering *best);
 
