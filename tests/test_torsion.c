@@ -228,6 +228,28 @@ POOL_TEST(tension_of_rods_and_pressure_of_the_core_balance)
     assert_close(energy[2] - energy[1], (1.2 * 1.2 - 1) * gyration * gyration * (8 * tension + 12 * 2.1e11 * rods), 1e-9, 0);
 }
 
+/* Fibres under the stress F/S that turn with the section pull back with F I_p/S (Wagner), which is more than G J of a thin strip:
+ * a free one has w = (k pi/L) sqrt((G J + F I_p/S)/(rho I_p)), in a strip on edge as in a flat one. */
+POOL_TEST(tension_stiffens_a_strip_by_its_polar_inertia)
+{
+    const double height[2] = {0.1, 0.002}, force[3] = {0, 4e4, -300};
+    for (int turned = 0; turned < 2; turned++)
+        for (int i = 0; i < 3; i++) {
+            struct section section;
+            double hz[3], width = height[!turned];
+            section_rectangular(height[turned], width, &section);
+            read_frequencies(pool_format(&test_pool,
+                                         STEEL "*BEAM, NAME=strip, MATERIAL=steel\n1, %g, %g, 400\n*PRELOAD, GROUP=strip\n%g\n",
+                                         height[turned], width, force[i]),
+                             ROTID_TORSION, 3, hz);
+            double polar = (0.1 * 0.1 + 0.002 * 0.002) / 12;
+            for (int k = 1; k <= 3; k++)
+                assert_close(hz[k - 1],
+                             k / 2.0 * sqrt((8e10 * section.torsion + force[i] * polar) / (7850 * polar * section.stiff_area)),
+                             2e-5 * k * k, 0);
+        }
+}
+
 /* ---- derivatives */
 
 static const char *const names[] = {"left.E",   "left.nu", "core.E",       "core.G",  "core.rho",

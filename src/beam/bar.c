@@ -29,19 +29,21 @@ static void add_part(const struct beam *beam, const struct material *of, const s
     sum->mass += of->rho * (twist ? section->polar : section->mass_area) * (f ? f->rho : 1);
 }
 
-/* sum J/sum S of an element, by which an axial force stiffens torsion */
+/* sum I_p/sum S of the stiff parts of an element, by which an axial force stiffens torsion (Wagner): the fibres at a distance r
+ * pull with r^2 dS, also in a rectangle, whose Saint-Venant constant is far below I_p where it is thin */
 static double fibres(const struct beam *beam, int e)
 {
     const struct section_part *part;
     struct effect_field *factor;
-    double torsion = 0, area = 0;
+    double polar = 0, area = 0;
     if (beam->type != MODE_TORSION || beam->elastic_only)
         return 0;
     for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
-        torsion += part[i].section.torsion;
-        area += part[i].section.stiff_area;
+        const struct section *section = &part[i].section;
+        polar += section->rectangular ? section->polar : section->torsion;
+        area += section->stiff_area;
     }
-    return torsion / area;
+    return polar / area;
 }
 
 static struct bar axis_bar(const struct beam *beam, int e)

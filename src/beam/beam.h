@@ -173,7 +173,7 @@ void beam_rigid_motions(const struct beam *beam, double *u);
 
 /* Torsion or axial motion of the rotor: one degree of freedom a node of the axis, two-node bar elements
  *   k = c/l [1 -1; -1 1],  m = j l/6 [2 1; 1 2],
- * of torsion c = sum G J + F sum J/sum S and j = sum rho I_p over the layers, axially c = sum E S and j = sum rho S. F is the
+ * of torsion c = sum G J + F sum I_p/sum S and j = sum rho I_p over the layers, axially c = sum E S and j = sum rho S. F is the
  * axial force that turns with the fibres. A bundle of tie rods is one such element between its ends, whose rods follow them:
  *   torsion  c = N G J + N T R^2 + 12 N E I R^2/L^2, j = N rho S (R^2 + d^2/8);  axially c = N E S, j = N rho S.
  * Bars move with their centre. Disks have their polar inertia or their mass, springs their torsional or axial stiffness. Joints,
