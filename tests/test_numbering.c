@@ -96,6 +96,28 @@ UNIT_TEST(modes_at_rest_are_never_counted)
     assert_close(s.full_hz[0], sqrt(1000 / (7850 * PI * 0.05 * 0.05 / 4)) / (2 * PI), 1e-4, 0);
 }
 
+/* The tension of rods and the pressure between their ends do no work in a rigid motion, but for rounding, which grows with the
+ * stiffness of short elements and is no support. */
+UNIT_TEST(balanced_axial_forces_are_no_support)
+{
+    struct message_list messages;
+    struct spectrum s;
+    for (int i = 0; i < 12; i++) {
+        struct job job =
+            job_of(pool_format(&test_pool,
+                               "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                               "*SHAFT, NAME=core, MATERIAL=steel\n%g, 0.05, 0, %d\n"
+                               "*SHAFT, NAME=end, MATERIAL=steel\n1, 0.01, 0, 100\n*TIEROD, NAME=t, MATERIAL=steel, "
+                               "FROM=core.start, TO=core.end, MODEL=%s\n3, 0.004, 0.04, %g\n"
+                               "*MODES, COUNT=ALL\n1, 31\n",
+                               i % 2 ? 0.05 : 0.1, i % 3 ? 100 : 200, i % 4 < 2 ? "TUBE" : "RODS", i < 6 ? 12000.0 : -12000.0),
+                   &messages);
+        assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_REDUCTION_NONE, 1, &s), ROTID_OK);
+        assert_int_equal(s.nrigid, 2);
+        assert_true(s.full_hz[0] > 20);
+    }
+}
+
 /* A state on bearings and a free one, each with its own count. */
 UNIT_TEST(states_count_for_themselves)
 {

@@ -1,5 +1,6 @@
 #include "model/model.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -181,6 +182,17 @@ static void take_rigid_part(int n, int count, const double *r, const double *mr,
         elastic[i] = shape[i] - a * r[i] - b * r[n + i];
 }
 
+/* What u'K u may lose in the rounding of the entries of K, where u is a rigid motion: their terms cancel */
+static double rounding_of(const rotid_matrix *k, const double *u)
+{
+    double sum = 0;
+    for (int i = 0; i < k->n; i++)
+        sum += fabs(k->band[(ptrdiff_t)i * (k->kd + 1)]) * u[i] * u[i];
+    for (int i = 0; i < k->nfar; i++)
+        sum += fabs(k->block[(ptrdiff_t)i * (k->nfar + 1)]) * u[k->far[i]] * u[k->far[i]];
+    return DBL_EPSILON * sum;
+}
+
 #define ROUNDING   1e-2 /* of the first elastic eigenvalue: half of a per cent of its frequency */
 #define NO_SUPPORT 1e-9 /* of the same, in the energy of a rigid motion: 3e-5 of its frequency is at rest */
 
@@ -235,10 +247,11 @@ static int count_rigid(struct pool *pool, struct discrete *discrete, const doubl
                 return ROTID_ERROR_STIFFNESS;
             break;
         }
-        for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one */
+        for (int i = 0; i < n && all; i++) /* what is left is the motion on the supports: without any K is the elastic one, but
+                                              for axial forces that balance each other within rounding */
             elastic[i] = phi[i + (ptrdiff_t)j * n] - elastic[i];
-        if (all &&
-            matrix_product(&k, elastic, elastic, work) - matrix_product(&elastic_k, elastic, elastic, work) > NO_SUPPORT * first)
+        if (all && matrix_product(&k, elastic, elastic, work) - matrix_product(&elastic_k, elastic, elastic, work) >
+                       fmax(NO_SUPPORT * first, rounding_of(&k, elastic)))
             break;
         (*nrigid)++;
     }
