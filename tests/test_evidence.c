@@ -320,7 +320,7 @@ POOL_TEST(a_size_at_its_bound)
     open_bar(1);
     double nothing = evidence(NULL, NULL, NULL, x);
     base = states_of(&job, &alone);
-    assert_status(scan_run(&test_pool, &base, number, holdout, x, &scan), ROTID_OK);
+    assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_ALL, &scan), ROTID_OK);
     for (int i = 0; i < scan.ncandidate; i++) {
         const struct scan_candidate *c = &scan.candidate[i];
         for (int k = c->first; k < c->first + c->count && !strcmp(c->cause->id, "added_mass"); k++)
@@ -334,6 +334,35 @@ POOL_TEST(a_size_at_its_bound)
     open_likelihood(&states.state->job, &l);
     check("a mass, by its columns", nothing + sum, over_grid(&l, 3, axis));
     rotid_fit_free(fit);
+}
+
+/* Something else needs the columns of its fields alone, one width of a zone at each place: the same as among all. */
+POOL_TEST(fields_have_the_columns_of_a_whole_scan)
+{
+    double x[8];
+    struct states base;
+    struct state alone;
+    struct scan whole, fields;
+    int compared = 0;
+    open_bar(1);
+    (void)evidence(NULL, NULL, NULL, x);
+    base = states_of(&job, &alone);
+    assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_ALL, &whole), ROTID_OK);
+    assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_FIELDS, &fields), ROTID_OK);
+    assert_int_equal(fields.ncandidate, 2);
+    for (int i = 0; i < fields.nitem; i++)
+        for (int k = 0; k < whole.nitem; k++) {
+            const struct scan_item *one = &fields.item[i], *other = &whole.item[k];
+            if (fields.candidate[one->candidate].cause != whole.candidate[other->candidate].cause ||
+                memcmp(&one->effect.value, &other->effect.value, sizeof one->effect.value) != 0)
+                continue;
+            for (int j = 0; j < whole.nrow; j++)
+                assert_close(fields.column[j + (ptrdiff_t)i * whole.nrow], whole.column[j + (ptrdiff_t)k * whole.nrow], 1e-12,
+                             1e-12);
+            compared++;
+        }
+    assert_int_equal(compared, fields.nitem);
+    assert_true(2 * fields.nitem < whole.nitem);
 }
 
 /* ---- faults of channels: put right by faults.c, beside integrals over data that are put right here */
@@ -354,7 +383,7 @@ static double fault_evidence(const char *id, int sensor, int other, struct candi
     int found = 0, at = 0, count = 0;
     assert_status(refit_until(&test_pool, &states, number, holdout, 0, NULL, &fit), ROTID_OK);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
-    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, &scan), ROTID_OK);
+    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, SCAN_ALL, &scan), ROTID_OK);
     assert_status(faults_propose(&test_pool, &states, number, holdout, fit, data, &scan, 200, list, &found), ROTID_OK);
     while (at < found &&
            (strcmp(list[at].fault.cause->id, id) != 0 || list[at].fault.sensor[0] != sensor || list[at].fault.sensor[1] != other))
@@ -633,7 +662,7 @@ static double hidden_evidence(const char *id, struct refit *refit)
     int at = 0;
     assert_status(refit_until(&test_pool, &states, number, holdout, 0, NULL, &fit), ROTID_OK);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
-    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, &scan), ROTID_OK);
+    assert_status(scan_run(&test_pool, &states, number, holdout, fit->x, SCAN_ALL, &scan), ROTID_OK);
     while (at < scan.ncandidate && (strcmp(scan.candidate[at].cause->id, id) != 0 || scan.candidate[at].effect.variant))
         at++;
     assert_true(at < scan.ncandidate);

@@ -513,7 +513,7 @@ static int search(struct engine *engine, struct round_result *last)
     if (!status)
         status = posterior_verdict(engine, &out->posterior);
     if (!status && out->ncause) /* the limits are those of the extended model */
-        status = scan_run(engine->pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &last->scan);
+        status = scan_run(engine->pool, &engine->states, engine->number, engine->holdout, engine->fit->x, SCAN_ALL, &last->scan);
     return status;
 }
 

@@ -286,7 +286,13 @@ struct scan_candidate {     /* a cause at a target, with all its places */
     const struct effect *far; /* where a fit starts as well (far_starts_mark), NULL */
 };
 
+enum scan_extent {
+    SCAN_ALL,
+    SCAN_FIELDS /* the candidates of scan_is_field alone, zones of the least width */
+};
+
 struct scan {
+    enum scan_extent extent;
     char *is_frequency;               /* [nrow] the row is that of a frequency: the first ones of each state */
     int nrow, nfrequency, nfree, dof; /* dof: rows less free parameters and scales */
     int nitem, ncandidate;
@@ -313,9 +319,13 @@ int scan_list(struct pool *pool, const struct states *states, struct scan *scan)
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
 const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
 
+/* Whether the candidate's columns are those of a field of stiffness or mass along the rotor: a zone or a mass anywhere, in all
+ * states. */
+int scan_is_field(const struct scan_candidate *c);
+
 /* Columns and drops at the parameters x of the fitted states; number and holdout of all modes. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-             struct scan *scan);
+             enum scan_extent extent, struct scan *scan);
 
 /* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
 double scan_best_drop(const struct scan *scan, int candidate);

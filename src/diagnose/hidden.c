@@ -116,7 +116,7 @@ static int scan_fit(struct pool *pool, const struct states *given, const struct 
                                       : ROTID_OK;
     }
     if (!status)
-        status = scan_run(pool, &states, number, holdout, x, scan);
+        status = scan_run(pool, &states, number, holdout, x, SCAN_ALL, scan);
     for (int s = 0; s < begun; s++)
         if (states.state[s].job.models)
             models_end_run(pool, states.state[s].job.models, given->state[s].job.models);

@@ -533,8 +533,7 @@ static int add_profile(const struct scan *scan, const struct states *states, con
 {
     const struct scan_candidate *c = NULL;
     for (int i = 0; i < scan->ncandidate && !c; i++)
-        if (scan->candidate[i].cause == cause && scan->candidate[i].state < 0 && !scan->candidate[i].suspect &&
-            !scan->candidate[i].effect.variant && scan->candidate[i].count > 2)
+        if (scan->candidate[i].cause == cause && scan_is_field(&scan->candidate[i]) && scan->candidate[i].count > 2)
             c = &scan->candidate[i];
     if (!c)
         return 0;

@@ -609,7 +609,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         if (!scan)
             return ROTID_ERROR_MEMORY;
         if (parent)
-            status = scan_run(pool, &from->refit->states, engine->number, engine->holdout, from->refit->fit->x, scan);
+            status = scan_run(pool, &from->refit->states, engine->number, engine->holdout, from->refit->fit->x, SCAN_ALL, scan);
         if (!status)
             status = propose(engine, p, parent, scan, proposal, most, &count);
         if (!status)
@@ -704,7 +704,7 @@ static int add_something_else(struct engine *engine, struct posterior *p)
         if (!e.scan) {
             struct scan *scan = POOL_NEW(engine->pool, struct scan);
             status = scan ? scan_run(engine->pool, states_of_explanation(engine, &e), engine->number, engine->holdout,
-                                     fit_of(engine, &e)->x, scan)
+                                     fit_of(engine, &e)->x, SCAN_FIELDS, scan)
                           : ROTID_ERROR_MEMORY;
             e.scan = scan;
         }

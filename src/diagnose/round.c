@@ -222,7 +222,7 @@ static int fit_singles(struct engine *engine, struct diagnosis_round *round, str
     *result = (struct round_result){0};
     int status = engine_stage(engine, "scan", 1);
     if (!status)
-        status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan);
+        status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, SCAN_ALL, &result->scan);
     engine_step(engine, "scan");
     if (!status)
         far_starts_mark(engine, &result->scan);

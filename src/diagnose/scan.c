@@ -23,13 +23,33 @@ static int searches(const struct scan_candidate *c, int p)
     return p >= 0 && !c->fixed[p];
 }
 
-static int item_count(const struct scan_candidate *c, int naxis)
+static int width_count(const struct scan *scan, const struct scan_candidate *c)
+{
+    return searches(c, c->cause->width) && scan->extent == SCAN_ALL ? WIDTHS : 1;
+}
+
+static int item_count(const struct scan *scan, const struct scan_candidate *c, int naxis)
 {
     int stride = place_stride(naxis);
     if (c->cause->solid) /* no column: as_solid.h */
         return 0;
     int places = searches(c, c->cause->place) ? (naxis + stride - 1) / stride : 1;
-    return places * (searches(c, c->cause->width) ? WIDTHS : 1);
+    return places * width_count(scan, c);
+}
+
+int scan_is_field(const struct scan_candidate *c)
+{
+    return c->state < 0 && !c->suspect && !c->effect.variant && c->cause->place >= 0 &&
+           (c->cause == catalogue_find("stiffness_local") || c->cause == catalogue_find("added_mass"));
+}
+
+static void keep_fields(struct scan *scan)
+{
+    int kept = 0;
+    for (int i = 0; i < scan->ncandidate; i++)
+        if (scan_is_field(&scan->candidate[i]))
+            scan->candidate[kept++] = scan->candidate[i];
+    scan->ncandidate = kept;
 }
 
 static int is_secant(const struct cause_kind *cause)
@@ -52,9 +72,9 @@ static void list_items(const struct part *part, struct scan *scan)
         const struct cause_kind *cause = c->cause;
         const struct rotor *rotor = &part[c->home].state->job.rotor;
         const struct rotor_model *model = &part[c->home].columns.model;
-        int widths = searches(c, cause->width) ? WIDTHS : 1, stride = place_stride(model->naxis);
+        int widths = width_count(scan, c), stride = place_stride(model->naxis);
         c->first = scan->nitem;
-        c->count = part[c->home].open ? item_count(c, model->naxis) : 0;
+        c->count = part[c->home].open ? item_count(scan, c, model->naxis) : 0;
         double lower = 1, upper = 1;
         if (cause->width >= 0)
             cause->bounds(rotor, &c->effect, cause->width, &lower, &upper);
@@ -287,10 +307,13 @@ static int fill(struct pool *pool, const struct states *states, struct part *par
 }
 
 int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-             struct scan *scan)
+             enum scan_extent extent, struct scan *scan)
 {
     struct part *part = POOL_ARRAY(pool, struct part, states->nstate);
     int items = 0, n, status = part ? scan_list(pool, states, scan) : ROTID_ERROR_MEMORY;
+    scan->extent = extent;
+    if (!status && extent == SCAN_FIELDS)
+        keep_fields(scan);
     if (!status)
         status = open_parts(pool, states, number, holdout, x, part, scan);
     if (status)
@@ -299,7 +322,7 @@ int scan_run(struct pool *pool, const struct states *states, const int *number, 
     move_homes(states->nstate, part, scan);
     for (int i = 0; i < scan->ncandidate; i++)
         if (part[scan->candidate[i].home].open)
-            items += item_count(&scan->candidate[i], part[scan->candidate[i].home].columns.model.naxis);
+            items += item_count(scan, &scan->candidate[i], part[scan->candidate[i].home].columns.model.naxis);
     scan->item = POOL_ARRAY(pool, struct scan_item, items);
     scan->column = POOL_ARRAY(pool, double, (size_t)items *(size_t)n);
     double *raw = POOL_ARRAY(pool, double, items);

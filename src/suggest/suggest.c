@@ -306,7 +306,7 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
         status = planned_measure(pool, &test, x, &plan, &test);
     struct states states = states_of(&test, &state);
     if (!status)
-        status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, &last.scan);
+        status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, SCAN_ALL, &last.scan);
     if (status || last.scan.dof < 1)
         return status;
     status = bootstrap_run(pool, &last.scan, request->replicates, request->seed, request->threads, request->environment,
