@@ -211,9 +211,10 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
 
 static void move_rigidly(const struct mesh *mesh, int node, double z, double *u)
 {
-    u[2 * node] = u[mesh->ndof + 2 * node + 1] = 1;
-    u[2 * node + 1] = 0;
-    u[mesh->ndof + 2 * node] = -z;
+    double *shift = u + 2 * (ptrdiff_t)node, *turn = shift + mesh->ndof;
+    shift[0] = turn[1] = 1;
+    shift[1] = 0;
+    turn[0] = -z;
 }
 
 static void move_chain(const struct mesh *mesh, const struct chain *chain, double to, double *u)

@@ -194,11 +194,11 @@ static void multiply_piece(const struct guyan_piece *p, const rotid_matrix *a, c
 {
     const double *band = a->band + (ptrdiff_t)p->from * (KD + 1);
     memset(y, 0, (size_t)p->length * sizeof *y);
-    for (int j = 0; j < p->length; j++) {
-        y[j] += band[j * (KD + 1)] * x[j];
+    for (int j = 0; j < p->length; j++, band += KD + 1) {
+        y[j] += band[0] * x[j];
         for (int d = 1; d <= KD && j + d < p->length; d++) {
-            y[j + d] += band[d + j * (KD + 1)] * x[j];
-            y[j] += band[d + j * (KD + 1)] * x[j + d];
+            y[j + d] += band[d] * x[j];
+            y[j] += band[d] * x[j + d];
         }
     }
 }
@@ -228,18 +228,17 @@ static int condense_piece(struct eigen_guyan *e, struct guyan_piece *p, const ro
         for (int q = 0; q < nend; q++)
             p->x[i + q * length] = e->image[i * ENDS + q];
     for (int q = 0; q < nend; q++) {
-        const double *x = p->x + q * length, *m_end = p->m_end + q * length;
+        const double *x = p->x + (ptrdiff_t)q * length, *m_end = p->m_end + (ptrdiff_t)q * length;
         double *y = e->image;
         multiply_piece(p, m, x, y);
         for (int i = 0; i < length; i++)
             y[i] += m_end[i];
         for (int b = 0; b < nend; b++) {
-            const double *xb = p->x + b * length;
-            ptrdiff_t at = (b - q) + (ptrdiff_t)(p->first + q) * (KD + 1);
+            ptrdiff_t at = (b - q) + (ptrdiff_t)(p->first + q) * (KD + 1), of = (ptrdiff_t)b * length;
             if (b < q)
                 continue;
-            e->k.band[at] += dot(length, p->k_end + b * length, x);
-            e->m.band[at] += dot(length, xb, y) + dot(length, p->m_end + b * length, x);
+            e->k.band[at] += dot(length, p->k_end + of, x);
+            e->m.band[at] += dot(length, p->x + of, y) + dot(length, p->m_end + of, x);
         }
     }
     return 0;

@@ -185,7 +185,7 @@ static void wide_solve(const struct wide *w, int columns, int ld, double *b)
 
 /* A, or of a pencil K - shift M (wide bands alone) */
 struct factor_source {
-    const rotid_matrix *a;
+    const rotid_matrix *a; /* of a pencil K */
     const struct pencil *pencil;
     double shift;
 };
@@ -356,7 +356,7 @@ static void factor_gather(struct factor *f, const struct factor_source *source)
         gather_wide(f, source);
     else
         gather_narrow(f, source->a);
-    add_block(f, 1, source->pencil ? source->pencil->stiffness : source->a);
+    add_block(f, 1, source->a);
     if (source->pencil)
         add_block(f, -source->shift, source->pencil->mass);
 }
@@ -495,7 +495,7 @@ int factor_compute(struct factor *f, const rotid_matrix *a)
 
 int factor_compute_pencil(struct factor *f, const struct pencil *p, double shift)
 {
-    return compute(f, &(struct factor_source){.pencil = p, .shift = shift});
+    return compute(f, &(struct factor_source){.a = p->stiffness, .pencil = p, .shift = shift});
 }
 
 int factor_is_singular(const struct factor *f, const rotid_matrix *a)
@@ -667,5 +667,5 @@ int factor_negative_count(struct factor *f, const rotid_matrix *a)
 
 int factor_negative_count_pencil(struct factor *f, const struct pencil *p, double shift)
 {
-    return negative_count(f, &(struct factor_source){.pencil = p, .shift = shift});
+    return negative_count(f, &(struct factor_source){.a = p->stiffness, .pencil = p, .shift = shift});
 }

@@ -124,12 +124,12 @@ rotid_meridian_mode *meridian_mode(struct pool *pool, const struct rotor_model *
     if (!out->u || !out->w || !out->energy)
         return NULL;
     for (int e = 0; e < solid->mesh.nelement; e++) {
-        double local[SOLID_DOFS];
+        double local[SOLID_DOFS], *motion = local;
         solid_element_motion(solid, &solid->mesh.element[e], u, local);
-        for (int c = 0; c < CORNERS; c++) {
+        for (int c = 0; c < CORNERS; c++, motion += 3) {
             int i = index[solid->mesh.element[e].node[c]];
-            out->u[i] = local[3 * c];
-            out->w[i] = local[3 * c + 2];
+            out->u[i] = motion[0];
+            out->w[i] = motion[2];
             largest = fabs(out->u[i]) > fabs(largest) ? out->u[i] : largest;
         }
     }

@@ -116,11 +116,9 @@ int effects_spring_derivative(const struct rotor *rotor, struct parameter parame
         rate.factor *= change_of(rotor, spring, parameter.index).factor;
         lateral = rate.factor * own->lateral;
         rotational = rate.factor * own->rotational;
-    } else if (parameter.index != spring) {
-        return 0;
-    } else if (parameter.kind == PARAMETER_SPRING_K) {
+    } else if (parameter.index == spring && parameter.kind == PARAMETER_SPRING_K) {
         lateral = change.factor;
-    } else if (parameter.kind == PARAMETER_SPRING_K_ROT) {
+    } else if (parameter.index == spring && parameter.kind == PARAMETER_SPRING_K_ROT) {
         rotational = change.factor;
     } else {
         return 0;

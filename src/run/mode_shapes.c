@@ -16,14 +16,16 @@ static int is_comparable(const rotid_mode_shapes *mode)
     return count > 1;
 }
 
-/* Nothing where no component of measured mode k is other than zero. */
+/* Nothing where no component of measured mode k is other than zero. out: zeroed */
 static void put_measured(struct pool *pool, const struct job *job, int nsensor, int k, rotid_mode_shapes *out)
 {
+    if (!job->measurement.shape)
+        return;
     ptrdiff_t at = (ptrdiff_t)k * nsensor;
-    const double *shape = job->measurement.shape ? job->measurement.shape + at : NULL;
-    double largest = 0, *std = shape && job->measurement.shape_std ? job->measurement.shape_std + at : NULL;
+    const double *shape = job->measurement.shape + at;
+    double largest = 0, *std = job->measurement.shape_std ? job->measurement.shape_std + at : NULL;
     int is_known = 0;
-    for (int s = 0; s < nsensor && shape; s++) {
+    for (int s = 0; s < nsensor; s++) {
         if (fabs(shape[s]) > fabs(largest))
             largest = shape[s];
         is_known |= std && isfinite(std[s]);

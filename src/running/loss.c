@@ -14,7 +14,7 @@ int loss_of_test(struct pool *pool, const struct job *job, int group, struct los
     const struct material *material = &job->rotor.group[group].material;
     const struct parameter parameter[2] = {{.kind = PARAMETER_E, .index = group}, {.kind = PARAMETER_G, .index = group}};
     const double x[2] = {material->e, material->g};
-    int n = 2 - material->isotropic, highest = 0, failed, status = ROTID_OK;
+    int n = material->isotropic ? 1 : 2, highest = 0, failed, status = ROTID_OK;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
     *out = (struct loss_of_test){0};

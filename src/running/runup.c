@@ -286,7 +286,7 @@ int runup_compare(struct pool *pool, const struct machine *machine, const struct
         const struct runup_reading *reading = &machine->runup[i];
         int found = next < r.count && r.reading[next] == i;
         double predicted = found ? r.critical[next].speed : NAN,
-               std = found ? predicted * sqrt(fmax(0, r.covariance[next * (r.count + 1)])) : NAN;
+               std = found ? predicted * sqrt(fmax(0, r.covariance[next * (r.count + (ptrdiff_t)1)])) : NAN;
         next += found;
         (*list)[i] = (rotid_runup_speed){.number = reading->number,
                                          .whirl = reading->backward ? "backward" : "forward",
@@ -419,7 +419,7 @@ int runup_learn(struct pool *pool, const struct states *deck, const struct state
     rotid_fit_result mine = {0};
     int most = deck->machine->nrunup, status = explained(pool, deck, states, fit, &machine, &mine), n = mine.n;
     double *x = POOL_ARRAY(pool, double, 2 * n), *v = POOL_ARRAY(pool, double, 2 * most),
-           *factor = POOL_ARRAY(pool, double, most *most), determinant = 0, moved = INFINITY;
+           *factor = POOL_ARRAY(pool, double, most *most), determinant = 0, moved;
     if (!status && (!x || !v || !factor))
         status = ROTID_ERROR_MEMORY;
     if (status)
@@ -429,14 +429,15 @@ int runup_learn(struct pool *pool, const struct states *deck, const struct state
     message_open(&quiet, pool);
     *log_z = -INFINITY;
     *chi2 = NAN;
-    for (int step = 0; step < STEPS && moved > FAR; step++) {
+    int step = 0;
+    do {
         status = reach(pool, &machine, &state->job, x, &mine, &quiet, &r);
         if (status || r.count < most)
             return status;
         if (innovate(&r, n, mine.x, x, factor, v, v + most, &determinant))
             return ROTID_ERROR_FINITE;
         moved = take_step(&r, n, mine.x, v + most, x, x + n);
-    }
+    } while (++step < STEPS && moved > FAR);
     *chi2 = product_dot(most, v, v + most);
     *log_z = -(*chi2 + determinant + most * LN_2PI) / 2;
     for (int p = 0; p < state->job.unknowns.nparameter; p++) {

@@ -35,8 +35,8 @@ void solid_gyroscopic(const struct solid *solid, rotid_matrix *p)
         }
         for (int b = 0; b < SOLID_NODES; b++)
             for (int a = 0; a < SOLID_NODES; a++) {
-                double *block = &e[3 * a + SOLID_DOFS * 3 * b], value = mass[a + SOLID_NODES * b];
-                block[0] = block[1] = block[SOLID_DOFS] = block[1 + SOLID_DOFS] = block[2 + 2 * SOLID_DOFS] = value;
+                double *of_r = e + 3 * (a + (ptrdiff_t)SOLID_DOFS * b), *of_n = of_r + SOLID_DOFS, *of_z = of_n + SOLID_DOFS;
+                of_r[0] = of_r[1] = of_n[0] = of_n[1] = of_z[2] = mass[a + SOLID_NODES * b];
             }
         solid_add_element(solid, &mesh->element[i], e, p);
     }

@@ -60,11 +60,9 @@ static int direction_of(const struct solid *solid, const struct member *member, 
             return 0;
         rate.young /= member->young;
         d->force = rotor->tierod[i].number * rotor->tierod[i].tension * rate.tension;
-    } else if (parameter.index != i) {
-        return 0;
-    } else if (parameter.kind == PARAMETER_TENSION) {
+    } else if (parameter.index == i && parameter.kind == PARAMETER_TENSION) {
         d->force = rotor->tierod[i].number * effects_on_tierod(rotor, i).tension;
-    } else if (parameter.kind == PARAMETER_TIEROD_E) {
+    } else if (parameter.index == i && parameter.kind == PARAMETER_TIEROD_E) {
         rate.young = 1 / member->material->e;
     } else {
         return 0;

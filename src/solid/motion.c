@@ -46,7 +46,8 @@ static void edge_at(const struct solid_mesh *mesh, int n, double x, double *r, d
 
 int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta)
 {
-    int first = mesh->line[2 * line], end = mesh->line[2 * line + 1];
+    const int *nodes = mesh->line + 2 * (ptrdiff_t)line;
+    int first = nodes[0], end = nodes[1];
     double area = 0, inertia = 0, r, slope, shape[3];
     int status = motion_new(pool, 2 * (end - first), v);
     if (!status)
@@ -77,7 +78,8 @@ int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line
 
 int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w)
 {
-    int first = mesh->line[2 * line], end = mesh->line[2 * line + 1], status = motion_new(pool, end - first, w);
+    const int *nodes = mesh->line + 2 * (ptrdiff_t)line;
+    int first = nodes[0], end = nodes[1], status = motion_new(pool, end - first, w);
     double inertia = 0;
     int bends = mesh->type == MODE_BENDING;
     for (int n = first; n + 2 < end && !status; n += 2) {

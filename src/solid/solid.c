@@ -84,21 +84,22 @@ static void integrals_add_stiffness(const struct integrals *integrals, int share
             double rr = sum[BY_R_R][ab], nn = sum[BY_N_N][ab], zz = sum[BY_Z_Z][ab], rn = sum[BY_R_N][ab], nr = sum[BY_R_N][ba],
                    rz = sum[BY_R_Z][ab], zr = sum[BY_R_Z][ba], nz = sum[BY_N_Z][ab], zn = sum[BY_N_Z][ba];
             double prestress = turn * stress * zz, twist = c->c66 * (nn - rn), back = c->c66 * (nn - nr);
-            double *block = k + 3 * a + (ptrdiff_t)SOLID_DOFS * 3 * b;
-            block[0] += c->c11 * (rr + nn) + c->c12 * (rn + nr) + c->c44 * zz + prestress;
-            block[2 * SOLID_DOFS] += c->c13 * (rz + nz) + c->c44 * zr;
-            block[1 + SOLID_DOFS] += c->c66 * (rr - rn - nr + nn) + c->c44 * zz + prestress;
-            block[2] += c->c13 * (zr + zn) + c->c44 * rz;
-            block[2 + 2 * SOLID_DOFS] += c->c33 * zz + c->c44 * rr + prestress;
+            /* columns of the radial, tangential and axial motion of node b, in the rows of node a */
+            double *of_r = k + 3 * (a + (ptrdiff_t)SOLID_DOFS * b), *of_n = of_r + SOLID_DOFS, *of_z = of_n + SOLID_DOFS;
+            of_r[0] += c->c11 * (rr + nn) + c->c12 * (rn + nr) + c->c44 * zz + prestress;
+            of_z[0] += c->c13 * (rz + nz) + c->c44 * zr;
+            of_n[1] += c->c66 * (rr - rn - nr + nn) + c->c44 * zz + prestress;
+            of_r[2] += c->c13 * (zr + zn) + c->c44 * rz;
+            of_z[2] += c->c33 * zz + c->c44 * rr + prestress;
             if (!harmonic)
                 continue;
-            block[0] += c->c66 * nn;
-            block[SOLID_DOFS] += c->c12 * rn + c->c11 * nn + back;
-            block[1] += c->c12 * nr + c->c11 * nn + twist;
-            block[1 + SOLID_DOFS] += c->c11 * nn;
-            block[1 + 2 * SOLID_DOFS] += c->c13 * nz - c->c44 * zn;
-            block[2 + SOLID_DOFS] += c->c13 * zn - c->c44 * nz;
-            block[2 + 2 * SOLID_DOFS] += c->c44 * nn;
+            of_r[0] += c->c66 * nn;
+            of_n[0] += c->c12 * rn + c->c11 * nn + back;
+            of_r[1] += c->c12 * nr + c->c11 * nn + twist;
+            of_n[1] += c->c11 * nn;
+            of_z[1] += c->c13 * nz - c->c44 * zn;
+            of_n[2] += c->c13 * zn - c->c44 * nz;
+            of_z[2] += c->c44 * nn;
         }
 }
 
@@ -500,7 +501,7 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
     for (int i = 0; i < rotor->ntierod && !status; i++) {
         *failed = rotor->ngroup + i;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
-        double pitch = rotor->tierod[i].pitch, reach = WASHER / 2 * rotor->tierod[i].diameter;
+        double pitch = rotor->tierod[i].pitch, reach = WASHER * rotor->tierod[i].diameter / 2;
         struct motion *stretch = &solid->stretch[2 * (ptrdiff_t)i];
         status = motion_axial(pool, &solid->mesh, from, pitch, reach, &stretch[0]);
         if (!status)
@@ -630,11 +631,12 @@ void solid_set(struct solid *solid, const double *x)
 /* On the axis V = -U and W = 0; in torsion V is r times the unknown; a sensor stands for U of node 5 (or its V/r, its W):
  * U5 = (sensor - n1 U1 - n2 U2)/n5. The rows and columns of the element follow, and those that are no unknowns are left out when
  * it is added. */
-static void tie_columns(const struct solid *solid, const struct solid_element *element, double *a, int stride, int step)
+static void tie_columns(const struct solid *solid, const struct solid_element *element, double *a, ptrdiff_t stride,
+                        ptrdiff_t step)
 {
     enum mode_type type = solid->mesh.type;
     for (int n = 0; n < SOLID_NODES; n++) {
-        double r = solid->mesh.node[element->node[n]].r, *u = &a[3 * n * stride], *v = u + stride;
+        double r = solid->mesh.node[element->node[n]].r, *u = &a[stride * 3 * n], *v = u + stride;
         for (int i = 0; i < SOLID_DOFS && type == MODE_BENDING && r == 0; i++)
             u[i * step] -= v[i * step];
         for (int i = 0; i < SOLID_DOFS && type == MODE_TORSION; i++)
@@ -644,10 +646,10 @@ static void tie_columns(const struct solid *solid, const struct solid_element *e
         return;
     const double *at = element->at_sensor;
     for (int i = 0; i < SOLID_DOFS; i++) {
-        double *outer = &a[(int)type * stride + i * step], *middle = outer + 15 * (ptrdiff_t)stride;
+        double *outer = &a[(int)type * stride + i * step], *middle = outer + 15 * stride;
         *middle /= at[1];
-        outer[3 * (ptrdiff_t)stride] -= at[0] * *middle;
-        outer[6 * (ptrdiff_t)stride] -= at[2] * *middle;
+        outer[3 * stride] -= at[0] * *middle;
+        outer[6 * stride] -= at[2] * *middle;
     }
 }
 
@@ -668,7 +670,7 @@ void solid_add_element(const struct solid *solid, const struct solid_element *el
 
 static void spread_mass(const double *m, double *e)
 {
-    memset(e, 0, SOLID_DOFS * SOLID_DOFS * sizeof *e);
+    memset(e, 0, sizeof(double[SOLID_DOFS * SOLID_DOFS]));
     for (int b = 0; b < SOLID_NODES; b++)
         for (int a = 0; a < SOLID_NODES; a++)
             for (int c = 0; c < 3; c++)
@@ -690,7 +692,7 @@ static void element_matrices_of(const struct solid *solid, int index, int p, dou
             continue;
         if (share.elasticity.c33 != 0 || share.elasticity.c44 != 0 || share.stress != 0) {
             if (!*has_k)
-                memset(k, 0, SOLID_DOFS * SOLID_DOFS * sizeof *k);
+                memset(k, 0, sizeof(double[SOLID_DOFS * SOLID_DOFS]));
             integrals_add_stiffness(&solid->integrals[index], s, harmonic, &share.elasticity, share.stress, k);
             *has_k = 1;
         }

@@ -71,8 +71,10 @@ struct elasticity elasticity_by_factors(const struct material *material, const s
  * like a crack's, of exponent 0.545: the half-way nodes of the edges that meet there lie at a quarter of their length, by which
  * an element follows a square root. */
 
-#define SOLID_NODES 8 /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
-#define SOLID_DOFS  (3 * SOLID_NODES) /* U, V, W of each */
+enum {
+    SOLID_NODES = 8,             /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
+    SOLID_DOFS = 3 * SOLID_NODES /* U, V, W of each */
+};
 
 /* How fine. What is 0 follows from the rotor. */
 struct solid_rule {
