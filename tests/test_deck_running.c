@@ -307,6 +307,18 @@ POOL_TEST(a_bearing_that_is_not_what_it_seems_is_warned_of)
     says(SHAFT TWO "*DISK\n1, 5, 0.1\n", ROTID_WARNING, 0, "no polar one");
 }
 
+/* Ip = int r^2 dm, Id = int (r^2/2 + z^2) dm: no more than twice. */
+POOL_TEST(a_disk_with_more_polar_inertia_than_a_body_has_is_warned_of)
+{
+    rotid_deck *deck;
+    says(SHAFT TWO "*DISK\n1, 5, 0.1, 0.3\n", ROTID_WARNING, 0, "is 3 times the diametral one, expected at most 2 times");
+    const char *thin = SHAFT TWO "*DISK\n1, 5, 0.123, 0.247\n"; /* 2 but for the digits */
+    assert_status(rotid_deck_read_text(strlen(thin), thin, "deck", folder_path("."), 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    for (int i = 0; i < deck->nmessage; i++)
+        assert_null(strstr(deck->message[i].text, "times the diametral one"));
+    rotid_deck_free(deck);
+}
+
 /* What a diagnosis or a suggestion writes keeps the machine, last of all. */
 POOL_TEST(written_decks_keep_the_machine)
 {

@@ -349,6 +349,33 @@ POOL_TEST(damping_is_measured_stated_or_refused)
     close_bench();
 }
 
+/* Counted with the others (COUNT=ALL), the motion on the supports is damped by these and not by the rotor. */
+POOL_TEST(suspension_modes_that_are_counted_are_no_part_of_the_mean)
+{
+    struct spring spring[2] = {{.name = "left", .position = 0.1, .lateral = 1e4},
+                               {.name = "right", .position = 1, .lateral = 1e4}};
+    open_bench(&bench, &test_pool, 1);
+    bench.job.rotor.nspring = 2;
+    bench.job.rotor.spring = spring;
+    bench.job.rotor.count_all = 1;
+    bench.job.measurement.numbering.nsupport = 2;
+    measure_modes(&bench, &test_pool);
+    bench.damping[0] = NAN;
+    bench.damping[1] = 0.5;
+    assert_status(run(&bench, &test_pool), ROTID_OK);
+    const struct frf_result *r = &bench.result;
+    const double expected[] = {0.008, 0.5, 0.008, 0.010, (0.008 + 0.010) / 2};
+    for (int m = 0; m < 5; m++)
+        assert_close(r->zeta[m], expected[m], 1e-12, 0);
+    assert_int_equal(r->damping[0], FRF_DAMPING_SMALLEST);
+    assert_int_equal(r->damping[4], FRF_DAMPING_MEAN);
+    bench.damping[2] = bench.damping[3] = NAN; /* no elastic mode has a ratio: those that are known */
+    assert_status(run(&bench, &test_pool), ROTID_OK);
+    assert_close(bench.result.zeta[4], 0.5, 1e-12, 0);
+    rotid_fit_free(bench.identified.fit);
+    bench.identified.fit = NULL;
+}
+
 /* ------------------------------------------------------------------------------------------------ size, interruption, memory */
 
 static int polled;

@@ -69,7 +69,7 @@ static double noise_of(const struct job *job, const rotid_noise *noise, const ro
     double square = 0;
     for (int k = 0; fit && k < fit->m; k++)
         square += pow(fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1, 2);
-    *assumed = !(square > 0) || fit->dof < 1;
+    *assumed = !fit || !(square > 0) || fit->dof < 1;
     return *assumed ? USUAL_NOISE : sqrt(square / fit->dof);
 }
 

@@ -502,7 +502,7 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->file = &argv[optind];
     command->nfile = argc - optind;
     command->deck = command->file[0];
-    for (int i = 0; i < command->ngiven; i++) {
+    for (int i = 0; i < command->ngiven && command->given[i].value; i++) {
         const struct option_row *row = option_find(command->given[i].name, command->name);
         code = row ? option_take(command, row, command->given[i].value) : refuse_option(command, command->given[i].name);
         if (code)

@@ -156,7 +156,7 @@ int command_ema(struct command *command)
     if (command->nfile > 1)
         return command_ema_tests(command);
     struct measurement measurement;
-    struct ema ema;
+    struct ema ema = {0};
     struct ema_options options = command->ema.options;
     double started = clock_seconds();
     int code = extract_modes(command, &options, &measurement, &ema);

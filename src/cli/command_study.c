@@ -164,7 +164,7 @@ static int merge(struct command *command)
 
 int command_study(struct command *command)
 {
-    struct study study;
+    struct study study = {0};
     int refused = command->study.merge || command->study.summary ? command_refuse_csv(command, csv_study_parts) : EXIT_DONE;
     if (refused)
         return refused;

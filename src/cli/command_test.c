@@ -76,7 +76,7 @@ int command_test(struct command *command)
         page = pool_format(pool, "%.*s.html", (int)(strrchr(deck, '.') ? strrchr(deck, '.') - deck : (long)strlen(deck)), deck);
     size_t length = page ? strlen(page) : 0;
     int stem = (int)(length > 5 && !strcmp(page + length - 5, ".html") ? length - 5 : length);
-    const char *modes = pool_format(pool, "%.*s_modes.unv", stem, page), *json[3];
+    const char *modes = pool_format(pool, "%.*s_modes.unv", stem, page), *json[3] = {0};
     struct step step = step_open(command, "ema");
     add(&step, records);
     add_given(&step, "ema");

@@ -223,7 +223,7 @@ static void check_model(struct deck_reader *reader)
     struct job *job = reader->job;
     struct model_size size;
     enum discretisation as = job_discretisation(job);
-    int failed, status = keep_places(reader);
+    int failed = 0, status = keep_places(reader);
     if (!status)
         status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
@@ -387,7 +387,7 @@ static void count_modes(struct deck_reader *reader)
     job->measurement.numbering.stated = option != NULL;
     job->rotor.count_all = option && deck_option_word(reader, option, deck_counts) == 1;
     reader->out_of_memory |= numbering_choose(reader->pool, job) != ROTID_OK;
-    if (n->stated || !n->nsupport || reader->out_of_memory)
+    if (!card || n->stated || !n->nsupport || reader->out_of_memory)
         return;
     if (job->rotor.count_all)
         deck_note(

@@ -245,6 +245,7 @@ void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *
 int deck_edit_field(const char *line, size_t length, int number, int *count)
 {
     const char *end = end_of_line(line, length), *begin = line;
+    *count = 0;
     for (int field = 0; field < number; field++) {
         const char *comma = memchr(begin, ',', (size_t)(end - begin));
         if (!comma)
@@ -292,7 +293,7 @@ void deck_edit_lines(struct deck_edit *e, int part, void (*line)(struct deck_wri
         if (continues && !blank)
             continues = end[-1] == ',';
     }
-    if (w.length != p->length || memcmp(w.text, p->text, w.length) != 0)
+    if (w.length != p->length || (w.text && memcmp(w.text, p->text, w.length) != 0))
         replace(e, part, &w);
 }
 

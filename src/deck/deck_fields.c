@@ -366,9 +366,14 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
     int is_text = row->kind == ROW_NAME || row->kind == ROW_MATERIAL, index, bad;
     if (!option && row->bits & ROW_MAY_LACK)
         return 0;
-    if (row->kind != ROW_WORD && row->kind != ROW_GROUP && (is_text || !option) && !(row->bits & ROW_MAY_LACK) &&
-        !deck_option(reader, card, row->option, row->what))
+    if (!option && row->kind == ROW_WORD) {
+        *(int *)member = row->standard;
+        return 0;
+    }
+    if (row->kind != ROW_GROUP && (!option || (is_text && !(row->bits & ROW_MAY_LACK) && !*option->value))) {
+        (void)deck_option(reader, card, row->option, row->what);
         return 1;
+    }
     switch (row->kind) {
     case ROW_NAME:
         *(const char **)member = option->value;
@@ -378,7 +383,7 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
     case ROW_MATERIAL:
         return read_material(reader, option, member);
     case ROW_WORD:
-        index = option ? deck_option_word(reader, option, row->words) : row->standard;
+        index = deck_option_word(reader, option, row->words);
         if (index >= 0)
             *(int *)member = index;
         return index < 0;

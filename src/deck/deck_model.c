@@ -366,6 +366,8 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
     return 0;
 }
 
+#define MORE_THAN_ROUNDING 1.02 /* of inertias stated with two or three digits */
+
 int deck_check_disk(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
     const struct rotor *rotor = &reader->job->rotor;
@@ -400,6 +402,11 @@ int deck_check_disk(struct deck_reader *reader, const struct card *card, const s
             return 1;
         }
     }
+    if (disk->diametral > 0 && disk->polar > 2 * MORE_THAN_ROUNDING * disk->diametral)
+        deck_note(reader, line->field[3].place,
+                  "the polar inertia of this disk is %.4g times the diametral one, expected at most 2 times: a disk without "
+                  "thickness has 2, and no body has more",
+                  disk->polar / disk->diametral);
     return 0;
 }
 

@@ -635,11 +635,14 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         if (is(&reader->text.card[c], "UNITS"))
             deck_units(&own, &reader->text.card[c]);
     own.machine = POOL_NEW(reader->pool, struct machine);
-    reader->out_of_memory |= !own.machine;
+    if (!own.machine) {
+        reader->out_of_memory = 1;
+        return;
+    }
     for (int c = 0; c < reader->nrunning; c++)
         deck_check_names(reader, &reader->running[c]);
     for (int phase = 9; phase <= 10; phase++)
-        for (int c = 0; c < reader->nrunning && own.machine && !own.out_of_memory; c++) {
+        for (int c = 0; c < reader->nrunning && !own.out_of_memory; c++) {
             const struct deck_card *kind = deck_card_of_machine(reader->running[c].name);
             if (kind && kind->phase == phase)
                 deck_read_card(&own, &reader->running[c], kind);

@@ -73,7 +73,7 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
         if (option)
             check_option(reader, d, option, option->value);
         (void)deck_whole_runup(&rest);
-        while ((held = deck_whole_state(reader, &rest)))
+        while (holdout && (held = deck_whole_state(reader, &rest)))
             check_option(reader, d, holdout, held);
         d->chosen = option ? option->value : d->chosen;
     }

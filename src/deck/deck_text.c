@@ -138,7 +138,7 @@ int deck_text_add_option(struct pool *pool, struct card *card, struct card_optio
     struct card_option *longer = POOL_ARRAY(pool, struct card_option, card->noption + 1);
     if (!longer)
         return 1;
-    if (card->noption)
+    if (card->option)
         memcpy(longer, card->option, (size_t)card->noption * sizeof *longer);
     longer[card->noption++] = option;
     card->option = longer;

@@ -786,7 +786,7 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
         card = "";
         status = compose(&w, text);
         if (!status)
-            status = deck_read_back(pool, path, *text, notes, &read);
+            status = *text ? deck_read_back(pool, path, *text, notes, &read) : ROTID_ERROR_MEMORY;
         left = status ? 1 : compare(&w, &read, &card);
     }
     if (!status && left) {

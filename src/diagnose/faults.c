@@ -207,7 +207,7 @@ static int offer(struct fault_list *list, const char *id, int s, int t, const do
     const struct channels *c = list->channels;
     const struct sensor *sensor = c->states->state[c->state].job.rotor.sensor;
     const struct cause_kind *cause = catalogue_find(id);
-    int one = s < 0 ? 0 : sensor[s].id, two = t < 0 ? 0 : sensor[t].id, at = list->count;
+    int one = s < 0 ? 0 : sensor[s].id, two = t < 0 ? 0 : sensor[t].id;
     if (!isfinite(gain) || (list->count == list->most && gain <= list->item[list->most - 1].gain))
         return ROTID_OK;
     const char *target = !one  ? ""
@@ -216,7 +216,7 @@ static int offer(struct fault_list *list, const char *id, int s, int t, const do
     if (!target)
         return ROTID_ERROR_MEMORY;
     list->count += list->count < list->most;
-    at = list->count - 1;
+    int at = list->count - 1;
     for (; at > 0 && list->item[at - 1].gain < gain; at--)
         list->item[at] = list->item[at - 1];
     struct candidate *made = &list->item[at].fault;
@@ -226,7 +226,7 @@ static int offer(struct fault_list *list, const char *id, int s, int t, const do
     made->state_name = c->states->state[c->state].name;
     made->sensor[0] = one;
     made->sensor[1] = two;
-    for (int p = 0; correction_parameter(cause, p); p++, made->nparameter++) {
+    for (int p = 0; value && correction_parameter(cause, p); p++, made->nparameter++) {
         made->effect.value[p] = value[p];
         made->fixed[p] = fixed && fixed[p];
     }
@@ -253,18 +253,17 @@ static int offer_single(struct fault_list *list, int s)
     struct column own = of_sensor(c, s, c->u, 1), place = of_sensor(c, s, c->slope, 1), turned = of_sensor(c, s, c->u, -2);
     if (!own.count)
         return ROTID_OK;
-    double gain = gain_of_size(list->scan, &own, 10, &amplitude), factor = 1 + amplitude, along,
-           square = project(list->scan, &own, &along);
+    (void)gain_of_size(list->scan, &own, 10, &amplitude);
+    double factor = 1 + amplitude, along, square = project(list->scan, &own, &along);
     int status = ROTID_OK;
     if (factor > 0.01) { /* normal in ln of the gain */
-        double off = log(factor) / gain_deviation;
-        gain =
-            along * along / (2 * square) - off * off / 2 - log1p(square * factor * factor * gain_deviation * gain_deviation) / 2;
+        double off = log(factor) / gain_deviation, spread = square * factor * factor * gain_deviation * gain_deviation,
+               gain = along * along / (2 * square) - off * off / 2 - log1p(spread) / 2;
         status = offer(list, "sensor_gain", s, -1, &factor, NULL, 0, gain);
     }
     if (!status)
         status = offer(list, "sensor_sign", s, -1, NULL, NULL, 0, gain_of_fixed(list->scan, &turned));
-    gain = gain_of_size(list->scan, &place, shift_deviation, &amplitude);
+    double gain = gain_of_size(list->scan, &place, shift_deviation, &amplitude);
     if (!status && fabs(amplitude) > LEAST_SHIFT)
         status = offer(list, "sensor_position", s, -1, &amplitude, NULL, 0, gain);
     double without = gain_without(list->pool, list->scan, &own);

@@ -174,7 +174,7 @@ static rotid_host_explanation without_cause(const rotid_host_explanation *set, i
     less.ncause--;
     for (; k < less.ncause; k++) {
         less.cause[k] = set->cause[k + 1];
-        memcpy(less.value + VALUES * k, set->value + VALUES * (k + 1), VALUES * sizeof *less.value);
+        memcpy(less.value + (ptrdiff_t)VALUES * k, set->value + (ptrdiff_t)VALUES * (k + 1), VALUES * sizeof *less.value);
     }
     for (int q = 0; q < VALUES; q++)
         less.value[VALUES * less.ncause + q] = less.std[VALUES * less.ncause + q] = NAN;
@@ -349,7 +349,7 @@ static int check(const rotid_model *model, const rotid_measured *measured, int n
 static int run(struct entry *entry, struct pool *keep, struct host *h, const rotid_host_cause *cause, rotid_host_diagnosis *made)
 {
     rotid_host_cause *own = POOL_ARRAY(&entry->scratch, rotid_host_cause, h->ncause);
-    struct evidence_data *data;
+    struct evidence_data *data = NULL;
     int status = own ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int c = 0; c < h->ncause && !status; c++) {
         int first = 1;

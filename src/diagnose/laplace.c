@@ -444,7 +444,7 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
 {
     int shapes = known || !d->nblock ? 1 : ELSE_SHAPES, lines = known ? 1 : ELSE_LINES, sizes = nprofile ? PROFILE_SIZES : 1;
     int none = nprofile && !known; /* fields of amplitude 0 too, and every second one of the others */
-    double fields = ((lines + 1) / 2 + 1) * (d->nblock ? (shapes + 1) / 2 + 1 : 1) - 1;
+    int fields = ((lines + 1) / 2 + 1) * (d->nblock ? (shapes + 1) / 2 + 1 : 1) - 1;
     int total = n + d->nblock, nrow = d->nrow;
     struct normal w;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, total);

@@ -396,8 +396,8 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
         int status = room_for_moduli(engine->pool, engine->nown, &one.set.evidence);
         if (status)
             return status;
+        const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
         for (int q = 0; q < engine->nown; q++) {
-            const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
             double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree])
                                ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree]
                                : 0;
@@ -406,10 +406,10 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
             one.set.evidence.std[q] = from->evidence.std[q];
         }
         struct candidate *member = &one.set.member[one.set.nmember - 1];
-        if (best >= 0) {
-            member->effect = scan->item[best].effect;
+        if (item) {
+            member->effect = item->effect;
             if (!member->fixed[member->cause->size])
-                member->effect.value[member->cause->size] += scan->item[best].amplitude * scan->item[best].unit;
+                member->effect.value[member->cause->size] += item->amplitude * item->unit;
         }
         if (find(p, &one.set))
             continue;
@@ -557,8 +557,9 @@ static int enter_singles(struct engine *engine, const struct round_result *resul
         int index = result->candidate[i];
         if (!refit->fit || is_common(engine, scan, index))
             continue;
-        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data, .member = {candidate_listed(scan, index)}};
+        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data};
         struct candidate *member = &e.member[0];
+        *member = candidate_listed(scan, index);
         const struct rotor *rotor = &refit->states.state[member->home].job.rotor;
         if (!member->cause->solid)
             member->effect.name = rotor->effect[rotor->neffect - 1].name;
@@ -1123,6 +1124,6 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
         list_alternatives(out, p);
     if (!verdict->adequate_after && !(verdict->next_measurement = advice(engine, p)))
         return ROTID_ERROR_MEMORY;
-    int status = verdict->kind == ROTID_NAMED ? accept(engine, model) : ROTID_OK;
+    int status = verdict->kind == ROTID_NAMED && model ? accept(engine, model) : ROTID_OK;
     return status ? status : list_faults(engine, p);
 }

@@ -298,7 +298,7 @@ int dmig_full(FILE *stream, const struct export_model *model)
 {
     static const char *const name[] = {"KFULL", "KFULLR", "MFULL", "MFULLR"};
     const struct source mass = {.full = &model->m};
-    struct writer w = {stream, model, {.full = &model->k}};
+    struct writer w = {.stream = stream, .model = model, .source.full = &model->k};
     return write_deck(&w, name, &mass);
 }
 

@@ -179,9 +179,9 @@ static int take_head(struct analyser *a, char *row)
         return ROTID_ERROR_MEMORY;
     memset(parts, 0, 2 * (size_t)a->set->nfrf * sizeof *parts);
     for (int i = 0; i < a->ncolumn; i++)
-        parts[2 * a->column[i].frf + a->column[i].part / 2] += a->column[i].part % 2 ? 16 : 1;
+        parts[2 * (ptrdiff_t)a->column[i].frf + a->column[i].part / 2] += a->column[i].part % 2 ? 16 : 1;
     for (int c = 0; c < a->set->nfrf; c++)
-        if (parts[2 * c] + parts[2 * c + 1] != 17 || (parts[2 * c] && parts[2 * c + 1]))
+        if (parts[2 * (ptrdiff_t)c] + parts[2 * c + 1] != 17 || (parts[2 * (ptrdiff_t)c] && parts[2 * c + 1]))
             return wrong(a, 1, 1, "%s has not two columns, expected real and imaginary, or magnitude and phase, once each",
                          pool_format(a->pool, "%d/%d", a->set->frf[c].response_node, a->set->frf[c].reference_node));
     if (a->quantity < 0)

@@ -60,7 +60,9 @@ static void write_value(FILE *out, const cJSON *json, int is_drawn)
 {
     const cJSON *item;
     int first = 1;
-    if (cJSON_IsString(json)) {
+    if (!json || cJSON_IsNull(json)) {
+        (void)fputs("null", out);
+    } else if (cJSON_IsString(json)) {
         write_text(out, json->valuestring);
     } else if (cJSON_IsNumber(json)) {
         write_number(out, json->valuedouble, is_drawn);
@@ -89,8 +91,6 @@ static void write_value(FILE *out, const cJSON *json, int is_drawn)
             first = 0;
         }
         (void)fputc('}', out);
-    } else {
-        (void)fputs("null", out);
     }
 }
 

@@ -106,6 +106,14 @@ static void print_length(FILE *out, const char *what, double value, const char *
 
 #define REST_HZ 0.01 /* below, a motion is that of a free rotor and its rounding */
 
+static int is_free(int count, const double *hz)
+{
+    int free = count > 0;
+    for (int i = 0; i < count; i++)
+        free &= hz[i] < REST_HZ;
+    return free;
+}
+
 static void print_check(const struct screen *to, const struct result *result, const struct job *job)
 {
     const rotid_check *check = result->check;
@@ -129,9 +137,7 @@ static void print_check(const struct screen *to, const struct result *result, co
     (void)fprintf(out, "measured modes  %12d\n", check->measured_modes);
     (void)fprintf(out, "rigid-body modes%12d", check->rigid_modes);
     const struct human_unit hz = human_unit(1, "Hz");
-    int free = check->nrigid_hz > 0;
-    for (int i = 0; i < check->nrigid_hz; i++)
-        free &= check->rigid_hz[i] < REST_HZ;
+    int free = is_free(check->nrigid_hz, check->rigid_hz);
     for (int i = 0; i < check->nrigid_hz && !free; i++)
         (void)fprintf(out, "%s%.*f", i ? ", " : " (modes on the supports at ", hz.factor < 1 ? 6 : 3,
                       check->rigid_hz[i] * hz.factor);
@@ -236,7 +242,9 @@ static void print_modes(const struct screen *to, const struct result *result, co
     const rotid_spectrum *s = result->modes;
     const struct human_unit hz = human_unit(1, "Hz");
     (void)job;
-    for (int i = 0; i < s->nrigid_hz; i++)
+    if (is_free(s->nrigid_hz, s->rigid_hz))
+        (void)fprintf(to->out, "rigid-body modes: %d (the rotor is free)\n", s->nrigid_hz);
+    for (int i = 0; i < s->nrigid_hz && !is_free(s->nrigid_hz, s->rigid_hz); i++)
         (void)fprintf(to->out, "rotor on its supports: %.*f %s\n", hz.factor < 1 ? 7 : 4, s->rigid_hz[i] * hz.factor, hz.text);
     screen_table(to, table_of_model_modes(to->pool, s));
     if (s->beside) {

@@ -74,12 +74,12 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define MEMBER_ID(M)              const char *M[LISTED_ID_LINES];
 #define MEMBER_LIST(TYPE, M)                                                                                                     \
     int n##M;                                                                                                                    \
-    TYPE *M;
-#define MEMBER_NUMBERS(M, B)          MEMBER_LIST(const double, M)
-#define MEMBER_INTEGERS(M, B)         MEMBER_LIST(const int, M)
-#define MEMBER_TEXTS(M, B)            MEMBER_LIST(const char *const, M)
-#define MEMBER_MAP(M, B)              MEMBER_LIST(rotid_component, M)
-#define MEMBER_STRUCTS(M, T)          MEMBER_LIST(struct T, M)
+    TYPE M;
+#define MEMBER_NUMBERS(M, B)          MEMBER_LIST(const double *, M)
+#define MEMBER_INTEGERS(M, B)         MEMBER_LIST(const int *, M)
+#define MEMBER_TEXTS(M, B)            MEMBER_LIST(const char *const *, M)
+#define MEMBER_MAP(M, B)              MEMBER_LIST(rotid_component *, M)
+#define MEMBER_STRUCTS(M, T)          MEMBER_LIST(struct T *, M)
 #define MEMBER_NUMBERS_BY(M, B, N, K) const double *M;
 #define MEMBER_MATRIX(M, B, R, C)     const double *M;
 #define MEMBER_STRUCT_IN(M, T)        struct T M;

@@ -494,8 +494,8 @@ static int frf_choose_damping(struct pool *pool, const struct job *job, const st
                               struct message_list *notes, struct frf_result *out)
 {
     const struct synthesis *s = &out->synthesis;
-    double stated = job->options.frf.damping, smallest = INFINITY, sum = 0;
-    int count = 0;
+    double stated = job->options.frf.damping, smallest = INFINITY, sum[2] = {0, 0};
+    int count[2] = {0, 0}, suspended = job->rotor.count_all ? job->measurement.numbering.nsupport : 0; /* of those counted */
     out->zeta = POOL_ARRAY(pool, double, s->nmode);
     out->damping = POOL_ARRAY(pool, enum frf_damping, s->nmode);
     out->moved_lambda = POOL_ARRAY(pool, double, s->nmode);
@@ -503,20 +503,22 @@ static int frf_choose_damping(struct pool *pool, const struct job *job, const st
         return ROTID_ERROR_MEMORY;
     for (int k = 0; compared && k < compared->nmode; k++)
         if (has_ratio(job, k)) {
+            int elastic = compared->number[k] > suspended;
             smallest = fmin(smallest, job->measurement.damping[k]);
-            sum += job->measurement.damping[k];
-            count++;
+            sum[elastic] += job->measurement.damping[k];
+            count[elastic]++;
         }
-    if (!count && stated <= 0)
+    int of = count[1] > 0; /* the mean is that of elastic modes, as far as one has a ratio */
+    if (!count[of] && stated <= 0)
         return refuse_settling(
             notes, job,
             "no mode has a damping ratio, expected one as third value of *MODES, in the file of *MEASURED, or DAMPING= on "
             "*FRF");
     memcpy(out->moved_lambda, s->lambda, (size_t)s->nmode * sizeof *s->lambda);
     for (int r = 0; r < s->nmode; r++) {
-        int rigid = r < s->nrigid;
+        int rigid = r < s->nrigid + suspended;
         out->damping[r] = stated > 0 ? FRF_DAMPING_STATED : rigid ? FRF_DAMPING_SMALLEST : FRF_DAMPING_MEAN;
-        out->zeta[r] = stated > 0 ? stated : rigid ? smallest : sum / count;
+        out->zeta[r] = stated > 0 ? stated : rigid ? smallest : sum[of] / count[of];
     }
     for (int k = 0; compared && k < compared->nmode; k++) {
         int r = s->nrigid + compared->number[k] - 1;

@@ -375,6 +375,22 @@ static int share_fit(struct pool *pool, const rotid_fit_result *fit, int functio
     return ROTID_OK;
 }
 
+/* ROTID_ERROR_RANK of a fit: each unknown has a column of zeros. Names them. Returns ROTID_ERROR_ARGUMENT or ROTID_ERROR_MEMORY.
+ */
+static int refuse_unmoved(struct pool *pool, const struct states *states, struct message_list *notes)
+{
+    const struct job *job = &states->state[0].job;
+    const char *names = "";
+    for (int p = 0; p < states->nparameter && names; p++)
+        names = pool_format(pool, "%s%s%s", names, p ? ", " : "", states->bounds[p].name);
+    if (!names)
+        return ROTID_ERROR_MEMORY;
+    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
+                "no measured mode (TYPE=%s) depends on %s, expected a parameter in *IDENTIFY that moves one",
+                mode_type_words[job->options.type], names);
+    return ROTID_ERROR_ARGUMENT;
+}
+
 /* After a fit: the spectrum and the pairs of a state there; *moved: another fit is wanted, as these differ from those it had. */
 static int pair_after_fit(struct pool *pool, struct running *run, const double *x, int bare, int *moved)
 {
@@ -448,6 +464,8 @@ static int with_models(struct pool *pool, const struct states *states, int basel
         for (int s = 0; s < count; s++)
             paired[s] = (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
         status = fit_states(pool, states, bounds, paired, &options, environment, fit);
+        if (status == ROTID_ERROR_RANK)
+            status = refuse_unmoved(pool, states, notes);
         if (!status && goes_on)
             status = join(pool, last, *fit);
         rotid_fit_free(last);

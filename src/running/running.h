@@ -221,7 +221,8 @@ struct basis_size {
 };
 
 /* built: NULL, or the same machine at other values, whose mesh serves; with basis NULL its basis too. Statuses of discrete_build,
- * *failed likewise; ROTID_ERROR_STIFFNESS where nothing holds the rotor; ROTID_ERROR_MASS, ROTID_ERROR_EIGEN. */
+ * *failed likewise; ROTID_ERROR_ARGUMENT where both are NULL, ROTID_ERROR_STIFFNESS where nothing holds the rotor;
+ * ROTID_ERROR_MASS, ROTID_ERROR_EIGEN. */
 int system_build(struct pool *pool, const struct machine *machine, const struct job *job, const struct machine_values *values,
                  const struct system *built, const struct basis_size *basis, struct system *system, int *failed);
 

@@ -325,7 +325,7 @@ static int build(struct builder *b, const struct job *job, const struct system *
     if (!status && basis)
         status = hold(b);
     if (!status)
-        status = basis ? make_basis(b, basis) : take_basis(b, built);
+        status = basis ? make_basis(b, basis) : built ? take_basis(b, built) : ROTID_ERROR_ARGUMENT;
     if (!status)
         status = project_all(b);
     return status ? status : open_dense(b->pool, s);
@@ -351,7 +351,7 @@ static void add_bearing(const struct system *s, const double *v, int at, const d
     for (int plane = 0; plane < 2; plane++)
         for (int other = 0; other < 2; other++) {
             double f = factor * value[2 * plane + other];
-            double *block = a + plane * s->plane + (ptrdiff_t)s->size * other * s->plane;
+            double *block = a + (plane + (ptrdiff_t)s->size * other) * s->plane;
             for (int j = 0; j <= s->columns && f != 0; j++) {
                 int column = j < s->columns ? j : at;
                 double right = j < s->columns ? v[j] : -1;
@@ -366,7 +366,7 @@ static void add_bearing(const struct system *s, const double *v, int at, const d
 
 static void add_block(const struct system *s, double factor, const double *value, int row, int column, double *a)
 {
-    double *block = a + row * s->plane + (ptrdiff_t)s->size * column * s->plane;
+    double *block = a + (row + (ptrdiff_t)s->size * column) * s->plane;
     for (int j = 0; j < s->columns; j++)
         for (int i = 0; i < s->columns; i++)
             block[i + (ptrdiff_t)s->size * j] += factor * value[i + (ptrdiff_t)s->columns * j];

@@ -335,7 +335,7 @@ static int compute_speeds(struct pool *pool, const struct study *study, const st
     for (int p = 0; p < machine_unknowns(machine, job); p++) {
         x[p] = p < n && experiment->truth ? experiment->truth[state_unknown(&states->state[0], p)]
                                           : machine_bounds(machine, job, p)->start;
-        known &= isfinite(x[p]) && !experiment->made_by->effect;
+        known = known && isfinite(x[p]) && !experiment->made_by->effect;
     }
     options.draws = 0;
     if (!status && known) {

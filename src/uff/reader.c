@@ -326,7 +326,7 @@ static void hand_out(const struct uff_values *values, int count, const double *n
     const struct uff_function *function = &values->function;
     int y = !function->is_even, per = values->per_value;
     for (int i = 0; x && i < count; ++i)
-        x[i] = function->is_even ? function->start + (double)(values->done + i) * function->step : number[i * per];
+        x[i] = function->is_even ? function->start + (double)(values->done + i) * function->step : number[(ptrdiff_t)i * per];
     for (int i = 0; real && i < count; ++i)
         real[i] = number[i * per + y];
     for (int i = 0; imag && i < count; ++i)

@@ -194,6 +194,7 @@ const struct uff_record uff_form_58 = {"record 7 (ordinate data type, number of 
     STEP(uff_function, start, 30, 13, 5),
     STEP(uff_function, step, 43, 13, 5),
     REAL(uff_function, z, 56, 13, 5)}};
+/* NOLINTBEGIN(bugprone-macro-parentheses): M is a member of the struct, whose name no parentheses may enclose */
 #define AXIS(NAME, WHAT, M)                                                                                                      \
     const struct uff_record NAME = {WHAT, 0, 6, {                                                                                \
         WHOLE(uff_function, M.specific_type, 0, 10),                                                                             \
@@ -202,6 +203,7 @@ const struct uff_record uff_form_58 = {"record 7 (ordinate data type, number of 
         WHOLE(uff_function, M.temperature, 20, 5),                                                                               \
         WORDS(uff_function, M.label, 26, 20),                                                                                    \
         WORDS(uff_function, M.unit, 47, 20)}}
+/* NOLINTEND(bugprone-macro-parentheses) */
 AXIS(uff_abscissa_58, "record 8 (abscissa)", abscissa);
 AXIS(uff_ordinate_58, "record 9 (ordinate)", numerator);
 AXIS(uff_denominator_58, "record 10 (ordinate denominator)", denominator);
