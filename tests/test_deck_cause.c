@@ -468,6 +468,30 @@ UNIT_TEST(a_suspect_states_where_its_size_is_looked_for)
     pool_close(&r.pool);
 }
 
+/* A value beyond the bounds is told with bounds in the unit in which it was written. */
+POOL_TEST(bounds_are_told_in_the_units_of_the_deck)
+{
+    static const char *const text[3] = {"*CAUSE, NAME=c, TYPE=stiffness_local, SHAPE=BOX\ndepth, 0.3\nz, 500\nwidth, 0.2\n",
+                                        "*CAUSE, NAME=m, TYPE=added_mass, SHAPE=BOX, SUSPECT\nwidth, 10\nmass, 1, 1e6\nz, 300\n",
+                                        "*CAUSE, NAME=m, TYPE=added_mass, SHAPE=BOX\nmass, 100\nz, 300\nwidth, 10\n"
+                                        "*IDENTIFY\nm.width, 0, 600, 50\n"},
+                             *const told[3] = {"width is 0.2, expected a value from 10 to 250",
+                                               "expected the lower one first and both from 0 to 15413.4",
+                                               "are 0 and 600, expected them inside 0 to 500"};
+    for (int i = 0; i < 3; i++) {
+        struct reading r;
+        try_path(&r,
+                 folder_write("bounds.inp",
+                              pool_format(&test_pool,
+                                          "*UNITS, LENGTH=MM, MASS=G\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n"
+                                          "7850\n*SHAFT, NAME=left, MATERIAL=steel\n1000, 50, 0, 12\n%s",
+                                          text[i])),
+                 NULL);
+        assert_non_null(find_message(&r.messages, told[i]));
+        pool_close(&r.pool);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------ faults of the world */
 
 UNIT_TEST(without_memory_nothing_leaks)

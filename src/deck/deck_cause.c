@@ -292,9 +292,10 @@ static int check_options(const struct cause_card *c)
     return bad;
 }
 
-static int check_value(const struct cause_card *c, int p, const char *name, const struct field *field, double value)
+static int check_value(const struct cause_card *c, int p, const struct effect_parameter_name *known, const struct field *field,
+                       double value)
 {
-    double lower, upper;
+    double lower, upper, si = deck_in_si(c->reader, known->unit);
     if (!c->kind->bounds)
         return 0;
     cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
@@ -304,10 +305,11 @@ static int check_value(const struct cause_card *c, int p, const char *name, cons
     if ((value >= lower && value <= upper) || (has_neutral && value == neutral))
         return 0;
     if (has_neutral && (neutral < lower || neutral > upper))
-        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g, or %.6g: no effect", name, field->text,
-                   lower, upper, neutral);
+        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g, or %.6g: no effect", known->name,
+                   field->text, lower / si, upper / si, neutral / si);
     else
-        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g", name, field->text, lower, upper);
+        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g", known->name, field->text, lower / si,
+                   upper / si);
     return 1;
 }
 
@@ -328,14 +330,14 @@ static int find_value(const struct cause_card *c, const struct field *field, int
 /* "mass, 0, 5": where a suspect's size is looked for. */
 static int read_bounds(struct cause_card *c, const struct data_line *line, int p, const struct effect_parameter_name *known)
 {
-    double lower, upper, *bound = c->effect.bound;
+    double lower, upper, *bound = c->effect.bound, si = deck_in_si(c->reader, known[p].unit);
     const struct field *field = line->field;
     int bad = deck_number(c->reader, line, 1, known[p].name, ANY, &bound[0]) |
               deck_number(c->reader, line, 2, known[p].name, ANY, &bound[1]);
     if (bad)
         return bad;
-    bound[0] *= deck_in_si(c->reader, known[p].unit);
-    bound[1] *= deck_in_si(c->reader, known[p].unit);
+    bound[0] *= si;
+    bound[1] *= si;
     if (c->kind->class != CAUSE_PHYSICAL || p != c->kind->size) {
         deck_error(c->reader, field[1].place, "%s has bounds, expected them for the size of TYPE=%s alone", known[p].name,
                    c->kind->id);
@@ -346,7 +348,7 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
         return 0;
     deck_error(c->reader, field[1].place,
                "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g", known[p].name,
-               field[1].text, field[2].text, lower, upper);
+               field[1].text, field[2].text, lower / si, upper / si);
     return 1;
 }
 
@@ -381,7 +383,7 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
         int p = find_value(c, &line->field[0], count, known);
         if (!given[p])
             continue; /* its bounds */
-        bad |= check_value(c, p, known[p].name, &line->field[1], value[p]);
+        bad |= check_value(c, p, &known[p], &line->field[1], value[p]);
     }
     for (int p = 0; p < count && !c->suspect && !bad; p++)
         if (!given[p]) {

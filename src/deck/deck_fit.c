@@ -20,14 +20,14 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
     const struct rotor *rotor = &reader->job->rotor;
     const struct effect *effect = &rotor->effect[parameter->index];
     const struct cause_kind *cause = catalogue_of(effect);
-    double lower, upper;
+    double lower, upper, si = deck_in_si(reader, bounds->unit ? bounds->unit : "");
     if (!cause || !cause->bounds)
         return;
     cause_reach(cause, rotor, effect, parameter->component, &lower, &upper);
     if (bounds->lower < lower || bounds->upper > upper)
         deck_error(reader, line->field[bounds->lower < lower ? 1 : 2].place,
                    "the bounds of %s are %s and %s, expected them inside %.6g to %.6g", bounds->name, line->field[1].text,
-                   line->field[2].text, lower, upper);
+                   line->field[2].text, lower / si, upper / si);
 }
 
 void deck_drop_unknown(struct deck_reader *reader, int p)

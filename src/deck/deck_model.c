@@ -353,7 +353,9 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
     }
     if (bars->center - half < -over || bars->center + half > reader->length + over) {
         deck_error(reader, card_option(card, "LENGTH")->value_place,
-                   "bars of %.9g m reach beyond the rotor, expected them inside 0 to %.6g m", bars->length, reader->length);
+                   "bars of %.9g %s reach beyond the rotor, expected them inside 0 to %.6g %s",
+                   bars->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"), reader->length / deck_in_si(reader, "m"),
+                   deck_unit_name(reader, "m"));
         return 1;
     }
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
