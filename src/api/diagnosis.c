@@ -22,8 +22,9 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
     char *text = NULL;
     struct message_list refusals;
     message_open(&refusals, pool);
-    if (d->result.verdict.sentence && d->base.fit && !d->result.before)
-        (void)deck_write_extended(pool, d, &refusals, &text);
+    if (d->result.verdict.sentence && d->base.fit && !d->result.before &&
+        deck_write_extended(pool, d, &refusals, &text) == ROTID_ERROR_MEMORY)
+        return NULL;
     for (size_t i = 0; i < refusals.count && !text;
          i++) /* the diagnosis stands without a deck; what has a place was said before */
         message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", refusals.item[i].text);

@@ -52,7 +52,8 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
     }
     for (int i = 0; i < made->ntests; i++) {
         char *cards = NULL;
-        (void)deck_write_test(pool, &s->rivals.rival[s->rivals.n - 1].job, &s->test[i], &cards);
+        if (deck_write_test(pool, &s->rivals.rival[s->rivals.n - 1].job, &s->test[i], &cards) == ROTID_ERROR_MEMORY)
+            return NULL;
         made->tests[i].cards = cards;
     }
     return CALL_KEEP(call, &suggestion_whole_record, made);
