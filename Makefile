@@ -397,7 +397,7 @@ $(BUILD)/tests/test_schema.o: ALL_CFLAGS += -DROTID_SCHEMA_HEADERS='"$(SCHEMA_HE
 $(BUILD)/tests/test_schema: | $(BUILD)/schema
 
 lint:
-	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
+	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) $(EXTRA_blas) -DROTID_COMMIT='""'
 	@sh tools/lint-manual
 
 format:

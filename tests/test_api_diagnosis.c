@@ -36,6 +36,29 @@ UNIT_TEST(the_extended_deck_is_that_of_the_program)
     free(text);
 }
 
+/* Why a diagnosis has no deck to hand over is a note of its own: notes with a place are those of reading. Here the table of modes
+ * is gone when the deck is read back. */
+UNIT_TEST(the_reason_for_no_extended_deck_is_told)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_diagnosis *d;
+    int told = 0;
+    (void)folder_write("modes.csv", "mode,frequency,std\n1,183.39,0.2\n2,501.6,0.5\n3,972.5,1\n");
+    const char *path = folder_write("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, "
+                                               "MATERIAL=steel\n1.0, 0.04, 0, 60\n*SENSORS\n1, 0\n2, 0.5\n3, 1.0\n*MODES, "
+                                               "FILE=modes.csv\n*IDENTIFY\nbar.E, 1e11, 3e11, 2e11\n");
+    rotid_deck *deck = bench_deck(path);
+    assert_int_equal(unlink(folder_path("modes.csv")), 0);
+    assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
+    assert_non_null(d->verdict.sentence);
+    assert_null(d->extended_deck);
+    for (int i = 0; i < d->nmessage; i++)
+        told |= !d->message[i].file && strstr(d->message[i].text, "would not be read") && strstr(d->message[i].text, "modes.csv");
+    assert_true(told);
+    rotid_diagnosis_free(d);
+    rotid_deck_free(deck);
+}
+
 /* Whether `line` [length] stands in the text as a line. */
 static int has_line(const char *text, const char *line, size_t length)
 {

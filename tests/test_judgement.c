@@ -24,6 +24,21 @@ UNIT_TEST(errors_of_fitted_modes_and_of_those_held_out_stand_apart)
     assert_int_equal(fit_worst_mode(&unknown), -1);
 }
 
+/* Mesh errors of 3 and 4 times the noise are a chi2 of 25. */
+UNIT_TEST(a_mesh_that_is_enough_for_the_misfit_is_its_reason)
+{
+    rotid_compared_mode modes[] = {{.frequency_std = 0.001}, {.frequency_std = 0.002}, {.frequency_std = 0.001, .holdout = 1}};
+    double mesh[] = {0.3, -0.8, 7};
+    rotid_identification fit = {.chi2 = 49, .dof = 2, .nmodes = 3, .modes = modes, .mesh_error_percent = mesh};
+    assert_int_equal(fit_mode_of_mesh(&fit), 1);
+    fit.chi2 = 51; /* more than twice: something else as well */
+    assert_int_equal(fit_mode_of_mesh(&fit), -1);
+    fit.chi2 = 3; /* as noise has it */
+    assert_int_equal(fit_mode_of_mesh(&fit), -1);
+    fit.chi2 = NAN; /* no noise is stated */
+    assert_int_equal(fit_mode_of_mesh(&fit), -1);
+}
+
 /* Of two degrees of freedom the tail is exp(-chi2/2). */
 UNIT_TEST(noise_explains_a_misfit_or_the_model_is_not_adequate)
 {

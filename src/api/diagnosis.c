@@ -25,8 +25,8 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
     if (d->result.verdict.sentence && d->base.fit && !d->result.before &&
         deck_write_extended(pool, d, &refusals, &text) == ROTID_ERROR_MEMORY)
         return NULL;
-    for (size_t i = 0; i < refusals.count && !text;
-         i++) /* the diagnosis stands without a deck; what has a place was said before */
+    /* the diagnosis stands without a deck; notes with a place are taken for those of reading, which were said before */
+    for (size_t i = 0; i < refusals.count && !text; i++)
         message_add(&call->notes, SEVERITY_WARNING, NULL, 0, 0, "%s", refusals.item[i].text);
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;

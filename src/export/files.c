@@ -267,13 +267,13 @@ static void put_remarks(FILE *stream, const struct export_model *model, int cond
                "the matrix of rotid to the last bit. A program that takes one name after K2GG only must not run this.");
 }
 
-static int write_deck(struct writer *w, const char *const *name, const struct source *mass)
+static int write_deck(struct writer *w, int condensed, const char *const *name, const struct source *mass)
 {
     FILE *stream = w->stream;
     const struct export_model *model = w->model;
     const struct source stiffness = w->source;
     const int remainder[2] = {count_remainders(&stiffness) > 0, count_remainders(mass) > 0};
-    int condensed = !stiffness.full, count = condensed ? stiffness.n : model->nnode;
+    int count = condensed ? stiffness.n : model->nnode;
     put_remarks(stream, model, condensed);
     put_case(stream, model, name, remainder);
     for (int i = 0; i < count; i++)
@@ -299,7 +299,7 @@ int dmig_full(FILE *stream, const struct export_model *model)
     static const char *const name[] = {"KFULL", "KFULLR", "MFULL", "MFULLR"};
     const struct source mass = {.full = &model->m};
     struct writer w = {.stream = stream, .model = model, .source.full = &model->k};
-    return write_deck(&w, name, &mass);
+    return write_deck(&w, 0, name, &mass);
 }
 
 int dmig_condensed(FILE *stream, const struct export_model *model)
@@ -307,7 +307,7 @@ int dmig_condensed(FILE *stream, const struct export_model *model)
     static const char *const name[] = {"KRED", "KREDR", "MRED", "MREDR"};
     const struct source mass = {.dense = model->condensed.m, .n = model->condensed.count};
     struct writer w = {stream, model, {.dense = model->condensed.k, .n = model->condensed.count}};
-    return write_deck(&w, name, &mass);
+    return write_deck(&w, 1, name, &mass);
 }
 
 #define LINE_WIDTH 120 /* the format allows 1,024 */

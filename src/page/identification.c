@@ -84,14 +84,23 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
             pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
     if (!noisy)
         return;
+    int k = fit_mode_of_mesh(fit);
     if (fit_is_inadequate(fit))
         reasons_add(
             reasons, TONE_BAD,
             pool_format(
                 pool,
-                "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
-                "model lacks something, and its parameters are biased by that. rotid diagnose %s looks for the cause.",
-                human_digits(pool, sqrt(fit->chi2_per_dof), 2), human_digits(pool, fit->chi2, 3), fit->dof, deck));
+                "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): %s",
+                human_digits(pool, sqrt(fit->chi2_per_dof), 2), human_digits(pool, fit->chi2, 3), fit->dof,
+                k >= 0
+                    ? pool_format(pool,
+                                  "its mesh moves mode %d by %s\xc2\xa0%%, and the parameters are biased by that. Give more "
+                                  "elements.",
+                                  fit->modes[k].mode, human_signed(pool, fit->mesh_error_percent[k], 2))
+                    : pool_format(pool,
+                                  "the model lacks something, and its parameters are biased by that. rotid diagnose %s looks for "
+                                  "the cause.",
+                                  deck)));
     else
         reasons_add(reasons, TONE_GOOD,
                     pool_format(pool, "The stated noise explains the misfit: \xcf\x87\xc2\xb2 = %s with %d degrees of freedom.",

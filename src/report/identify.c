@@ -209,7 +209,14 @@ static void print_intervals(const struct screen *to, const struct result_head *h
                    "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone causes as much in "
                    "%.0f %% of tests",
                    wide, 100 * fit_p_value(fit));
-    if (fit_is_inadequate(fit)) {
+    int k = fit_mode_of_mesh(fit);
+    if (k >= 0) {
+        screen_say(
+            to,
+            "the model is not adequate for these data, which biases its parameters: its mesh moves mode %d by %+.2g %%, %.3g "
+            "times the noise; give more elements",
+            fit->modes[k].mode, fit->mesh_error_percent[k], fabs(fit->mesh_error_percent[k]) / 100 / fit->modes[k].frequency_std);
+    } else if (fit_is_inadequate(fit)) {
         (void)fputs("the model is not adequate for these data, which biases its parameters; rotid diagnose ", out);
         name_cell(out, 0, head->deck ? head->deck : "DECK");
         (void)fputs(" looks for the cause\n", out);

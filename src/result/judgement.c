@@ -53,6 +53,21 @@ int fit_is_inadequate(const rotid_identification *fit)
     return misfit_is_inadequate(fit->chi2, fit->dof);
 }
 
+int fit_mode_of_mesh(const rotid_identification *fit)
+{
+    double sum = 0, most = 0;
+    int worst = -1;
+    for (int k = 0; k < fit->nmodes && fit->mesh_error_percent && fit_is_inadequate(fit); k++) {
+        double times = fabs(fit->mesh_error_percent[k]) / 100 / fit->modes[k].frequency_std;
+        if (fit->modes[k].holdout || !isfinite(times))
+            continue;
+        sum += times * times;
+        worst = times > most ? k : worst;
+        most = fmax(most, times);
+    }
+    return sum >= fit->chi2 / 2 ? worst : -1;
+}
+
 const char *fit_state_of_mode(const rotid_identification *fit, int k)
 {
     int s = 0;

@@ -177,6 +177,9 @@ double fit_p_value(const rotid_identification *fit);
 /* Whether that is less than JUDGEMENT_CHANCE: the model is not adequate for the data. 0 where no noise is stated, chi2 NaN. */
 int misfit_is_inadequate(double chi2, int dof);
 int fit_is_inadequate(const rotid_identification *fit);
+/* Where the errors of the mesh are enough for a misfit that is inadequate, sum over the fitted modes of (mesh error/noise)^2 >=
+ * chi2/2, the mode whose mesh error is the most times its noise; else -1. */
+int fit_mode_of_mesh(const rotid_identification *fit);
 /* The fit as one of its states has it: what that has for itself in place of what all have. */
 rotid_identification fit_of_state(const rotid_identification *fit, int s);
 /* The name of the state that entry k of modes is of; NULL where the deck is one state. */

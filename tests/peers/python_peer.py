@@ -519,6 +519,7 @@ def from_abaqus(checks, folder):
                     .replace("\n5.\n", "\n5e-3\n").replace("0.02, 0.02, 0.03", "20., 20., 30.").replace("1e6", "1e3"))
     said = written(rotid.from_abaqus(path, units="MM"), deck)
     checks.close("from Abaqus in mm: frequencies", bending_hz(deck), bending_hz(hand), 1e-12)
+    checks.true("from Abaqus in mm: the density has its digits", "\n7850.0\n" in deck.read_text(), deck.read_text()[:400])
     checks.true("from Abaqus: *BOUNDARY is said to be left out", any("BOUNDARY" in s for s in said), said)
     path.write_text(ABAQUS.replace("2.1E11, 0.3", "2.1E11, 0.3, 20.\n1.6E11, 0.3, 500."))
     said = written(rotid.from_abaqus(path), deck)

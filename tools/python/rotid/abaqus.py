@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .chain import Beam, Mass, Spring, rotor_of, units_of
+from .chain import Beam, Mass, Spring, in_si, rotor_of, units_of
 from .rotor import Material, refuse
 
 BEAMS = ("B31", "B31R")
@@ -102,7 +102,7 @@ class Reader:
     def node(self, card):
         for line, fields in card.rows:
             number = whole(card, line, fields[0], "the node")
-            self.place[number] = np.array([value(card, line, fields, 1 + c, "xyz"[c], default=0.0) for c in range(3)]) * self.scale["length"]
+            self.place[number] = np.array([in_si(value(card, line, fields, 1 + c, "xyz"[c], default=0.0), self.scale["length"]) for c in range(3)])
 
     def element(self, card):
         kind = card.need("TYPE")
@@ -159,12 +159,12 @@ class Reader:
             g = e / (2 * (1 + nu))
         if not (e > 0 and g > 0):
             card.wrong(f"E is {e:g} and G {g:g}, expected both above zero", line)
-        self.current.update(e=e * self.scale["modulus"], g=g * self.scale["modulus"])
+        self.current.update(e=in_si(e, self.scale["modulus"]), g=in_si(g, self.scale["modulus"]))
 
     def density(self, card):
         if not card.rows or self.current is None:
             card.wrong("expected a density behind a *MATERIAL")
-        self.current["rho"] = value(card, *card.rows[0], 0, "the density", 0) * self.scale["density"]
+        self.current["rho"] = in_si(value(card, *card.rows[0], 0, "the density", 0), self.scale["density"])
 
     def beam_section(self, card):
         kind = card.need("SECTION")
@@ -173,9 +173,9 @@ class Reader:
         if not card.rows:
             card.wrong("has no data line, expected the dimensions")
         line, fields = card.rows[0]
-        first = value(card, line, fields, 0, "the radius", 0) * self.scale["length"]
+        first = in_si(value(card, line, fields, 0, "the radius", 0), self.scale["length"])
         second = value(card, line, fields, 1, "the second dimension", 0, first if kind == "CIRC" else None)
-        second = second if len(fields) < 2 or not fields[1] else second * self.scale["length"]
+        second = second if len(fields) < 2 or not fields[1] else in_si(second, self.scale["length"])
         if kind == "CIRC" and second != first:
             card.wrong(f"has the radii {first:g} and {second:g} m, expected a circle", line)
         inner = 0.0 if kind == "CIRC" else first - second
@@ -184,7 +184,7 @@ class Reader:
         self.sections.append((card, card.need("ELSET"), card.need("MATERIAL"), 2 * inner, 2 * first))
 
     def mass(self, card):
-        self.masses.append((card, card.need("ELSET"), value(card, *self.only(card), 0, "the mass", 0) * self.scale["mass"]))
+        self.masses.append((card, card.need("ELSET"), in_si(value(card, *self.only(card), 0, "the mass", 0), self.scale["mass"])))
 
     def only(self, card):
         if len(card.rows) < 1:
@@ -193,14 +193,14 @@ class Reader:
 
     def rotary_inertia(self, card):
         line, fields = self.only(card)
-        i = [value(card, line, fields, c, "an inertia", default=0.0) * self.scale["mass"] * self.scale["length"] ** 2 for c in range(6)]
+        i = [in_si(value(card, line, fields, c, "an inertia", default=0.0), self.scale["mass"] * self.scale["length"] ** 2) for c in range(6)]
         self.masses.append((card, card.need("ELSET"), np.array([[i[0], i[3], i[4]], [i[3], i[1], i[5]], [i[4], i[5], i[2]]])))
 
     def spring(self, card):
         if "NONLINEAR" in card.options or len(card.rows) != 2:
             card.wrong("expected a degree of freedom and one stiffness")
         dof = whole(card, card.rows[0][0], card.rows[0][1][0], "the degree of freedom")
-        stiffness = value(card, *card.rows[1], 0, "the stiffness", 0) * self.scale["modulus"] * self.scale["length"]
+        stiffness = in_si(value(card, *card.rows[1], 0, "the stiffness", 0), self.scale["modulus"] * self.scale["length"])
         self.springs.append((card, card.need("ELSET"), dof, stiffness))
 
     def members(self, card, name, kinds):

@@ -43,6 +43,11 @@ def units_of(units):
     return UNITS[units]
 
 
+def in_si(value, factor):
+    """value * factor to the fifteen digits that both have: 7.85e-9 t/mm3 are 7850 kg/m3 and not 7850.000000000001."""
+    return float(f"{float(value) * factor:.15g}") if factor != 1 else float(value)
+
+
 def rotor_of(source, heading, place, beams, masses, springs, notes):
     """place: node -> coordinates [m]. Elements side by side between the same nodes are rings around each other."""
     if not beams:

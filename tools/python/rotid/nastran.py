@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from .chain import Beam, Mass, rotor_of, units_of
+from .chain import Beam, Mass, in_si, rotor_of, units_of
 from .program import RotidError
 from .rotor import Material, near, refuse
 
@@ -42,7 +42,7 @@ def from_nastran(source, units="SI"):
     place = {}
     for node, grid in model.nodes.items():
         try:
-            place[node] = np.asarray(grid.get_position_no_xref(model), dtype=float) * scale["length"]
+            place[node] = np.array([in_si(x, scale["length"]) for x in grid.get_position_no_xref(model)])
         except Exception as error:
             refuse(source, f"GRID {node}", f"its place is not known: {error}")
     materials, beams = {}, []
@@ -74,7 +74,7 @@ def beam_of(source, model, number, element, materials, scale, notes):
     of = f"{properties.type} {properties.pid}"
     if np.any(np.atleast_1d(np.asarray(properties.nsm, dtype=float))):
         refuse(source, of, "has non-structural mass, expected a density")
-    sections = [tuple(scale["length"] * d for d in section) for section in SECTIONS[properties.type](source, of, properties)]
+    sections = [tuple(in_si(d, scale["length"]) for d in section) for section in SECTIONS[properties.type](source, of, properties)]
     outer, inner = zip(*sections)
     for o, i in sections:
         if not 0 <= i < o:
@@ -92,7 +92,7 @@ def material_of(source, model, of, number, materials, scale, notes):
     for name, value in values.items():
         if value is None or not (math.isfinite(value) and value > 0):
             refuse(source, f"MAT1 {number}", f"{name} is {value}, expected a number above zero")
-    materials[number] = Material.of(f"mat{number}", material.e * scale["modulus"], material.g * scale["modulus"], material.rho * scale["density"], notes)
+    materials[number] = Material.of(f"mat{number}", in_si(material.e, scale["modulus"]), in_si(material.g, scale["modulus"]), in_si(material.rho, scale["density"]), notes)
     return materials[number]
 
 
@@ -152,7 +152,7 @@ def mass_of(source, number, mass, scale):
         refuse(source, where, "its mass lies beside its node, expected no offset")
     if mass.cid:
         refuse(source, where, "has a coordinate system of its own, expected the basic one")
-    i11, i21, i22, i31, i32, i33 = (float(i) * scale["mass"] * scale["length"] ** 2 for i in mass.I)
+    i11, i21, i22, i31, i32, i33 = (in_si(i, scale["mass"] * scale["length"] ** 2) for i in mass.I)
     if not (math.isfinite(mass.mass) and mass.mass >= 0):
         refuse(source, where, f"has the mass {mass.mass}, expected a number not below zero")
-    return Mass(mass.nid, mass.mass * scale["mass"], np.array([[i11, -i21, -i31], [-i21, i22, -i32], [-i31, -i32, i33]]), where)
+    return Mass(mass.nid, in_si(mass.mass, scale["mass"]), np.array([[i11, -i21, -i31], [-i21, i22, -i32], [-i31, -i32, i33]]), where)
