@@ -447,6 +447,8 @@ def from_nastran(checks, folder):
         "inertias of no circle": (bulk(j3="1.0", p3="2.0"), "PBAR 3: has I1"),
         "no density": (bulk(rho=""), "MAT1 1: RHO is"),
         "another element": (bulk().replace("ENDDATA", "CROD,9,1,1,2\nENDDATA"), "CROD: 1 of them"),
+        "parts that nothing joins": (bulk().replace("GRID,4,", "GRID,5,,700.,0.,0.\nGRID,4,").replace("CBAR,3,3,4,3,", "CBAR,3,3,4,5,"), "its node 5 lies where node 3 is"),
+        "a mass beside the elements": (bulk().replace("GRID,4,", "GRID,5,,500.,0.,0.\nGRID,4,").replace("CONM2,7,2,", "CONM2,7,5,"), "CONM2 7: node 5 belongs to no beam element"),
         "a grid that is not there": (bulk().replace("GRID,4,,1000.,0.,0.\n", ""), "GRID 4 is not there"),
         "a property that is not there": (bulk().replace("CBAR,1,1,", "CBAR,1,8,"), "CBAR 1: property 8 is not there"),
         "a factor on all masses": (bulk().replace("BEGIN BULK", "BEGIN BULK\nPARAM,WTMASS,.00259"), "PARAM WTMASS: multiplies all masses by 0.00259"),
@@ -513,6 +515,11 @@ def from_abaqus(checks, folder):
     said = written(rotid.from_abaqus(path), deck)
     checks.close("from Abaqus: frequencies of the deck by hand", bending_hz(deck), bending_hz(hand), 1e-12)
     checks.true("from Abaqus: nothing is left out", not said, said)
+    for name, twice in {"a set that names its element twice": ("*MASS, ELSET=HUB", "*ELSET, ELSET=HUB\n10\n*MASS, ELSET=HUB"),
+                        "a set before its elements": ("*ELEMENT, TYPE=MASS, ELSET=HUB\n", "*ELSET, ELSET=HUB, GENERATE\n10, 10\n*ELEMENT, TYPE=MASS\n")}.items():
+        path.write_text(ABAQUS.replace(*twice))
+        written(rotid.from_abaqus(path), deck)
+        checks.close(f"from Abaqus: {name}", [rotid.run("check", deck)["mass_kg"]], [rotid.run("check", hand)["mass_kg"]], 1e-12)
     text = ABAQUS.replace("*STEP", "*BOUNDARY\n1, 1, 3\n*STEP")
     path.write_text(text.replace("2.1E11, 0.3", "2.1E5, 0.3").replace("7850.,", "7.85E-9").replace("0.05, 0.05", "50.").replace("0.08, 0.06", "80., 60.")
                     .replace("0.04, 0.03", "40., 30.").replace("0.3\n3", "300.\n3").replace("0.7\n", "700.\n").replace("1.0\n*", "1000.\n*")
@@ -539,6 +546,13 @@ def from_abaqus(checks, folder):
         "a spring along the axis": (ABAQUS.replace("\n1\n1e6", "\n3\n1e6"), "acts on degree of freedom 3"),
         "a spring by a curve": (ABAQUS.replace("ELSET=SUPPORT\n1\n1e6", "ELSET=SUPPORT, NONLINEAR\n1\n0., 0.\n1e3, 1e-3"), "expected a degree of freedom and one stiffness"),
         "a part": (ABAQUS.replace("*NODE", "*PART, NAME=P\n*NODE"), "line 3: *PART: has no place"),
+        "a mass without its card": (ABAQUS.replace("*MASS, ELSET=HUB\n5.\n", ""), "line 30: element 10 has no *MASS"),
+        "a spring without its card": (ABAQUS.replace("*SPRING, ELSET=SUPPORT\n1\n1e6\n", ""), "element 12 has no *SPRING"),
+        "a mass stated twice": (ABAQUS.replace("*MASS, ELSET=HUB\n5.", "*MASS, ELSET=HUB\n5.\n*MASS, ELSET=HUB\n5."), "element 10 has a *MASS already"),
+        "a mass of three directions": (ABAQUS.replace("*MASS, ELSET=HUB\n5.", "*MASS, ELSET=HUB, TYPE=ANISOTROPIC\n5., 1., 2."), "*MASS: TYPE=ANISOTROPIC"),
+        "a mass beside the elements": (ABAQUS.replace("1.0\n*", "1.0\n5, 0., 0., 0.5\n*", 1).replace("10, 2\n", "10, 5\n"), "node 5 belongs to no beam element"),
+        "parts that nothing joins": (ABAQUS.replace("1.0\n*", "1.0\n5, 0., 0., 0.7\n*", 1).replace("3, 3, 4", "3, 5, 4"), "node 5 lies where node 3 is"),
+        "a node in cylindrical coordinates": (ABAQUS.replace("NSET=ALL", "NSET=ALL, SYSTEM=C"), "line 3: *NODE: SYSTEM=C"),
         "no cards": ("nothing\n", "line 1: 'nothing' belongs to no card"),
     }
     for name, (changed, part) in wrong.items():

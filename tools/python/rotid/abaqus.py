@@ -8,6 +8,7 @@ from .chain import Beam, Mass, Spring, in_si, rotor_of, units_of
 from .rotor import Material, refuse
 
 BEAMS = ("B31", "B31R")
+CARD_OF = {"MASS": "MASS", "ROTARYI": "ROTARY INERTIA", "SPRING1": "SPRING"}  # what says how large such an element is
 # cards that say nothing of what the rotor is
 PASSED = {"HEADING", "PREPRINT", "RESTART", "NSET", "AMPLITUDE"}
 LEFT_OUT = {"BOUNDARY": "supports: state them as *SPRING", "TRANSVERSE SHEAR STIFFNESS": "the shear stiffness follows from the section",
@@ -82,15 +83,17 @@ class Reader:
     def __init__(self, source, scale):
         self.source, self.scale, self.notes = source, scale, {}
         self.place, self.elements, self.sets, self.materials, self.sections, self.masses, self.springs = {}, {}, {}, {}, [], [], []
-        self.current = None
+        self.current, self.given = None, {}
 
     def read(self):
-        in_step = False
+        in_step, sets = False, []
         for card in cards_of(self.source):
             if card.name in ("STEP", "END STEP"):
                 in_step = card.name == "STEP"
             elif in_step or card.name in PASSED:
                 continue
+            elif card.name == "ELSET":
+                sets.append(card)
             elif card.name in LEFT_OUT:
                 self.notes[f"*{card.name} is left out: {LEFT_OUT[card.name]}"] = None
             else:
@@ -98,8 +101,12 @@ class Reader:
                 if not reader:
                     card.wrong(f"has no place in a deck, expected {', '.join('*' + name for name in sorted(READ))}")
                 reader(card)
+        for card in sets:  # a set may stand before its elements
+            self.elset(card)
 
     def node(self, card):
+        if card.options.get("SYSTEM", "R").upper() != "R":
+            card.wrong(f"SYSTEM={card.options['SYSTEM']}, expected rectangular coordinates")
         for line, fields in card.rows:
             number = whole(card, line, fields[0], "the node")
             self.place[number] = np.array([in_si(value(card, line, fields, 1 + c, "xyz"[c], default=0.0), self.scale["length"]) for c in range(3)])
@@ -165,6 +172,8 @@ class Reader:
         if not card.rows or self.current is None:
             card.wrong("expected a density behind a *MATERIAL")
         self.current["rho"] = in_si(value(card, *card.rows[0], 0, "the density", 0), self.scale["density"])
+        if len(card.rows) > 1:
+            self.notes[f"line {card.rows[0][0]}: of {len(card.rows)} densities the first one, {self.current['rho']:g} kg/m3, is taken"] = None
 
     def beam_section(self, card):
         kind = card.need("SECTION")
@@ -184,6 +193,8 @@ class Reader:
         self.sections.append((card, card.need("ELSET"), card.need("MATERIAL"), 2 * inner, 2 * first))
 
     def mass(self, card):
+        if card.options.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC":
+            card.wrong(f"TYPE={card.options['TYPE']}, expected one mass in all directions")
         self.masses.append((card, card.need("ELSET"), in_si(value(card, *self.only(card), 0, "the mass", 0), self.scale["mass"])))
 
     def only(self, card):
@@ -204,15 +215,18 @@ class Reader:
         self.springs.append((card, card.need("ELSET"), dof, stiffness))
 
     def members(self, card, name, kinds):
+        """Elements of a set, each once and of one card alone, however often it was put into the set."""
         if name not in self.sets:
             card.wrong(f"the element set {name[:40]} is not there")
-        for number in self.sets[name]:
+        for number in dict.fromkeys(self.sets[name]):
             if number not in self.elements:
                 card.wrong(f"element {number} of the set {name[:40]} is not there")
-            if self.elements[number][0] in kinds:
-                yield number, self.elements[number][1]
-            else:
+            if self.elements[number][0] not in kinds:
                 card.wrong(f"element {number} is a {self.elements[number][0]}, expected {' or '.join(kinds)}")
+            if number in self.given:
+                card.wrong(f"element {number} has a *{self.given[number].name} already, expected one")
+            self.given[number] = card
+            yield number, self.elements[number][1]
 
     def material_of(self, card, name):
         material = self.materials.get(name)
@@ -226,16 +240,11 @@ class Reader:
         return material["made"]
 
     def rotor(self):
-        beams, given = [], set()
+        beams = []
         for card, elset, name, inner, outer in self.sections:
             for number, nodes in self.members(card, elset, BEAMS):
-                if number in given:
-                    card.wrong(f"element {number} has a section already, expected one")
-                given.add(number)
                 beams.append(Beam(tuple(nodes), (inner, inner), (outer, outer), self.material_of(card, name), f"element {number}"))
         for number, (kind, nodes, line) in self.elements.items():
-            if kind in BEAMS and number not in given:
-                refuse(self.source, f"line {line}", f"element {number} has no *BEAM SECTION, expected one")
             for node in nodes:
                 if node not in self.place:
                     refuse(self.source, f"line {line}", f"node {node} of element {number} is not there")
@@ -248,6 +257,9 @@ class Reader:
         for card, elset, dof, stiffness in self.springs:
             for number, (node,) in self.members(card, elset, ("SPRING1",)):
                 springs.setdefault(node, []).append((dof, stiffness, number, card))
+        for number, (kind, _, line) in self.elements.items():
+            if number not in self.given:
+                refuse(self.source, f"line {line}", f"element {number} has no *{CARD_OF.get(kind, 'BEAM SECTION')}, expected one")
         return rotor_of(self.source, f"From input of Abaqus or CalculiX {str(self.source).rsplit('/', 1)[-1]}", self.place, beams, masses,
                         self.lateral(springs), self.notes)
 

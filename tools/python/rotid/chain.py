@@ -68,9 +68,10 @@ def rotor_of(source, heading, place, beams, masses, springs, notes):
         for node in beam.ends:
             if off[node] > STRAIGHT * length:
                 refuse(source, beam.where, f"its node {node} lies {off[node]:.3g} m beside the axis, expected the nodes along a straight line")
+    one_node_a_place(source, beams, z, length)
     rotor = Rotor(heading, str(source), stations(source, beams, z, length), notes=notes)
     for mass in masses:
-        at = on_axis(source, mass, z, off, length)
+        at = on_axis(source, mass, z, used, length)
         across = np.eye(3) - np.outer(axis, axis)
         polar = float(axis @ mass.inertia @ axis)
         rotor.disks.append(Part(mass.where, at, mass.mass, (float(np.trace(mass.inertia)) - polar) / 2, polar))
@@ -78,15 +79,24 @@ def rotor_of(source, heading, place, beams, masses, springs, notes):
         if np.abs(uneven).max() > 1e-9 * max(np.abs(mass.inertia).max(), 1e-300):
             refuse(source, mass.where, "its inertias about two diameters differ, expected those of a disk")
     for spring in springs:
-        rotor.springs.append(Part(spring.where, on_axis(source, spring, z, off, length), lateral=spring.stiffness))
+        rotor.springs.append(Part(spring.where, on_axis(source, spring, z, used, length), lateral=spring.stiffness))
     return rotor
 
 
-def on_axis(source, part, z, off, length):
+def one_node_a_place(source, beams, z, length):
+    """Two nodes at one place are two bodies there, whatever else may join them."""
+    known = sorted({node: (z[node], node, beam.where) for beam in beams for node in beam.ends}.values())
+    joined = {frozenset(beam.ends) for beam in beams}
+    for (left, first, _), (right, second, where) in zip(known, known[1:]):
+        if right - left <= STRAIGHT * length and frozenset((first, second)) not in joined:
+            refuse(source, where, f"its node {second} lies where node {first} is, and they are not joined, expected one node")
+
+
+def on_axis(source, part, z, used, length):
     if part.node not in z:
         refuse(source, part.where, f"node {part.node} is not there")
-    if off[part.node] > STRAIGHT * length or not -STRAIGHT * length <= z[part.node] <= (1 + STRAIGHT) * length:
-        refuse(source, part.where, f"node {part.node} is not on the axis of the rotor, expected it there")
+    if part.node not in used:
+        refuse(source, part.where, f"node {part.node} belongs to no beam element, expected a node of the rotor")
     return min(max(z[part.node], 0.0), length)
 
 
