@@ -302,9 +302,9 @@ bench-check: all $(BUILD)/hide
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
 # figures, run the commands of documents or build hosts: what they call is in the others
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
-                 diagnose_solid stiff_supports held_mesh suggest chain power posterior weighed hidden_pairs runup
-COUNT_MANY := worked tutorial evidence ema_statistics accelerometer hide solid_frequencies page_browser report_sweep embedding fortran install \
-              running_bands solid_attached study_program
+                 diagnose_solid diagnose_model stiff_supports held_mesh suggest chain power posterior weighed hidden_pairs runup page_diagnose
+COUNT_MANY := worked tutorial manual evidence ema_statistics accelerometer hide solid_frequencies page_browser report_sweep embedding fortran \
+              install host running_bands solid_attached study_program study_run page_input page_study effect_derivative
 check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
