@@ -208,6 +208,24 @@ UNIT_TEST(a_diagnosis_shows_what_was_finished)
     rotid_deck_free(deck);
 }
 
+/* Broken off in the first fit, which ends with a point and without a judged model: at every poll. */
+UNIT_TEST(a_diagnosis_may_end_in_its_first_fit)
+{
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    rotid_deck *deck;
+    assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp", 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    for (int k = 1; k <= 40; k++) {
+        struct host host = {.stop_at = k};
+        const rotid_environment environment = environment_of(&host, NULL);
+        rotid_diagnosis *r;
+        assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
+        assert_true(r->interrupted);
+        assert_true(r->base || !r->gain.nparameters);
+        rotid_diagnosis_free(r);
+    }
+    rotid_deck_free(deck);
+}
+
 /* Broken off while the final models are fitted: each is there whole or not at all. */
 UNIT_TEST(a_broken_off_model_is_no_result)
 {

@@ -113,12 +113,13 @@ static rotid_changed_parameter changed_parameter(const rotid_parameter *name, co
         .after_ci95 = {is ? extended->ci_lower[after] : (double)NAN, is ? extended->ci_upper[after] : (double)NAN}};
 }
 
-/* Parameters of the base model, then those that the extended one has besides. */
+/* Parameters of the base model, then those that the extended one has besides. A diagnosis that was broken off in its first fit
+ * has that fit, and no judged model yet. */
 static void fill_changes(struct pool *pool, const struct diagnosis *d, rotid_gain *out)
 {
     const rotid_fit_result *base = d->base.fit, *extended = d->extended.fit;
     const rotid_parameter *before = d->judged.bounds, *after = d->extended_states.bounds;
-    int nbase = base ? base->n : 0, nextended = extended ? extended->n : 0,
+    int nbase = base && before ? base->n : 0, nextended = extended && after ? extended->n : 0,
         room = POOL_LIST(pool, out->parameters, nbase + nextended);
     for (int p = 0; p < nbase && room; p++)
         out->parameters[out->nparameters++] =
