@@ -74,6 +74,7 @@ MODES = """*MODES
 2, 640
 3, 1690
 """
+LONGEST = "paper_rotor_solid.inp"  # minutes of diagnosis, with the keys of that of solid_rotor.inp
 # name: deck, options, exit codes of check, modes, sensitivity, identify, diagnose
 SMALL = {
     "nothing measured": (SHAFT, (), (0, 0, 2, 2, 2)),
@@ -125,6 +126,8 @@ def main():
         cards = {line.split(",")[0].strip().upper() for line in deck.read_text().splitlines() if line.startswith("*")}
         identifies, is_measured = "*IDENTIFY" in cards, bool(cards & {"*MODES", "*MEASURED"})
         for command in COMMANDS:
+            if command == "diagnose" and deck.name == LONGEST:
+                continue
             needs = command in ("sensitivity", "identify") and not identifies or command in ("identify", "diagnose") and not is_measured
             run(checks, f"{command} {deck.name}", schemas[command], command, deck, (), (2,) if needs else (0, 1) if command == "identify" else (0,))
 

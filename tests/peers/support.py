@@ -56,7 +56,7 @@ def numbers(value):
 
 def rotid(*arguments):
     """Exit code, standard output, standard error."""
-    done = subprocess.run([sys.argv[1], *map(str, arguments)], capture_output=True, text=True, timeout=600)
+    done = subprocess.run([sys.argv[1], *map(str, arguments)], capture_output=True, text=True, timeout=1800)  # on a machine that others use as well
     return done.returncode, done.stdout, done.stderr
 
 
