@@ -215,13 +215,16 @@ UNIT_TEST(a_diagnosis_may_end_in_its_first_fit)
     rotid_deck *deck;
     assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp", 0, NULL, NULL, NULL, &deck), ROTID_OK);
     for (int k = 1; k <= 40; k++) {
+        struct failing_allocator memory;
         struct host host = {.stop_at = k};
-        const rotid_environment environment = environment_of(&host, NULL);
+        failing_allocator_open(&memory, 0);
+        const rotid_environment environment = environment_of(&host, &memory.allocator);
         rotid_diagnosis *r;
         assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
         assert_true(r->interrupted);
         assert_true(r->base || !r->gain.nparameters);
         rotid_diagnosis_free(r);
+        assert_int_equal(memory.in_use, 0);
     }
     rotid_deck_free(deck);
 }

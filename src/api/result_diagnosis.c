@@ -119,7 +119,7 @@ static void fill_changes(struct pool *pool, const struct diagnosis *d, rotid_gai
 {
     const rotid_fit_result *base = d->base.fit, *extended = d->extended.fit;
     const rotid_parameter *before = d->judged.bounds, *after = d->extended_states.bounds;
-    int nbase = base && before ? base->n : 0, nextended = extended && after ? extended->n : 0,
+    int nbase = base ? base->n : 0, nextended = extended ? extended->n : 0,
         room = POOL_LIST(pool, out->parameters, nbase + nextended);
     for (int p = 0; p < nbase && room; p++)
         out->parameters[out->nparameters++] =
@@ -138,9 +138,20 @@ static rotid_identification *identification(struct pool *pool, const struct stat
     return states->nstate ? result_identification(pool, &states->state->job, states->bounds, first) : NULL;
 }
 
+/* A fit that was broken off before its model was taken belongs to no result, which would free it. */
+static void drop_unjudged(const struct states *states, struct identification *fitted)
+{
+    if (states->nstate)
+        return;
+    rotid_fit_free(fitted->fit);
+    fitted->fit = NULL;
+}
+
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d)
 {
     rotid_diagnosis *out = &d->result;
+    drop_unjudged(&d->judged, &d->base);
+    drop_unjudged(&d->extended_states, &d->extended);
     fill_verdict(pool, d, &out->verdict);
     fill_explanations(pool, d, &out->verdict);
     out->nparameters = d->posterior.naveraged;
