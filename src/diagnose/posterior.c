@@ -557,15 +557,15 @@ static int enter_singles(struct engine *engine, const struct round_result *resul
         int index = result->candidate[i];
         if (!refit->fit || is_common(engine, scan, index))
             continue;
-        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data};
-        struct candidate *member = &e.member[0];
-        *member = candidate_listed(scan, index);
-        const struct rotor *rotor = &refit->states.state[member->home].job.rotor;
-        if (!member->cause->solid)
-            member->effect.name = rotor->effect[rotor->neffect - 1].name;
-        take_values(engine, refit, member);
-        if (is_unweighed_accelerometer(&engine->states.state[member->home].job, &member->effect))
+        struct candidate member = candidate_listed(scan, index);
+        const struct rotor *rotor = &refit->states.state[member.home].job.rotor;
+        if (!member.cause->solid)
+            member.effect.name = rotor->effect[rotor->neffect - 1].name;
+        take_values(engine, refit, &member);
+        if (is_unweighed_accelerometer(&engine->states.state[member.home].job, &member.effect))
             continue;
+        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data};
+        e.member[0] = member;
         status = score(engine, p, NULL, &e);
         if (!status)
             prefer_columns(&engine->states, scan, index, &p->item[0], &e);
