@@ -269,12 +269,12 @@ figures: all
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
 LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagnose embedding evidence suggest diagnose_states page_browser \
-           hidden_effects solid_frequencies limits chain runup weighed api_memory stiff_supports hidden_faults wrong_decks hidden_shifts \
+           hidden_effects solid_frequencies limits chain runup weighed api_memory hidden_faults wrong_decks \
            api_cancel diagnose_model page_input host held_mesh diagnose_solid accelerometer study_program study_run install \
            running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of hidden_effects and chain.
-LONG := hidden_numbers hidden_rivals hidden_pairs power
+LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
@@ -301,10 +301,10 @@ bench-check: all $(BUILD)/hide
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
 # figures, run the commands of documents or build hosts: what they call is in the others
-DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures hidden_shifts diagnose_cases diagnose_bounds diagnose_states \
-                 diagnose_solid diagnose_model stiff_supports held_mesh suggest chain power posterior weighed hidden_pairs runup page_diagnose
+DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds diagnose_states \
+                 diagnose_solid diagnose_model held_mesh suggest chain posterior weighed runup page_diagnose
 COUNT_MANY := worked tutorial manual evidence ema_statistics accelerometer hide solid_frequencies page_browser report_sweep embedding fortran \
-              install host running_bands solid_attached study_program study_run page_input page_study effect_derivative
+              install host running_bands solid_attached study_program study_run study_states page_input page_study effect_derivative
 check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
