@@ -13,7 +13,6 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
                    struct spectrum *spectrum)
 {
     struct pool *scratch = &entry->scratch;
-    int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     double *at = POOL_ARRAY(scratch, double, job->unknowns.nparameter);
     *values = at;
     if (!at)
@@ -24,8 +23,7 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
             return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->unknowns.bounds[p].name,
                           at[p]);
     }
-    return spectrum_compute(scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, at, reduction,
-                            nmode, spectrum);
+    return job_spectrum(scratch, job, at, nmode, SPECTRUM_WHOLE, spectrum);
 }
 
 /* compared NULL: the measured modes could not be paired */

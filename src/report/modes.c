@@ -242,9 +242,10 @@ static void print_modes(const struct screen *to, const struct result *result, co
     const rotid_spectrum *s = result->modes;
     const struct human_unit hz = human_unit(1, "Hz");
     (void)job;
-    if (is_free(s->nrigid_hz, s->rigid_hz))
+    int free = is_free(s->nrigid_hz, s->rigid_hz);
+    if (free)
         (void)fprintf(to->out, "rigid-body modes: %d (the rotor is free)\n", s->nrigid_hz);
-    for (int i = 0; i < s->nrigid_hz && !is_free(s->nrigid_hz, s->rigid_hz); i++)
+    for (int i = 0; i < s->nrigid_hz && !free; i++)
         (void)fprintf(to->out, "rotor on its supports: %.*f %s\n", hz.factor < 1 ? 7 : 4, s->rigid_hz[i] * hz.factor, hz.text);
     screen_table(to, table_of_model_modes(to->pool, s));
     if (s->beside) {

@@ -107,14 +107,6 @@ static int uses_shapes(const struct job *job)
     return job->measurement.shape && (job->options.fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
 }
 
-static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int parts,
-                            struct spectrum *spectrum)
-{
-    int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    return spectrum_compute_parts(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, reduction,
-                                  count, parts, spectrum);
-}
-
 /* What a state is fitted with: its pairing and what is left out. */
 struct paired {
     const int *number, *holdout;
@@ -303,7 +295,7 @@ static int pair_state(struct pool *pool, struct running *run, const double *x, i
     if (!own)
         return ROTID_ERROR_MEMORY;
     parts |= run->state->job.measurement.shape ? SPECTRUM_MASS : 0;
-    int status = compute_spectrum(pool, &run->state->job, own, run->candidates, parts, &run->out->spectrum);
+    int status = job_spectrum(pool, &run->state->job, own, run->candidates, parts, &run->out->spectrum);
     return status ? status : comparison_make(pool, &run->state->job, &run->out->spectrum, &run->quiet, pairs);
 }
 

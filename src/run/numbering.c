@@ -116,7 +116,7 @@ struct outlook {
     double *slope;         /* [n * rows] */
 };
 
-/* h = 1 of parameter p, and x at a share of it */
+/* A parameter at the share h of the width of its bounds from the start, in ln x where x is above 0. */
 static double at_share(const rotid_parameter *bound, double h)
 {
     return bound->lower > 0 ? bound->start * pow(bound->upper / bound->lower, h)
@@ -128,15 +128,12 @@ static int log_frequencies(const rotid_allocator *allocator, const struct state 
     const struct job *job = &state->job;
     struct spectrum s;
     struct pool scratch;
-    int guyan = job->options.fit.reduction != ROTID_REDUCTION_NONE;
+    int condensed = job->options.fit.reduction != ROTID_REDUCTION_NONE;
     pool_open(&scratch, allocator);
     double *own = state_values(&scratch, state, x);
-    int status =
-        !own ? ROTID_ERROR_MEMORY
-             : spectrum_compute_parts(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, own,
-                                      guyan ? job->options.fit.reduction : ROTID_GUYAN, count, guyan ? SPECTRUM_REDUCED : 0, &s);
+    int status = own ? job_spectrum(&scratch, job, own, count, condensed ? SPECTRUM_REDUCED : 0, &s) : ROTID_ERROR_MEMORY;
     for (int j = 0; j < count; j++)
-        out[j] = status || j >= s.count ? NAN : log(guyan ? s.reduced_hz[j] : s.full_hz[j]);
+        out[j] = status || j >= s.count ? NAN : log(condensed ? s.reduced_hz[j] : s.full_hz[j]);
     pool_close(&scratch);
     return status;
 }
@@ -203,6 +200,12 @@ static double outlook_of(const struct outlook *o, const struct states *states, c
     return sum;
 }
 
+/* Whether the modes of a state may have other numbers: no shape says which they are, and nothing has settled them. */
+static int is_open(const struct state *state)
+{
+    return !state->job.measurement.shape && !state->job.measurement.paired;
+}
+
 int numbering_search(struct pool *pool, const struct states *states, const int *number, const int *holdout,
                      const rotid_environment *environment, struct renumbering *best)
 {
@@ -213,13 +216,16 @@ int numbering_search(struct pool *pool, const struct states *states, const int *
     *best = (struct renumbering){.chi2 = INFINITY, .number = POOL_ARRAY(pool, int, all)};
     if (!trial || !best->number || !work)
         return ROTID_ERROR_MEMORY;
-    int status = look_ahead(pool, states, number, &outlook);
-    if (status)
+    int open = 0;
+    for (int s = 0; s < states->nstate; s++)
+        open |= is_open(&states->state[s]);
+    int status = open ? look_ahead(pool, states, number, &outlook) : ROTID_OK;
+    if (status || !open)
         return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
     double as_it_is = outlook_of(&outlook, states, number, holdout, work);
     for (int s = 0, at = 0; s < states->nstate; at += states->state[s].job.measurement.nmode, s++) {
         const struct job_measurement *measured = &states->state[s].job.measurement;
-        if (measured->shape || measured->paired)
+        if (!is_open(&states->state[s]))
             continue;
         for (int from = 0; from < measured->nmode; from++)
             for (int shift = from ? 1 : -MOST_SHIFT; shift <= MOST_SHIFT && !status; shift++) {

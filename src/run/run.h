@@ -237,11 +237,15 @@ enum spectrum_part {
     SPECTRUM_MESH = 1,    /* other_hz, other_shape, mesh_error_percent: a second mesh, for a beam half of the time */
     SPECTRUM_REDUCED = 2, /* reduced_hz, reduction_error_percent */
     SPECTRUM_COARSE = 4,  /* of a solid: on the coarse mesh */
-    SPECTRUM_MASS = 8     /* mass */
+    SPECTRUM_MASS = 8,    /* mass */
+    SPECTRUM_WHOLE = SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS
 };
 int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,
                            struct spectrum *spectrum);
+
+/* The same of a job, with the condensation of its FIT card, else Guyan's, at the values x [job.unknowns.nparameter]. */
+int job_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int parts, struct spectrum *spectrum);
 
 /* Of the full model alone, vectors good to 1e-4 and frequencies to the square of it: one of many trials. near: NULL, or the
  * spectrum of a model that is nearly this one, whose modes it begins with. */

@@ -212,8 +212,7 @@ static int condense(struct pool *pool, const struct solution *full, const double
 int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                      const struct parameter *parameter, const double *x, int reduction, int count, struct spectrum *spectrum)
 {
-    return spectrum_compute_parts(pool, models, rotor, nparameter, parameter, x, reduction, count,
-                                  SPECTRUM_MESH | SPECTRUM_REDUCED | SPECTRUM_MASS, spectrum);
+    return spectrum_compute_parts(pool, models, rotor, nparameter, parameter, x, reduction, count, SPECTRUM_WHOLE, spectrum);
 }
 
 /* Which mode of the solution that it was compared with mode j is, and which of a solution the mode j of the other one is; -1:
@@ -347,6 +346,13 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
 {
     return compute(pool, models, rotor, nparameter, parameter, x, reduction, count, parts, (struct manner){WITHIN, NULL},
                    spectrum);
+}
+
+int job_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int parts, struct spectrum *spectrum)
+{
+    int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    return spectrum_compute_parts(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, reduction,
+                                  count, parts, spectrum);
 }
 
 int spectrum_try(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
