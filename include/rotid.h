@@ -1671,7 +1671,8 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
  *   ROTID_STOP_GRADIENT    the cosine, or r, has vanished
  *   ROTID_STOP_STEP        the Gauss-Newton step, without damping and radius, is negligible
  *   ROTID_STOP_OBJECTIVE   what the Gauss-Newton step promises is below 1e-8 of the objective and no step that was tried gains
- *                          anything, or the cosine is below 1e-4: the noise of a computed objective can hide what is left
+ *                          anything, or it is below ten times the change of the objective by the last trial, too short to
+ *                          change it but by rounding, or the cosine is below 1e-4
  *   ROTID_STOP_STALLED     no step lowers the objective though there is more to gain: this is no minimum. The Jacobian is not
  *                          that of the residual (rotid_check_jacobian), the residual is flat around x but not to its slope (a
  *                          minimum at infinity), or the residual fails on every step from here

@@ -293,7 +293,8 @@ UNIT_TEST(test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for)
     for (int i = 0; i < 4; i++) {
         double x = 0, r[2], above;
         rotid_lm_result result;
-        const rotid_lm_options options = {.size = sizeof options, .gradient_tolerance = 1e-30, .decrease_tolerance = tolerance[i]};
+        const rotid_lm_options options = {
+            .size = sizeof options, .gradient_tolerance = 1e-30, .decrease_tolerance = tolerance[i]};
         int status = rotid_lm(2, 1, falls_for_ever, NULL, &options, NULL, &x, r, jacobian, work, &result);
         above = r[1] * r[1] / 2; /* the objective less its limit, of which five steps take nearly all */
         assert_int_equal(status, ROTID_STOP_OBJECTIVE);
@@ -327,6 +328,29 @@ static int uphill(void *user, int m, int n, const double *x, double *r, double *
     for (int i = 0; j && i < m * n; i++)
         j[i] = -j[i];
     return 0;
+}
+
+/* A residual computed to five digits alone, another rounding at every x. */
+static int rounded_decay(void *user, int m, int n, const double *x, double *r, double *j)
+{
+    (void)decay(user, m, n, x, r, j);
+    for (int i = 0; r && i < m; i++)
+        r[i] += 1e-5 * sin(1e13 * x[0] + 3e13 * x[1] + i);
+    return 0;
+}
+
+/* The minimum is where that of the exact residual is, as far as its rounding tells; a wrong Jacobian is told none the less. */
+UNIT_TEST(test_minimum_of_a_rounded_residual_is_one)
+{
+    for (int i = 0; i < 40; i++) {
+        double x[2] = {1 + 0.02 * i, 0.3}, exact[2] = {1, 0.3}, r[M];
+        rotid_lm_result result;
+        assert_true(rotid_status_converged(rotid_lm(M, 2, decay, NULL, NULL, NULL, exact, r, jacobian, work, &result)));
+        assert_true(rotid_status_converged(rotid_lm(M, 2, rounded_decay, NULL, NULL, NULL, x, r, jacobian, work, &result)));
+        assert_close(x[0], exact[0], 0, 1e-2);
+        assert_close(x[1], exact[1], 0, 1e-2);
+        assert_true(result.evaluations < 100);
+    }
 }
 
 UNIT_TEST(test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing)

@@ -68,6 +68,35 @@ UNIT_TEST(bending_modes_are_counted_as_such)
     rotid_fit_free(found.fit);
 }
 
+/* A rotor on springs of 300 N/m to 0.3 MN/m, five modes with 0.1 % of noise: those on the springs are computed to five digits or
+ * fewer, and the fit ends none the less, near the truth. */
+UNIT_TEST(soft_springs_leave_a_minimum)
+{
+    for (int i = 0; i < 24; i++) {
+        struct message_list messages;
+        struct spectrum s;
+        const char *rotor =
+            pool_format(&test_pool,
+                        "*MATERIAL, NAME=m\n*ELASTIC\n1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=m\n"
+                        "0.6, 0.2\n*SHAFT, NAME=core, MATERIAL=m\n0.8, 0.4\n*SHAFT, NAME=b, MATERIAL=m\n0.6, 0.2\n"
+                        "*SPRING\n0.2, %g\n1.8, %g\n*MODES, COUNT=ALL\n",
+                        300 * pow(2, i % 11), 300 * pow(2, i % 11));
+        struct job job = job_of(pool_format(&test_pool, "%s1, 1\n2, 2\n3, 400\n4, 800\n5, 1500\n", rotor), &messages);
+        assert_status(spectrum_compute(&test_pool, job.models, &job.rotor, 0, NULL, NULL, ROTID_NONE, 5, &s), ROTID_OK);
+        const char *modes = "";
+        for (int k = 0; k < 5; k++)
+            modes = pool_format(&test_pool, "%s%d, %.12g\n", modes, k + 1,
+                                s.full_hz[k] * (1 + 1e-3 * sqrt(2) * sin(5.0 * i * i + 3 * k)));
+        job =
+            job_of(pool_format(&test_pool, "%s%s*NOISE, FREQUENCY=0.001\n*IDENTIFY\ncore.E, 2e10, 4e11, 1.3e11\n", rotor, modes),
+                   &messages);
+        struct identification found = fitted(&job);
+        assert_true(found.fit->converged);
+        assert_close(found.fit->x[0], 1e11, 0.02, 0);
+        rotid_fit_free(found.fit);
+    }
+}
+
 /* One frequency between two: both numberings are as far off, and the user is asked. */
 UNIT_TEST(where_both_fit_the_user_is_asked)
 {

@@ -419,10 +419,9 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
                                      .x = result->x,
                                      .fixed = result->at_bound};
     int status = covariance_compute(&input, result, rest);
-    /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left
-     * decides */
+    /* a stop on the limit, or a stall, may still be at the minimum: the step that is left decides */
     result->converged = result->status != ROTID_STOP_CANCELLED && !pulled_inside &&
-                        (result->status == ROTID_STOP_GRADIENT || step_left(fit, gradient) < 1e-6);
+                        (rotid_status_converged(result->status) || step_left(fit, gradient) < 1e-6);
     return status;
 }
 

@@ -18,6 +18,7 @@
 #define CREEP      5      /* steps whose decrease together tells a creep along a valley */
 #define FLAT_TRIES 5      /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 #define ROUNDED    1e-14  /* change of r over |D x| that the rounding of x makes: no step can be told from it */
+#define HIDDEN     10 /* changes of f by steps from which f should not change: what hides behind them (one change is one sample) */
 #define SHRUNK     1e-100 /* of J beside what it was: smaller, its square would have no double */
 #define EXPONENT   1000   /* of the unit, at most: its inverse has to have a double, too */
 
@@ -43,6 +44,7 @@ struct lm {
     double fall;   /* factor of mu behind the next good step */
     double radius; /* of |D h|, in units */
     double length, gain;
+    double noise; /* change of f by the last trial from the best point, 0 where there was none or it had no residual */
 };
 
 size_t rotid_lm_workspace(int m, int n)
@@ -188,10 +190,11 @@ static int solve(struct lm *lm, double radius, double *mu, double *step)
 }
 
 /* Damping and radius make any step short and any promise small, so neither tells a minimum: the Gauss-Newton step does. Returns
- * STOP_STEP where that is negligible; STOP_OBJECTIVE where what it promises drowns in the noise of f or in the rounding of x, or
- * where no parameter alone would lower f by more than the noise, f cos^2 (at the minimum of m = n residuals that do not vanish J
- * is singular, and the Gauss-Newton step promises all of f); STOP_STALLED where there is something to gain: J is not that of r,
- * or r does not follow it as far as any step that can be told from none. */
+ * STOP_STEP where that is negligible; STOP_OBJECTIVE where what it promises drowns in the noise of f (stated or seen: the last
+ * trial was too short to change f) or in the rounding of x, or where no parameter alone would lower f by more than the noise, f
+ * cos^2 (at the minimum of m = n residuals that do not vanish J is singular, and the Gauss-Newton step promises all of f);
+ * STOP_STALLED where there is something to gain: J is not that of r, or r does not follow it as far as any step that can be told
+ * from none. */
 static int what_is_left(struct lm *lm)
 {
     double mu = MU_LEAST, length = lm->length, rounded = ROUNDED * length_of_x(lm);
@@ -201,8 +204,8 @@ static int what_is_left(struct lm *lm)
     double promise = predicted_decrease(lm, mu, lm->scratch);
     if (negligible(lm, lm->scratch))
         return ROTID_STOP_STEP;
-    return promise <= fmax(FLAT, lm->options.objective_tolerance) * lm->objective || 2 * promise <= rounded * rounded ||
-                   lm->result->cosine * lm->result->cosine <= FLAT
+    return promise <= fmax(FLAT, lm->options.objective_tolerance) * lm->objective || promise <= HIDDEN * lm->noise ||
+                   2 * promise <= rounded * rounded || lm->result->cosine * lm->result->cosine <= FLAT
                ? ROTID_STOP_OBJECTIVE
                : ROTID_STOP_STALLED;
 }
@@ -265,6 +268,7 @@ static void tighten(struct lm *lm, double actual, int refused)
 /* Steps of growing damping until one lowers the objective and has a Jacobian; x moves there. */
 static int descend(struct lm *lm)
 {
+    lm->noise = 0;
     for (int failed = 0, flat_steps = 0;; failed = 1) {
         double predicted, actual, flat = FLAT * lm->objective;
         int refused = 0, status = try_step(lm, failed, &predicted, &refused);
@@ -272,6 +276,7 @@ static int descend(struct lm *lm)
             return status;
         actual = refused ? -1 : actual_decrease(lm);
         lm->gain = refused ? -1 : actual / predicted;
+        lm->noise = refused ? 0 : fabs(actual);
         if (lm->gain > 0.25 || (lm->gain > 0 && predicted > flat)) {
             refused = ask_jacobian(lm, lm->trial, lm->trial_jacobian);
             if (!refused) {
