@@ -128,31 +128,52 @@ static double log_likelihood_of(int count, struct likelihood *l, const double *x
     return over_factor(lines, nline, 0) + over_factor(shapes, nshape, nshape > 0) - whole / 2;
 }
 
-static double log_likelihood(struct likelihood *l, const double *x)
-{
-    return log_likelihood_of(1, l, x);
-}
-
 struct axis { /* of a grid: x between two values, in ln where `log`; ln of the prior's density over that */
     int points, log;
     double from, to, (*density)(double x);
 };
 
+static double on_axis(const struct axis *axis, int i)
+{
+    double share = (i + 0.5) / axis->points;
+    return axis->log ? axis->from * pow(axis->to / axis->from, share) : axis->from + share * (axis->to - axis->from);
+}
+
+/* The modulus multiplies all frequencies alike, by its root, and leaves the shapes alone: one model for all its values. */
+static double over_modulus(struct likelihood *l, double *x, const struct axis *modulus)
+{
+    double shapes = 0, whole = 0, sum = -INFINITY, step = log(modulus->to / modulus->from) / modulus->points;
+    x[0] = modulus->from;
+    if (columns_residual(&l->columns, x, l->r))
+        return -INFINITY;
+    for (int i = l->nline; i < l->columns.nrow; i++)
+        *(i < l->end ? &shapes : &whole) += l->r[i] * l->r[i];
+    for (int j = 0; j < modulus->points; j++) {
+        double lines = 0, factor = exp((j + 0.5) * step / 2);
+        for (int i = 0; i < l->nline; i++) {
+            double std = job.measurement.frequency_std[l->columns.mode[i].k], r = ((1 + l->r[i] * std) * factor - 1) / std;
+            lines += r * r;
+        }
+        sum = sum_logs(sum, over_factor(lines, l->nline, 0) + modulus->density(0) + log(step));
+    }
+    return sum + over_factor(shapes, l->nshape, l->nshape > 0) - whole / 2;
+}
+
+/* Over all axes, the first of which is the modulus. */
 static double over_grid(struct likelihood *l, int n, const struct axis *axis)
 {
     double x[8], sum = -INFINITY;
     int total = 1;
-    for (int p = 0; p < n; p++)
+    for (int p = 1; p < n; p++)
         total *= axis[p].points;
     for (int i = 0; i < total; i++) {
         double weight = 0;
-        for (int p = 0, rest = i; p < n; rest /= axis[p].points, p++) {
-            double share = (rest % axis[p].points + 0.5) / axis[p].points, a = axis[p].log ? log(axis[p].from) : axis[p].from,
-                   b = axis[p].log ? log(axis[p].to) : axis[p].to, t = a + share * (b - a);
-            x[p] = axis[p].log ? exp(t) : t;
-            weight += log((b - a) / axis[p].points) + axis[p].density(x[p]);
+        for (int p = 1, rest = i; p < n; rest /= axis[p].points, p++) {
+            x[p] = on_axis(&axis[p], rest % axis[p].points);
+            weight += log((axis[p].log ? log(axis[p].to / axis[p].from) : axis[p].to - axis[p].from) / axis[p].points) +
+                      axis[p].density(x[p]);
         }
-        sum = sum_logs(sum, weight + log_likelihood(l, x));
+        sum = sum_logs(sum, weight + over_modulus(l, x, &axis[0]));
     }
     return sum;
 }
@@ -715,32 +736,6 @@ static double of_log_width(double x)
     return -log(log(200.0 / 14));
 }
 
-/* The modulus multiplies all frequencies alike, by its root, and leaves the shapes alone: one model for all its values. */
-static double over_modulus(struct likelihood *l, double *x, const struct axis *modulus)
-{
-    double shapes = 0, sum = -INFINITY, step = log(modulus->to / modulus->from) / modulus->points;
-    x[0] = modulus->from;
-    if (columns_residual(&l->columns, x, l->r))
-        return -INFINITY;
-    for (int i = l->nline; i < l->columns.nrow; i++)
-        shapes += l->r[i] * l->r[i];
-    for (int j = 0; j < modulus->points; j++) {
-        double lines = 0, factor = exp((j + 0.5) * step / 2);
-        for (int i = 0; i < l->nline; i++) {
-            double std = job.measurement.frequency_std[l->columns.mode[i].k], r = ((1 + l->r[i] * std) * factor - 1) / std;
-            lines += r * r;
-        }
-        sum = sum_logs(sum, over_factor(lines, l->nline, 0) + of_modulus(0) + log(step));
-    }
-    return sum + over_factor(shapes, l->nshape, l->nshape > 0);
-}
-
-static double on_axis(const struct axis *axis, int i)
-{
-    double share = (i + 0.5) / axis->points;
-    return axis->log ? axis->from * pow(axis->to / axis->from, share) : axis->from + share * (axis->to - axis->from);
-}
-
 /* A narrow deep zone may as well be a wider shallow one: its width is hardly known, its depth is near the most there is. */
 POOL_TEST(a_free_width)
 {
@@ -751,23 +746,16 @@ POOL_TEST(a_free_width)
         const double value[EFFECT_MOST_PARAMETERS] = {zone[i].depth, 0.2, zone[i].width}, reach = 0.008;
         struct refit refit;
         struct likelihood l;
-        double sum = -INFINITY;
         open_bar(zone[i].noise);
         hide("stiffness_local", value, 1);
         double z = hidden_evidence("stiffness_local", &refit), at = refit.fit->x[2];
         bar_length = refit.states.bounds[2].upper;
-        const struct axis modulus = modulus_axis(refit.fit->x[0], 0.02, 10), depth = {32, 0, zone[i].from, zone[i].to, of_depth},
-                          place = {10, 0, at - reach, at + reach, of_place},
-                          width = {20, 1, bar_length / 200, bar_length / 14, of_log_width};
+        const struct axis axis[4] = {modulus_axis(refit.fit->x[0], 0.02, 10),
+                                     {32, 0, zone[i].from, zone[i].to, of_depth},
+                                     {8, 0, at - reach, at + reach, of_place},
+                                     {12, 1, bar_length / 200, bar_length / 14, of_log_width}};
         open_likelihood(&refit.states.state->job, &l);
-        for (int a = 0; a < depth.points * place.points * width.points; a++) {
-            double x[4] = {0, on_axis(&depth, a % depth.points), on_axis(&place, a / depth.points % place.points),
-                           on_axis(&width, a / depth.points / place.points)};
-            sum = sum_logs(sum, over_modulus(&l, x, &modulus) + of_depth(x[1]) + of_place(x[2]) + of_log_width(x[3]));
-        }
-        sum += log((depth.to - depth.from) * (place.to - place.from) * log(width.to / width.from) / depth.points / place.points /
-                   width.points);
-        check("a zone of any width", z, sum);
+        check("a zone of any width", z, over_grid(&l, 4, axis));
         rotid_fit_free(refit.fit);
     }
 }
