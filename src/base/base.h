@@ -131,6 +131,15 @@ int entry_close(struct entry *entry, int status);
 void host_enter_floating(fenv_t *floating);
 void host_leave_floating(const fenv_t *floating);
 
+/* The same about additions, products and roots alone, with neither BLAS nor libm between: where these are instructions of SSE,
+ * the state of the x87, which takes as long as adding an element to a matrix, is left alone. */
+struct host_arithmetic {
+    fenv_t floating;
+    unsigned sse;
+};
+void host_enter_arithmetic(struct host_arithmetic *arithmetic);
+void host_leave_arithmetic(const struct host_arithmetic *arithmetic);
+
 /* Such a function, where the public routine beside it does nothing else than enter, call it and leave. */
 #define HOST_COMPUTES static __attribute__((noinline))
 

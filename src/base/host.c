@@ -3,6 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#ifdef __SSE2_MATH__
+#include <xmmintrin.h>
+#endif
+
 #include "rotid.h"
 
 void host_enter_floating(fenv_t *floating)
@@ -13,6 +17,25 @@ void host_enter_floating(fenv_t *floating)
 void host_leave_floating(const fenv_t *floating)
 {
     (void)fesetenv(floating);
+}
+
+void host_enter_arithmetic(struct host_arithmetic *arithmetic)
+{
+#ifdef __SSE2_MATH__
+    arithmetic->sse = _mm_getcsr();
+    _mm_setcsr(arithmetic->sse | _MM_MASK_MASK);
+#else
+    host_enter_floating(&arithmetic->floating);
+#endif
+}
+
+void host_leave_arithmetic(const struct host_arithmetic *arithmetic)
+{
+#ifdef __SSE2_MATH__
+    _mm_setcsr(arithmetic->sse);
+#else
+    host_leave_floating(&arithmetic->floating);
+#endif
 }
 
 int host_enter_locale(struct host_locale *locale)

@@ -111,26 +111,26 @@ HOST_COMPUTES void mass_matrix(double rhos, double rhoi, double phi, double l, d
 
 void rotid_element_stiffness(double ei, double kgs, double l, double *stiffness)
 {
-    fenv_t floating;
-    host_enter_floating(&floating);
+    struct host_arithmetic arithmetic;
+    host_enter_arithmetic(&arithmetic);
     stiffness_matrix(ei, kgs, l, stiffness);
-    host_leave_floating(&floating);
+    host_leave_arithmetic(&arithmetic);
 }
 
 void rotid_element_geometric(double force, double phi, double l, double *stiffness)
 {
-    fenv_t floating;
-    host_enter_floating(&floating);
+    struct host_arithmetic arithmetic;
+    host_enter_arithmetic(&arithmetic);
     geometric_matrix(force, phi, l, stiffness);
-    host_leave_floating(&floating);
+    host_leave_arithmetic(&arithmetic);
 }
 
 void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *mass)
 {
-    fenv_t floating;
-    host_enter_floating(&floating);
+    struct host_arithmetic arithmetic;
+    host_enter_arithmetic(&arithmetic);
     mass_matrix(rhos, rhoi, phi, l, mass);
-    host_leave_floating(&floating);
+    host_leave_arithmetic(&arithmetic);
 }
 
 void element_matrices(const struct element *element, double *k, double *m)

@@ -106,20 +106,24 @@ static int multiply(const rotid_matrix *a, int columns, const double *x, double 
 
 int rotid_matrix_add(rotid_matrix *a, int i, int j, double value, char *failure)
 {
-    struct entry entry;
-    int status = entry_open(&entry, NULL, failure);
-    if (!status)
-        status = add(a, i, j, value, failure);
-    return entry_close(&entry, status);
+    struct host_arithmetic arithmetic;
+    host_enter_arithmetic(&arithmetic);
+    if (failure)
+        *failure = 0;
+    int status = add(a, i, j, value, failure);
+    host_leave_arithmetic(&arithmetic);
+    return status;
 }
 
 int rotid_matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e, char *failure)
 {
-    struct entry entry;
-    int status = entry_open(&entry, NULL, failure);
-    if (!status)
-        status = add_element(a, nd, dof, e, failure);
-    return entry_close(&entry, status);
+    struct host_arithmetic arithmetic;
+    host_enter_arithmetic(&arithmetic);
+    if (failure)
+        *failure = 0;
+    int status = add_element(a, nd, dof, e, failure);
+    host_leave_arithmetic(&arithmetic);
+    return status;
 }
 
 int rotid_matrix_set_dense(rotid_matrix *a, const double *full, int ld, char *failure)
