@@ -276,8 +276,10 @@ LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagn
 # rows of hidden_effects and chain.
 LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
-test: all $(TESTED)
+test: test-programs
 	@sh tools/run-tests $(TESTED)
+.PHONY: test-programs
+test-programs: all $(TESTED)
 .PHONY: test-long
 test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
 	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
@@ -300,21 +302,26 @@ bench-check: all $(BUILD)/hide
 	@$(PYTHON) tools/bench/instructions.py $(BUILD)/rotid $(BUILD)/hide $(BUILD) $(RECORD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
-# figures, run the commands of documents or build hosts: what they call is in the others
+# figures, wait for terminals and clocks, run the commands of documents or build hosts: what they call is in the others.
+# ASAN=all: with them, an hour
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds diagnose_states \
                  diagnose_solid diagnose_model held_mesh suggest chain posterior weighed runup page_diagnose
-COUNT_MANY := worked tutorial manual evidence ema_statistics accelerometer hide solid_frequencies page_browser report_sweep embedding fortran \
-              install host running_bands solid_attached study_program study_run study_states page_input page_study effect_derivative
-check-asan:
+COUNT_MANY := worked tutorial manual evidence ema_statistics accelerometer roving_accelerometer hide solid_frequencies page_browser report_sweep \
+              embedding fortran install host running_bands running running_cases solid_attached study_program study_run study_states study_data \
+              page_input page_study effect_derivative causes_exact worth torsion shared_unknowns traps terminal limits modal_fit signal_noise \
+              fit_bounds fit_truth paper_fit states_held_out
+ASAN := $(DIAGNOSE_MANY) $(COUNT_MANY)
+.PHONY: asan-programs
+asan-programs check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
-	    WITHOUT='$(DIAGNOSE_MANY) $(COUNT_MANY)' test
+	    CFLAGS='-Og -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
+	    WITHOUT='$(filter-out all,$(ASAN))' $(if $(filter check-asan,$@),test,test-programs)
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
 # not start on kernels that randomise more bits than it knows of.
 .PHONY: check-tsan
 check-tsan:
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O0 -g1 -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
 	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
 
 # without those and other long ones

@@ -167,12 +167,12 @@ UNIT_TEST(every_allocation_may_fail)
     sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
     sweep("rotid_identify", bar, try_identify, free_identification, 200, 1.02);
     sweep("rotid_diagnose", deck, try_diagnose, free_diagnosis, 150, 1.7);
-    sweep("rotid_suggest", bar, try_suggest, free_suggestion, 60, 1.7);
+    sweep("rotid_suggest", bar, try_suggest, free_suggestion, 40, 2.2);
     rotid_deck_free(deck);
     rotid_deck_free(bar);
     assert_int_equal(rotid_deck_read_text(strlen(machine), machine, NULL, NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
-    sweep("rotid_identify with a run-up", deck, try_identify, free_identification, 60, 1.5);
-    sweep("rotid_speeds_compute", deck, try_speeds, free_speeds, 60, 1.4);
+    sweep("rotid_identify with a run-up", deck, try_identify, free_identification, 40, 2.5);
+    sweep("rotid_speeds_compute", deck, try_speeds, free_speeds, 60, 1.7);
     rotid_deck_free(deck);
 }
 
