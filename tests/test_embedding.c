@@ -332,6 +332,27 @@ POOL_TEST(what_a_frame_lacks_is_named)
     assert_true(low < 2.06e11 && 2.04e11 < high && high - low < 0.02e11);
 }
 
+/* The same with a frame that Fortran assembles by Euler's beams. */
+static void a_post_is_named(const char *host)
+{
+    const char *out = ran(host, "0", "");
+    double value, std, low[2], high[2];
+    int end = 0;
+    assert_int_equal(sscanf(out,
+                            "nothing 0.000, something else 0.000 post 6: probability 1.000 its share: %lf +- %lf "
+                            "E1 = %*f, 95 %% interval %lf ... %lf E2 = %*f, 95 %% interval %lf ... %lf %n",
+                            &value, &std, &low[0], &high[0], &low[1], &high[1], &end),
+                     6);
+    assert_true(end > 0 && !out[end]);
+    assert_true(fabs(value - 0.4) < 3 * std && std < 0.01);
+    assert_true(low[0] < 2.05e11 && 2.05e11 < high[0] && low[1] < 1.9e11 && 1.9e11 < high[1] && high[1] - low[1] < 0.015e11);
+}
+
+POOL_TEST(what_a_frame_of_fortran_lacks_is_named)
+{
+    for_each("tower", in_fortran, a_post_is_named);
+}
+
 /* ---- the document */
 
 /* Every file of docs/examples is linked from it. */
@@ -348,7 +369,8 @@ POOL_TEST(the_document_links_every_program_that_was_built)
 POOL_TEST(the_document_shows_what_the_programs_print)
 {
     const char *document = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/embedding.md");
-    const char *built[] = {"paper-c-shared", "curve-c-shared", "margins-c-shared", "frame-c-shared", "stepped_beam-fortran-shared"};
+    const char *built[] = {"paper-c-shared", "curve-c-shared", "margins-c-shared", "frame-c-shared",
+                           "stepped_beam-fortran-shared"};
     for (int i = 0; i < 5; i++) {
         if (i == 4 && !has_compiler(&test_pool, "FC"))
             continue;
