@@ -273,7 +273,8 @@ LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagn
            api_cancel diagnose_model page_input host held_mesh diagnose_solid accelerometer study_program study_run install \
            running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
-# rows of hidden_effects and chain.
+# rows of LONGER.
+LONGER := hidden_effects chain diagnose_cases
 LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: test-programs
@@ -281,8 +282,8 @@ test: test-programs
 .PHONY: test-programs
 test-programs: all $(TESTED)
 .PHONY: test-long
-test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
-	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
+test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) $(LONGER))
+	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) $(LONGER))
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
