@@ -195,6 +195,56 @@ POOL_TEST(critical_speeds_are_those_of_a_finer_diagram)
     running_case_close(&coarse);
 }
 
+/* Bearings whose stiffnesses of two directions, coupled a little, exchange their places between two rows of a table. */
+struct exchange {
+    const char *table;
+    double row[2]; /* rpm */
+    double kxx[2], kxy, kyy[2];
+    int expected;
+};
+
+/* Frequency less speed [rpm] of the lower or the upper bounce of a mass on two of them. */
+static double bounce(const struct exchange *e, double mass, int upper, double rpm)
+{
+    double t = fmin(1, fmax(0, (rpm - e->row[0]) / (e->row[1] - e->row[0])));
+    double x = e->kxx[0] + t * (e->kxx[1] - e->kxx[0]), y = e->kyy[0] + t * (e->kyy[1] - e->kyy[0]);
+    double k = (x + y) / 2 + (upper ? 1 : -1) * hypot((x - y) / 2, e->kxy);
+    return sqrt(2 * k / mass) / RPM - rpm;
+}
+
+/* A stiff rotor on them: frequencies of its bounce in closed form. Between the rows loci veer, and one falls below the speed and
+ * rises above it again: each crossing is found. */
+POOL_TEST(critical_speeds_between_rows_of_a_table_are_those_of_the_closed_form)
+{
+    const struct exchange all[] = {
+        {"exchange.csv", {4000, 4600}, {6.02062e6, 4.82734e6}, 101383, {4.82734e6, 6.02062e6}, 2},
+        {"veering.csv", {3910, 4430}, {5.34887e6, 4.37635e6}, 26220, {4.37635e6, 5.34887e6}, 2},
+        {"steep.csv", {6340, 6660}, {1.27599e7, 1.08696e7}, 46332.3, {1.08696e7, 1.27599e7}, 4},
+    };
+    for (size_t n = 0; n < sizeof all / sizeof *all; n++) {
+        struct running_case c;
+        char deck[512];
+        int count = 0;
+        (void)snprintf(deck, sizeof deck,
+                       "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, 0.2, 0, 2\n0.5, "
+                       "0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=tests/data/running/%s\nstart\n*BEARING, "
+                       "FILE=tests/data/running/%s\nend\n",
+                       all[n].table, all[n].table);
+        assert_int_equal(running_case_open(deck, 10000, 41, 0, &c), ROTID_OK);
+        assert_int_equal(c.speeds.ncritical_speeds, all[n].expected);
+        for (int i = 1; i < 200000; i++)
+            for (int upper = 0; upper < 2; upper++) {
+                double below = bounce(&all[n], 50, upper, 0.05 * i), above = bounce(&all[n], 50, upper, 0.05 * (i + 1));
+                if (below * above > 0)
+                    continue;
+                assert_true(count < all[n].expected);
+                assert_close(c.speeds.critical_speeds[count++].speed_rpm, 0.05 * i, 2e-4, 0);
+            }
+        assert_int_equal(count, all[n].expected);
+        running_case_close(&c);
+    }
+}
+
 /* A loss factor makes Im lambda jump where it crosses the speed: what is called critical lies between, side 0. */
 POOL_TEST(a_jump_at_a_critical_speed_hides_none)
 {

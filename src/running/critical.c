@@ -10,6 +10,7 @@
 #define CROSSED  1e-6 /* of the speed: what is left behind bisection */
 #define JUMP     0.05 /* and with the jump of Im lambda there by loss factors */
 #define ONE_MODE 0.8  /* and of one mode at two speeds of a bracket */
+#define FINEST   256  /* steps at least through half a bracket, in the last attempt */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {
@@ -147,13 +148,15 @@ static int newton(struct system *s, double h, double below, double above, const 
     return !(creal(alike * conj(alike)) > ONE_MODE);
 }
 
-/* The crossing between two speeds: by halves where Newton leaves the bracket or the mode. */
-static int cross(struct system *s, double from, double to, double h, struct critical *c, struct pair near)
+/* The crossing on the way between two speeds, up or down, of the mode at the first: by halves where Newton leaves the bracket or
+ * the mode. */
+static int cross(struct system *s, double from, double to, double h, int least, struct critical *c, struct pair near)
 {
-    double below = from, above = to, at = from, sign = cimag(c->pair.lambda) - h * from;
+    double below = from, above = to, low = fmin(from, to), high = fmax(from, to), at = from,
+           sign = cimag(c->pair.lambda) - h * from;
     for (int i = 0; i < HALVINGS; i++) {
         double middle = (below + above) / 2;
-        if (pair_follow(s, at, middle, 1, &c->pair))
+        if (pair_follow(s, at, middle, i < 16 && least >> i > 1 ? least >> i : 1, &c->pair))
             return 1;
         at = middle;
         if ((cimag(c->pair.lambda) - h * middle) * sign > 0)
@@ -163,8 +166,8 @@ static int cross(struct system *s, double from, double to, double h, struct crit
         if (i == 1 || i % 8 == 7) {
             c->speed = middle;
             /* a loss factor makes Im lambda jump at the crossing: it may lie outside of the bracket of either side */
-            if (!newton(s, h, s->hysteretic ? from * (1 - JUMP) : below, s->hysteretic ? to * (1 + JUMP) : above, &c->pair,
-                        &c->speed, &near)) {
+            if (!newton(s, h, s->hysteretic ? low * (1 - JUMP) : fmin(below, above),
+                        s->hysteretic ? high * (1 + JUMP) : fmax(below, above), &c->pair, &c->speed, &near)) {
                 pair_copy(s->size, &near, &c->pair);
                 system_at(s, c->speed);
                 return pair_left(s, 0, &c->pair);
@@ -181,25 +184,47 @@ static int is_known(int count, const struct critical *all, const struct critical
     return count && all[count - 1].mode == c->mode && fabs(all[count - 1].speed - c->speed) < 1e-9 * c->speed;
 }
 
-int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical)
+/* Whether another mode has it. */
+static int is_taken(const struct system *s, int count, const struct critical *all, const struct critical *c)
+{
+    for (int i = 0; i < count; i++)
+        if (fabs(all[i].speed - c->speed) < 1e-9 * c->speed && are_same(s, &all[i].pair, &c->pair))
+            return 1;
+    return 0;
+}
+
+int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical,
+                   double *missed)
 {
     size_t room = 0;
     struct pair near = {.u = NULL};
     *count = 0;
     *critical = NULL;
+    *missed = NAN;
     for (int m = 0; m < t->nmode; m++)
         for (int i = 0; i + 1 < t->nspeed; i++) {
             const struct pair *a = track_at(t, m, i), *b = track_at(t, m, i + 1);
-            if (!is_there(a) || !is_there(b) ||
-                (cimag(a->lambda) - h * t->speed[i]) * (cimag(b->lambda) - h * t->speed[i + 1]) > 0)
+            double from = t->speed[i], to = t->speed[i + 1];
+            if (!is_there(a) || !is_there(b) || (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0)
                 continue;
             struct critical *grown = pool_grow(pool, *critical, (size_t)*count, &room, sizeof *grown);
             struct critical c = {.mode = m};
             if (!grown || pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
                 return ROTID_ERROR_MEMORY;
             *critical = grown;
-            pair_copy(s->size, a, &c.pair);
-            if (!cross(s, t->speed[i], t->speed[i + 1], h, &c, near) && !is_known(*count, grown, &c))
+            /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
+            int lost = 1, taken = 0;
+            for (int least = 1; least <= FINEST && lost; least *= 16)
+                for (int back = 0; back < 2 && lost; back++) {
+                    pair_copy(s->size, back ? b : a, &c.pair);
+                    lost = cross(s, back ? to : from, back ? from : to, h, least, &c, near);
+                    taken = !lost && (back || least > 1) && is_taken(s, *count, grown, &c);
+                }
+            if (taken)
+                continue;
+            if (lost)
+                *missed = fmin(*missed, from);
+            else if (!is_known(*count, grown, &c))
                 grown[(*count)++] = c;
         }
     if (*count)

@@ -319,9 +319,10 @@ struct critical {
     struct pair pair;
 };
 
-/* Every place where Im lambda crosses h W, by rising speed. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Every place where Im lambda crosses h W, by rising speed; missed: the lowest speed behind which a mode crosses at a place that
+ * was not found, NaN: none. ROTID_OK or ROTID_ERROR_MEMORY. */
 int criticals_find(struct pool *pool, struct system *system, const struct tracks *tracks, double h, int *count,
-                   struct critical **critical);
+                   struct critical **critical, double *missed);
 
 /* dW/dp [rad/s] of a critical speed: Im dlambda/dp/(h - Im dlambda/dW); the others as for pair_difference. */
 double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *critical,
@@ -345,6 +346,7 @@ struct search {
     double *speed;                  /* [count] rad/s */
     int ncritical;
     struct critical *critical; /* by rising speed */
+    double missed;             /* as of criticals_find */
     double complex **map;      /* of map_make */
 };
 

@@ -13,6 +13,7 @@
 #define ATTEMPTS    4
 #define TURN        0.35  /* of the speed, and */
 #define STRIDE      0.025 /* of the highest one: steps at which modes are followed, at most */
+#define ROWS        0.002 /* of the highest one: at those of tables that lie apart by more */
 #define LOWEST      1e-3  /* of the highest one: the first of them */
 
 static int refuse_system(const struct search *s, int status, int failed, struct message_list *notes)
@@ -68,8 +69,18 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
     }
 }
 
+/* The first speed between two of which a table has a row, `least` behind the first of them; the second where there is none. */
+static double row_between(const struct coefficients *all, double from, double least, double to)
+{
+    int i = 0;
+    while (i < all->count && all->speed[i] < from + least)
+        i++;
+    return i < all->count ? fmin(to, all->speed[i]) : to;
+}
+
 /* The speeds at which modes are followed: those that are asked for, and between them as many more as keep two loci apart. A locus
- * turns by a share of the speed, and the lowest critical speeds lie far below the highest speed. */
+ * turns by a share of the speed, and the lowest critical speeds lie far below the highest speed. At a row of a table it bends: a
+ * mode may fall below the speed on one side and rise above it on the other. */
 static int between_speeds(struct pool *pool, const struct search *s, double to, int *count, double **speed)
 {
     size_t room = 0;
@@ -79,6 +90,10 @@ static int between_speeds(struct pool *pool, const struct search *s, double to, 
              at = next) {
             next = fmax(LOWEST * to, at + fmin(TURN * at, STRIDE * to));
             next = next < end - (next - at) / 4 && i ? next : end;
+            for (int b = 0; b < s->machine->nbearing; b++) {
+                next = row_between(&s->machine->bearing[b].film, at, ROWS * to, next);
+                next = row_between(&s->machine->bearing[b].pedestal, at, ROWS * to, next);
+            }
             double *grown = pool_grow(pool, *speed, (size_t)*count, &room, sizeof *grown);
             if (!grown)
                 return ROTID_ERROR_MEMORY;
@@ -115,7 +130,7 @@ static int find(struct pool *pool, struct search *s, double to)
     if (!status)
         status = tracks_make(pool, &s->system, count, speed, 2 * to * fmax(1, s->harmonic), &s->followed);
     if (!status)
-        status = criticals_find(pool, &s->system, &s->followed, s->harmonic, &s->ncritical, &s->critical);
+        status = criticals_find(pool, &s->system, &s->followed, s->harmonic, &s->ncritical, &s->critical, &s->missed);
     return status ? status : thin(pool, s, &s->followed, &s->tracks);
 }
 
