@@ -26,7 +26,9 @@ static const char hung[] = HUBS("0.1, 500", "0.8, 500"), held[] = HUBS("0.05, 2e
                   stepped[] = STEEL "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.06, 0, 20\n*SHAFT, NAME=shaft, MATERIAL=steel\n"
                                     "0.4, 0.10, 0, 20\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.07, 0, 20\n" DATA("shaft"),
                   wheel[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n0.9, 0.06, 0, 60\n*DISK, NAME=wheel\n0.6, 6, 0.03, 0.05\n"
-                                  "*SPRING, NAME=front\n0.1, 1e9\n*SPRING, NAME=rear\n0.8, 5e8\n" DATA("shaft");
+                                  "*SPRING, NAME=front\n0.1, 1e9\n*SPRING, NAME=rear\n0.8, 5e8\n" DATA("shaft"),
+                  noisy[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n1, 0.08, 0, 60\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.004, "
+                                  "SHAPE=0.045\n*IDENTIFY\nshaft.E, 1e11, 3e11, 2e11\n*FIT, FUNCTIONAL=LIKELIHOOD\n";
 
 static const struct {
     const char *deck, *effect;
@@ -46,6 +48,7 @@ static const struct {
     {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},
     {roller, "support_extra:z=0.4,stiffness=1e5", 1, 0, 0.25},    /* worth 46: its place is open */
     {stepped, "support_rotation:z=0.2,stiffness=3e6", 1, 1, 0.1}, /* so stiff that the suspension bends: no bending mode more */
+    {noisy, "support_rotation:z=0.99,stiffness=3e5", 1, 1, 0.1},  /* towards an end a place says less and less */
     {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1},            /* modes change their order: no straight line leads there */
     {wheel, "added_inertia:at=wheel,inertia=0.3", 1, 1, 0.1},
     {wheel, "added_mass:mass=5,z=0.88", 1, 1, 0.1},

@@ -683,6 +683,12 @@ double shape_data_model(const struct shape_data *data, int k, double z);
 /* The final model, the gain, the verdict in words. last: the round that named nothing more, or NULL. */
 int finalise(struct engine *engine, const struct round_result *last);
 
+/* 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2: where the least chi2 of all other unknowns
+ * is within 3.84 of that of `fit`, times the square by which the intervals of that are widened. interval [2] ends where a side
+ * does, or within 1 % of the range outside of it. Statuses of memory and cancellation only. Time: some twelve fits. */
+int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
+                   double interval[2]);
+
 /* ---------------------------------------------------------------------------------------------------------------- hidden */
 
 /* What a cause below its detection limit does to the parameters that are identified. */

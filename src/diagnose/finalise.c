@@ -70,14 +70,11 @@ static int find_end(const struct profile *profile, double z, double bound, doubl
     return ROTID_OK;
 }
 
-/* 95 % interval of unknown p, a place between `lower` and `upper` [m], by the profile of chi2: where the least chi2 of all other
- * unknowns is within 3.84 of that of `fit`, times the square by which the intervals of that are widened. interval [2] ends where
- * a side does, or within 1 % of the range outside of it. */
-static int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
-                          double lower, double upper, double interval[2])
+int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
+                   double interval[2])
 {
+    double lower = states->bounds[p].lower, upper = states->bounds[p].upper, z = fmin(fmax(fit->x[p], lower), upper);
     const struct profile profile = {engine, states, fit, p, lower, upper};
-    double z = fmin(fmax(fit->x[p], lower), upper);
     int status = find_end(&profile, z, lower, &interval[0]);
     return status ? status : find_end(&profile, z, upper, &interval[1]);
 }
@@ -122,7 +119,7 @@ static int settle_place(const struct engine *engine, const struct state *state, 
         (fit->ci_lower[p] > bounds->lower && fit->ci_upper[p] < bounds->upper &&
          !has_width_at_bound(state, fit, state->job.unknowns.parameter[q].index, cause->cause->width)))
         return ROTID_OK;
-    int status = place_interval(engine, &engine->out->extended_states, fit, p, bounds->lower, bounds->upper, interval);
+    int status = place_interval(engine, &engine->out->extended_states, fit, p, interval);
     if (status)
         return status;
     fit->ci_lower[p] = cause->ci_lower[component] = interval[0];

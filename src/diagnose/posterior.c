@@ -931,16 +931,30 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
 
 /* ---- the verdict */
 
-/* Whether nearly all of the place lies in one interval. */
-static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c)
+/* The unknown of the explanation's fit that is the place of a member. */
+static int place_unknown(const struct explanation *e, const struct candidate *c)
+{
+    const struct state *state = &e->refit->states.state[c->home];
+    const struct job_unknowns *u = &state->job.unknowns;
+    int q = 0;
+    while (u->parameter[q].kind != PARAMETER_EFFECT || u->parameter[q].component != c->cause->place ||
+           strcmp(state->job.rotor.effect[u->parameter[q].index].name, c->effect.name) != 0)
+        q++;
+    return state_unknown(state, q);
+}
+
+/* Whether nearly all of the place lies in one interval: by the profile of chi2 where the fit's own is too long, since towards an
+ * end of the rotor a place says less and less. Statuses of memory and cancellation only. */
+static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c, int *placed)
 {
     int place = c->cause->place;
-    if (place < 0 || c->fixed[place])
-        return 1;
-    double length = rotor_length(&engine->states.state[c->home].job.rotor);
-    if (e->refit && e->refit->other_chi2 - e->refit->chi2 < 6)
-        return 0;
-    return !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length;
+    double length = rotor_length(&engine->states.state[c->home].job.rotor), interval[2];
+    *placed = place < 0 || c->fixed[place] || !(e->refit->other_chi2 - e->refit->chi2 < 6);
+    if (!*placed || place < 0 || c->fixed[place] || !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length)
+        return ROTID_OK;
+    int status = place_interval(engine, &e->refit->states, e->refit->fit, place_unknown(e, c), interval);
+    *placed = interval[1] - interval[0] < 2 * NEAR_PLACE * length;
+    return status;
 }
 
 /* The likeliest explanation with a fit that has all of these, and no more where `only`; physical ones beside no fault. */
@@ -967,23 +981,26 @@ static double together(const struct posterior *p, const struct candidate *a, con
     return sum;
 }
 
-/* The causes to be named. */
-static int choose_names(const struct engine *engine, const struct posterior *p, struct candidate *named)
+/* The causes to be named [*count]. Statuses of memory and cancellation only. */
+static int choose_names(const struct engine *engine, const struct posterior *p, struct candidate *named, int *count)
 {
-    int count = 0;
-    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && count < MOST_MEMBERS; i++) {
+    int status = ROTID_OK, placed;
+    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && *count < MOST_MEMBERS && !status; i++) {
         const struct candidate *c = &p->marginal[i].cause;
         int joint = !is_fault(c);
-        for (int j = 0; j < count; j++)
+        for (int j = 0; j < *count; j++)
             joint &= together(p, &named[j], c) >= VERDICT_NAMED;
         const struct explanation *with = joint ? model_with(p, 1, c, 0) : NULL;
-        for (int m = 0; with && m < with->nmember; m++)
-            if (same_name(p, &with->member[m], c) && joint && is_placed(engine, with, &with->member[m])) {
-                named[count++] = with->member[m];
-                break;
-            }
+        int m = 0;
+        while (with && m < with->nmember && !same_name(p, &with->member[m], c))
+            m++;
+        if (!with || m == with->nmember)
+            continue;
+        status = is_placed(engine, with, &with->member[m], &placed);
+        if (!status && placed)
+            named[(*count)++] = with->member[m];
     }
-    return count;
+    return status;
 }
 
 int posterior_take_faults(struct engine *engine, const struct posterior *p, int *changed)
@@ -1108,12 +1125,15 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     rotid_verdict *verdict = &out->result.verdict;
     const struct explanation *lead = &p->item[0], *model = NULL;
     struct candidate named[MOST_MEMBERS];
-    int count;
+    int count = 0, status = ROTID_OK;
     out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
     if (!out->cause || !out->alternative)
         return ROTID_ERROR_MEMORY;
-    count = verdict->confident ? choose_names(engine, p, named) : 0;
+    if (verdict->confident)
+        status = choose_names(engine, p, named, &count);
+    if (status)
+        return status;
     if (count && !(model = model_with(p, count, named, 1)))
         model = model_with(p, count, named, 0);
     verdict->something_else = p->something_else;
@@ -1124,6 +1144,6 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
         list_alternatives(out, p);
     if (!verdict->adequate_after && !(verdict->next_measurement = advice(engine, p)))
         return ROTID_ERROR_MEMORY;
-    int status = verdict->kind == ROTID_NAMED && model ? accept(engine, model) : ROTID_OK;
+    status = verdict->kind == ROTID_NAMED && model ? accept(engine, model) : ROTID_OK;
     return status ? status : list_faults(engine, p);
 }
