@@ -5,7 +5,8 @@
 #include "hammer/hammer.h"
 #include "support.h"
 
-/* Defaults of the built-in rotor, or the deck of that name in input, of whose moduli others are drawn; the deck is to be freed. */
+/* Defaults of the built-in rotor, or the deck of that name in input, of whose moduli others are drawn; the deck is to be freed.
+ */
 struct hammer_bench {
     struct hammer_options options;
     char *deck;

@@ -78,8 +78,8 @@ static int is(struct outcome outcome, int code, const char *out, const char *err
 /* Runs and returns the JSON of standard output, which carries nothing else; to be deleted. */
 static cJSON *json_of(const char *command, const char *deck, const char *option, const char *value, int code)
 {
-    struct outcome outcome =
-        run(command, deck, "--json", "-", strcmp(command, "identify") ? "--set=FIT.DERIVATIVE=NELSON" : "--no-baseline", option, value);
+    struct outcome outcome = run(command, deck, "--json", "-",
+                                 strcmp(command, "identify") ? "--set=FIT.DERIVATIVE=NELSON" : "--no-baseline", option, value);
     assert_int_equal(outcome.code, code);
     cJSON *json = cJSON_ParseWithOpts(outcome.out, NULL, 1);
     assert_true(cJSON_IsObject(json));

@@ -139,8 +139,7 @@ UNIT_TEST(a_bound_that_keeps_the_truth_out_is_no_cause)
     struct run r;
     diagnose_paper("core.E, 1.1e11, 2.3e11, 1.5e11", 12, "core.E=1.0e11", NULL, &r);
     assert_true(r.d.result.verdict.kind == ROTID_AMBIGUOUS || r.d.result.verdict.kind == ROTID_UNEXPLAINED);
-    assert_says(r.d.result.verdict.sentence,
-                "core.E ends at its lower bound 110 GPa, which may be the cause itself: widen it");
+    assert_says(r.d.result.verdict.sentence, "core.E ends at its lower bound 110 GPa, which may be the cause itself: widen it");
     close_run(&r);
 }
 

@@ -1,5 +1,5 @@
-/* Modes of which only frequencies are known, numbered as users do it wrongly (hide_case): the numbers are put right, and no cause is
- * named for them. */
+/* Modes of which only frequencies are known, numbered as users do it wrongly (hide_case): the numbers are put right, and no cause
+ * is named for them. */
 #include "folder.h"
 #include "support.h"
 

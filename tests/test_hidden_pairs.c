@@ -123,9 +123,9 @@ static void check(enum expected expected)
             continue;
         int as_expected = is_as_expected(i) && s->outcome != HIDDEN_FAILED;
         bad += !as_expected;
-        print_message("%s seed %-2u %s %s: %s%s, drop %.1f, %.1f s; %s\n", as_expected ? "     " : "  BAD",
-                      table[i].seed, table[i].effect[0], table[i].effect[1] ? table[i].effect[1] : "alone",
-                      hidden_outcome_name(s->outcome), s->failure, s->drop, s->seconds, seen[i].sentence);
+        print_message("%s seed %-2u %s %s: %s%s, drop %.1f, %.1f s; %s\n", as_expected ? "     " : "  BAD", table[i].seed,
+                      table[i].effect[0], table[i].effect[1] ? table[i].effect[1] : "alone", hidden_outcome_name(s->outcome),
+                      s->failure, s->drop, s->seconds, seen[i].sentence);
     }
     assert_int_equal(bad, 0);
 }

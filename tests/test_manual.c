@@ -217,7 +217,8 @@ POOL_TEST(bash_offers_what_a_command_takes)
         assert_true(options.count > 4);
         for (int j = 0; j < options.count; j++) {
             const char *output, *command = commands.word[i], *option = options.word[j];
-            if (strcmp(option, "--help") == 0 || strcmp(option, "-h") == 0 || strcmp(option, "-V") == 0 || strcmp(option, "--version") == 0)
+            if (strcmp(option, "--help") == 0 || strcmp(option, "-h") == 0 || strcmp(option, "-V") == 0 ||
+                strcmp(option, "--version") == 0)
                 continue;
             const char *all =
                 pool_format(&test_pool, "%s %s %s %s", command, needs_of(command, option), option, value_of(command, option));

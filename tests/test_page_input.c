@@ -54,7 +54,8 @@ UNIT_TEST(files_that_are_no_result_are_refused_with_their_place)
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
-         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, speeds, frf, ema "
+         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, suggest, sensitivity, speeds, "
+         "frf, ema "
          "or study"},
         {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},
@@ -285,7 +286,8 @@ UNIT_TEST(a_value_out_of_its_range_is_refused)
         {"identify.json", "parameters.std", -1, "parameters[0].std: is -1, expected no number below 0"},
         {"identify.json", "mass_kg", 0, "mass_kg: is 0, expected a number above 0"},
         {"identify.json", "intervals_widened_by", 0.9, "intervals_widened_by: is 0.9, expected no number below 1"},
-        {"diagnose.json", "candidates.probability", -0.001, "candidates[0].probability: is -0.001, expected a number from 0 to 1"},
+        {"diagnose.json", "candidates.probability", -0.001,
+         "candidates[0].probability: is -0.001, expected a number from 0 to 1"},
     };
     make_results();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -280,9 +280,9 @@ POOL_TEST(derivatives_agree_with_differences)
         struct solid solid;
         rotid_matrix k[2], m[2], dk, dm;
         int failed, from, end;
-        assert_status(
-            solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){.corner = 0.03, .largest = 0.15}, 1, &solid, &failed),
-            ROTID_OK);
+        assert_status(solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){.corner = 0.03, .largest = 0.15},
+                                  1, &solid, &failed),
+                      ROTID_OK);
         rotid_matrix *all[] = {&k[0], &k[1], &m[0], &m[1], &dk, &dm};
         for (int i = 0; i < 6; i++)
             assert_status(matrix_new(&test_pool, solid.mesh.ndof, solid.mesh.kd, solid.nfar, solid.far, all[i]), ROTID_OK);

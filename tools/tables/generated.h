@@ -1,4 +1,5 @@
-/* What the tables of options and cards give for the completions of the shells, docs/rotid.1, docs/deck.md and docs/reference.md. */
+/* What the tables of options and cards give for the completions of the shells, docs/rotid.1, docs/deck.md and docs/reference.md.
+ */
 #ifndef ROTID_TOOLS_TABLES_GENERATED_H
 #define ROTID_TOOLS_TABLES_GENERATED_H
 
