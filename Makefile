@@ -315,7 +315,7 @@ ASAN := $(DIAGNOSE_MANY) $(COUNT_MANY)
 .PHONY: asan-programs
 asan-programs check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-Og -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
+	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
 	    WITHOUT='$(filter-out all,$(ASAN))' $(if $(filter check-asan,$@),test,test-programs)
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
