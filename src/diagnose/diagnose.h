@@ -499,6 +499,10 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
 
 /* The values of effect number `effect` of a state at x of the unknowns of all. */
 void effect_at(const struct state *state, int effect, const double *x, struct effect *out);
+/* Number of the effect of that name (NULL: none) in a state, or -1. */
+int effect_named(const struct state *state, const char *name);
+/* The unknown that is a component of effect number `effect` of a state, or -1: it is held. */
+int effect_unknown(const struct state *state, int effect, int component);
 
 /* ----------------------------------------------------------------------------------------------------------------- round */
 

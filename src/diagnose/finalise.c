@@ -100,11 +100,8 @@ static void settle_parameter(const struct state *state, rotid_fit_result *fit, i
 /* Whether the width of effect e ends at a bound, so that the fit knows the rest for that width alone. */
 static int has_width_at_bound(const struct state *state, const rotid_fit_result *fit, int e, int width)
 {
-    const struct job_unknowns *u = &state->job.unknowns;
-    for (int q = 0; q < u->nparameter; q++)
-        if (u->parameter[q].kind == PARAMETER_EFFECT && u->parameter[q].index == e && u->parameter[q].component == width)
-            return !isfinite(fit->std[state_unknown(state, q)]);
-    return 0;
+    int p = effect_unknown(state, e, width);
+    return p >= 0 && !isfinite(fit->std[p]);
 }
 
 /* A place whose interval reaches beyond an end of the rotor, or that has none, is where no linear model holds, and with a width
@@ -140,10 +137,8 @@ static int cause_intervals(const struct engine *engine)
         struct candidate *cause = &out->cause[c];
         const struct state *state = &out->extended_states.state[cause->home];
         const struct job *job = &state->job;
-        int e = 0;
-        while (e < job->rotor.neffect && strcmp(job->rotor.effect[e].name, cause->effect.name) != 0)
-            e++;
-        if (e == job->rotor.neffect)
+        int e = effect_named(state, cause->effect.name);
+        if (e < 0)
             continue;
         effect_at(state, e, fit->x, &cause->effect);
         for (int q = 0; q < job->unknowns.nparameter && !status; q++)

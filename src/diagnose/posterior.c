@@ -230,11 +230,9 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
     if (is_fault(c))
         return;
     const struct state *home = &refit->states.state[c->home];
-    for (int e = 0; e < home->job.rotor.neffect && c->effect.name; e++)
-        if (home->job.rotor.effect[e].name && !strcmp(home->job.rotor.effect[e].name, c->effect.name)) {
-            candidate_values(refit, home, e, c);
-            return;
-        }
+    int e = effect_named(home, c->effect.name);
+    if (e >= 0)
+        candidate_values(refit, home, e, c);
 }
 
 /* ---- proposals */
@@ -931,29 +929,20 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
 
 /* ---- the verdict */
 
-/* The unknown of the explanation's fit that is the place of a member. */
-static int place_unknown(const struct explanation *e, const struct candidate *c)
-{
-    const struct state *state = &e->refit->states.state[c->home];
-    const struct job_unknowns *u = &state->job.unknowns;
-    int q = 0;
-    while (u->parameter[q].kind != PARAMETER_EFFECT || u->parameter[q].component != c->cause->place ||
-           strcmp(state->job.rotor.effect[u->parameter[q].index].name, c->effect.name) != 0)
-        q++;
-    return state_unknown(state, q);
-}
-
 /* Whether nearly all of the place lies in one interval: by the profile of chi2 where the fit's own is too long, since towards an
  * end of the rotor a place says less and less. Statuses of memory and cancellation only. */
 static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c, int *placed)
 {
-    int place = c->cause->place;
-    double length = rotor_length(&engine->states.state[c->home].job.rotor), interval[2];
-    *placed = place < 0 || c->fixed[place] || !(e->refit->other_chi2 - e->refit->chi2 < 6);
-    if (!*placed || place < 0 || c->fixed[place] || !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length)
+    const struct state *state = &e->refit->states.state[c->home];
+    int place = c->cause->place, known = place < 0 || c->fixed[place];
+    double length = rotor_length(&state->job.rotor), interval[2];
+    *placed = known || !(e->refit->other_chi2 - e->refit->chi2 < 6);
+    if (known || !*placed || !isfinite(c->std[place]) || 1.96 * c->std[place] < NEAR_PLACE * length)
         return ROTID_OK;
-    int status = place_interval(engine, &e->refit->states, e->refit->fit, place_unknown(e, c), interval);
-    *placed = interval[1] - interval[0] < 2 * NEAR_PLACE * length;
+    int p = effect_unknown(state, effect_named(state, c->effect.name), place),
+        status = p < 0 ? ROTID_OK : place_interval(engine, &e->refit->states, e->refit->fit, p, interval);
+    if (!status)
+        *placed = p >= 0 && interval[1] - interval[0] < 2 * NEAR_PLACE * length;
     return status;
 }
 

@@ -207,6 +207,24 @@ void effect_at(const struct state *state, int effect, const double *x, struct ef
             out->value[job->unknowns.parameter[p].component] = x[state_unknown(state, p)];
 }
 
+int effect_named(const struct state *state, const char *name)
+{
+    const struct rotor *rotor = &state->job.rotor;
+    int e = name ? rotor->neffect - 1 : -1;
+    while (e >= 0 && (!rotor->effect[e].name || strcmp(rotor->effect[e].name, name) != 0))
+        e--;
+    return e;
+}
+
+int effect_unknown(const struct state *state, int effect, int component)
+{
+    const struct job_unknowns *u = &state->job.unknowns;
+    for (int q = 0; q < u->nparameter; q++)
+        if (u->parameter[q].kind == PARAMETER_EFFECT && u->parameter[q].index == effect && u->parameter[q].component == component)
+            return state_unknown(state, q);
+    return -1;
+}
+
 int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to)
 {
     int status = states_copy(pool, states, to);

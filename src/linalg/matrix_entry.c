@@ -25,7 +25,7 @@ static int refuse_place(const rotid_matrix *a, int i, int j, char *failure)
                   a->kd, i, j, a->nfar);
 }
 
-static int add(rotid_matrix *a, int i, int j, double value, char *failure)
+HOST_COMPUTES int add(rotid_matrix *a, int i, int j, double value, char *failure)
 {
     int status = matrix_check_structure("a", a, failure);
     if (status)
@@ -36,7 +36,7 @@ static int add(rotid_matrix *a, int i, int j, double value, char *failure)
     return ROTID_OK;
 }
 
-static int add_element(rotid_matrix *a, int nd, const int *dof, const double *e, char *failure)
+HOST_COMPUTES int add_element(rotid_matrix *a, int nd, const int *dof, const double *e, char *failure)
 {
     int status = matrix_check_structure("a", a, failure);
     if (status)
