@@ -100,6 +100,19 @@ POOL_TEST(a_band_and_a_reference_are_those_of_the_options)
     assert_int_equal(m.set.frf[1].reference_node, 7);
 }
 
+POOL_TEST(of_two_references_that_of_the_options_is_taken)
+{
+    const struct measurement_options options = {.reference = 2}, other = {.reference = 3};
+    struct measurement m = {0}, none = {0};
+    const char *said, *text = table_of("Frequency,12/1 re,12/1 im,13/2 re,13/2 im", ',', '.', 0, 1, 1, 1);
+    assert_status(read_table(text, &options, &m, &said), ROTID_OK);
+    assert_int_equal(m.set.nfrf, 1);
+    assert_int_equal(m.set.frf[0].response_node, 13);
+    assert_true(cabs(m.set.frf[0].h[3] - exact(1, 106)) < 1e-9 * cabs(exact(1, 106)));
+    assert_status(read_table(text, &other, &none, &said), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(said, "1:1: no function has the reference asked for, expected one");
+}
+
 POOL_TEST(mistakes_have_their_place)
 {
     static const char *const cases[][2] = {
@@ -117,6 +130,17 @@ POOL_TEST(mistakes_have_their_place)
         {"freq,1/1 re,1/1 im\n1,2\n", "2:1: the row has another number of cells"},
         {"freq,1/1 re,1/1 im\n1,2,3,4\n", "2:1: the row has another number of cells"},
         {"freq,1/1 re,1/1 im\n1,2,3\n", "1:1: fewer than two lines"},
+        {"frequency (kHz),1/1 re,1/1 im\n", "1:1: the unit of the first column 'frequency (kHz)' does not stand in brackets"},
+        {"freq rad/s,1/1 re,1/1 im\n", "1:1: the unit of the first column"},
+        {"freq,1/1 re (g/N),1/1 im (g/N)\n", "1:2: the unit of '1/1 re (g/N)' does not stand in brackets"},
+        {"freq,1/1 mag,1/1 phase (rad)\n", "1:3: the unit of '1/1 phase (rad)' does not stand in brackets"},
+        {"freq,1/1 re [g/N],1/1 im\n", "1:3: '1/1 im' and the columns before do not all have a unit"},
+        {"freq,1/1 re,1/1 im [g/N]\n", "1:3: '1/1 im [g/N]' and the columns before do not all have a unit"},
+        {"freq,1/1 mag dB,1/1 phase\n", "1:2: '1/1 mag dB' holds levels"},
+        {"freq,run 3 12/1 re,run 3 12/1 im\n", "1:2: 'run 3 12/1 re' does not name response and reference"},
+        {"freq,12.5/1 re,12.5/1 im\n", "1:2: '12.5/1 re' does not name response and reference"},
+        {"freq,4294967297/1 re,4294967297/1 im\n", "does not name response and reference"},
+        {"freq;1/1 re;1/1 im\n1,000;2.5;3\n", "2:1: numbers have decimal commas and decimal points"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct measurement m = {0};

@@ -1,6 +1,7 @@
 /* Transfer functions from a table of an analyser: a row a line, the frequency first, two columns a function. */
 #include <ctype.h>
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,8 +30,10 @@ struct analyser {
     struct frf_set *set;
     char separator;
     double in_hertz;
-    int ncolumn, quantity; /* quantity: enum frf_quantity, -1: not stated yet */
-    struct column *column; /* [ncolumn] behind the frequency */
+    int ncolumn, quantity;  /* quantity: enum frf_quantity, -1: not stated yet */
+    int nwithout;           /* columns of a quantity without a unit */
+    int has_comma, has_dot; /* a number with a decimal comma, a decimal point */
+    struct column *column;  /* [ncolumn] behind the frequency */
 };
 
 static int wrong(struct analyser *a, int line, int column, const char *text, const char *cell)
@@ -53,7 +56,7 @@ static char *next_cell(char **at, char separator)
     return cell;
 }
 
-/* A word of the name in capitals or not, which ends where letters end: "re" of "12/1 Re [g/N]". */
+/* One of the words in the name, in capitals or not, which ends where letters end: "re" of "12/1 Re [g/N]". */
 static int has_word(const char *name, const char *words)
 {
     for (const char *at = name; *at;) {
@@ -85,6 +88,12 @@ static const char *unit_of(struct analyser *a, const char *name)
     return text ? text : "";
 }
 
+/* A unit that is overlooked is a wrong factor. */
+static int refuse_unit(struct analyser *a, int index, const char *name)
+{
+    return wrong(a, 1, index, "the unit of '%s' does not stand in brackets, expected a name such as '12/1 real [m/s2/N]'", name);
+}
+
 static int take_unit(struct analyser *a, int index, const char *name, struct column *column)
 {
     static const struct {
@@ -99,6 +108,8 @@ static int take_unit(struct analyser *a, int index, const char *name, struct col
                  {"um/N", FRF_DISPLACEMENT, 1e-6},   {"\xc2\xb5m/N", FRF_DISPLACEMENT, 1e-6}};
     const char *unit = unit_of(a, name);
     if (column->part == PART_PHASE) {
+        if (!*unit && has_word(name, "|rad|radian|radians|"))
+            return refuse_unit(a, index, name);
         column->factor = same_text(unit, "rad") ? 1 : 1 / RADIAN;
         return !*unit || same_text(unit, "rad") || same_text(unit, "deg") || !strcmp(unit, "\xc2\xb0")
                    ? 0
@@ -110,7 +121,14 @@ static int take_unit(struct analyser *a, int index, const char *name, struct col
     if (*unit && u == count)
         return wrong(a, 1, index, "the unit of '%s' is not known, expected one such as [m/s2/N], [g/N], [m/s/N], [m/N] or [um/N]",
                      name);
+    if (has_word(name, "|db|"))
+        return wrong(a, 1, index, "'%s' holds levels, expected linear values such as [m/s2/N]", name);
+    if (!*unit && has_word(name, "|n|kg|"))
+        return refuse_unit(a, index, name);
     column->factor = *unit ? units[u].factor : 1;
+    a->nwithout += !*unit;
+    if (a->nwithout && (*unit || a->quantity >= 0))
+        return wrong(a, 1, index, "'%s' and the columns before do not all have a unit, expected one in each or none", name);
     if (*unit && a->quantity >= 0 && a->quantity != (int)units[u].quantity)
         return wrong(a, 1, index, "'%s' is another quantity than the functions before it, expected one for all", name);
     a->quantity = *unit ? (int)units[u].quantity : a->quantity;
@@ -124,10 +142,13 @@ static int take_name(struct analyser *a, int index, const char *name)
                                         "|phase|arg|angle|"};
     struct column *column = &a->column[index - 2];
     int node[2] = {0, a->options->reference}, count = 0, p = 0;
-    for (const char *at = name; *at && *at != '[' && count < 2; at++)
+    for (const char *at = name; *at && *at != '['; at++)
         if (isdigit((unsigned char)*at)) {
             char *end;
-            node[count++] = (int)strtol(at, &end, 10);
+            long id = strtol(at, &end, 10);
+            if (count < 2)
+                node[count] = id <= INT_MAX ? (int)id : 0;
+            count++;
             at = end - 1;
         }
     while (p < 4 && !has_word(name, words[p]))
@@ -137,7 +158,7 @@ static int take_name(struct analyser *a, int index, const char *name)
                      "'%s' does not say what it holds, expected a name such as '12/1 real [m/s2/N]' with real and imaginary or "
                      "magnitude and phase",
                      name);
-    if (!count || !node[1])
+    if (!count || count > 2 || !node[0] || !node[1])
         return wrong(
             a, 1, index,
             "'%s' does not name response and reference, expected two numbers as in '12/1 real', or one and --reference N", name);
@@ -165,6 +186,8 @@ static int take_head(struct analyser *a, char *row)
         return ROTID_ERROR_MEMORY;
     char *at = row, *name = next_cell(&at, a->separator);
     const char *unit = unit_of(a, name);
+    if (!*unit && has_word(name, "|khz|mhz|ghz|rad|rpm|min|s|"))
+        return wrong(a, 1, 1, "the unit of the first column '%.60s' does not stand in brackets, expected frequency [Hz]", name);
     if (!has_word(name, "|frequency|freq|f|hz|") || (*unit && !same_text(unit, "Hz") && !same_text(unit, "kHz")))
         return wrong(a, 1, 1, "the first column is '%.60s', expected frequency [Hz]", name);
     a->in_hertz = same_text(unit, "kHz") ? 1e3 : 1;
@@ -192,9 +215,11 @@ static int take_head(struct analyser *a, char *row)
 }
 
 /* A decimal comma where cells are apart by something else. */
-static int number_of(const struct analyser *a, char *cell, double *value)
+static int number_of(struct analyser *a, char *cell, double *value)
 {
     char *comma = a->separator == ',' ? NULL : strchr(cell, ','), *end;
+    a->has_dot |= strchr(cell, '.') != NULL;
+    a->has_comma |= comma != NULL;
     if (comma)
         *comma = '.';
     *value = strtod(cell, &end);
@@ -226,6 +251,8 @@ static int take_row(struct analyser *a, int line, char *row, int *taken)
     }
     if (i < a->ncolumn || at)
         return wrong(a, line, 1, "the row has another number of cells than the first one%s, expected as many", "");
+    if (a->has_comma && a->has_dot)
+        return wrong(a, line, 1, "numbers have decimal commas and decimal points%s, expected one of them in a table", "");
     for (i = 0; i < a->ncolumn; i++)
         if (a->column[i].part == PART_PHASE) {
             double complex *h = &set->frf[a->column[i].frf].h[n];
@@ -252,7 +279,21 @@ static int read_text(struct analyser *a, struct pool *scratch, char **text)
     (void)fclose(file);
     if (failed)
         message_add(a->messages, SEVERITY_ERROR, a->path, 1, 1, "cannot be read");
+    else if (*text && strlen(*text) < length)
+        return wrong(a, 1, 1, "the file has zero bytes%s, expected text", "");
     return failed ? ROTID_ERROR_IO : *text ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Only functions over the reference that was asked for. */
+static int keep_reference(struct analyser *a)
+{
+    struct frf_set *set = a->set;
+    int kept = 0;
+    for (int c = 0; c < set->nfrf; c++)
+        if (!a->options->reference || set->frf[c].reference_node == a->options->reference)
+            set->frf[kept++] = set->frf[c];
+    set->nfrf = kept;
+    return kept ? ROTID_OK : wrong(a, 1, 1, "no function has the reference asked for%s, expected one", "");
 }
 
 int analyser_is(const char *path)
@@ -298,6 +339,8 @@ int analyser_read(struct pool *pool, const char *path, const struct measurement_
     }
     if (!status && a.set->nline < 2)
         status = wrong(&a, 1, 1, "fewer than two lines lie in the band asked for%s, expected some", "");
+    if (!status)
+        status = keep_reference(&a);
     pool_close(&scratch);
     return messages->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
