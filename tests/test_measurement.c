@@ -122,6 +122,53 @@ POOL_TEST(millimetres_and_g_become_si)
     }
 }
 
+/* A text that contradicts what counts is warned of, once a file; two systems of units are refused. */
+POOL_TEST(units_that_contradict_each_other_are_told)
+{
+    static const struct {
+        int specific_type;
+        const char *motion, *force, *abscissa, *said;
+    } cases[] = {
+        {12, "m/s2", "N", "Hz", NULL},
+        {12, "g", "", "", NULL},
+        {12, "mm/s2", "N", "Hz",
+         "2 functions have unit texts other than the units that count, here 'mm/s2', which is 0.001 m/s2"},
+        {0, "g", "N", "Hz", "here 'g', which is 9.80665 m/s2, where no set 164 does and values count as 1"},
+        {12, "g/N", "", "", "here 'g/N', which is 9.80665 m/s2"},
+        {8, "um", "N", "Hz", "here 'um', which is 1e-06 m"},
+        {11, "m/s", "kN", "Hz", "here 'kN', which is 1000 N"},
+        {12, "m/s2", "N", "kHz", "here 'kHz', which is 1000 Hz, where values count as 1"},
+        {12, "m/s2", "N", "rad/s", "here 'rad/s', which is 0.159155 Hz"},
+    };
+    const struct measurement_options options = {0};
+    struct measurement m;
+    struct message_list messages;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        begin();
+        for (int node = 1; node <= 2; node++) {
+            struct uff_function f = transfer_of(node, 1);
+            f.numerator.specific_type = cases[i].specific_type;
+            f.numerator.length = cases[i].specific_type != 0;
+            (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", cases[i].motion);
+            (void)snprintf(f.denominator.unit, sizeof f.denominator.unit, "%s", cases[i].force);
+            (void)snprintf(f.abscissa.unit, sizeof f.abscissa.unit, "%s", cases[i].abscissa);
+            write_transfer(&f, 1);
+        }
+        assert_status(finish(&options, &messages, &m), ROTID_OK);
+        assert_int_equal(warnings(&messages, cases[i].said ? cases[i].said : "unit texts"), cases[i].said != NULL);
+    }
+    const struct uff_units si = {.code = 1, .length = 1, .force = 1, .temperature = 1},
+                           mm = {.code = 5, .length = 1000, .force = 1, .temperature = 1};
+    struct uff_function f = transfer_of(1, 1);
+    begin();
+    assert_status(uff_write_units(file, &si), ROTID_OK);
+    write_transfer(&f, 1);
+    assert_status(uff_write_units(file, &mm), ROTID_OK);
+    assert_status(finish(&options, &messages, &m), ROTID_ERROR_ARGUMENT);
+    assert_int_equal(messages.errors, 1);
+    assert_non_null(strstr(messages.item[0].text, "a second set 164 has other factors"));
+}
+
 POOL_TEST(what_cannot_stand_beside_the_others_is_left_out)
 {
     struct measurement m;

@@ -126,6 +126,7 @@ struct listing {
     int *node_line;            /* line of the set of a node */
     struct uff_header *header; /* NULL where there is none */
     struct uff_units *units;   /* the last one, NULL where there is none */
+    int units_line;            /* of a set 164 with other factors than one before, 0: there is none */
     int finding_count;
     struct listing_finding *doubt;
 };

@@ -162,6 +162,8 @@ static void check_sets(struct search *search)
     }
     if (!listing->units && (listing->function_count || listing->node_count))
         add(search, "no_units", 0, "no set 164 tells the units: values are taken as they are, as if in SI");
+    if (listing->units_line)
+        add(search, "unit", listing->units_line, "a set 164 with other factors than one before");
 }
 
 struct place {
@@ -275,6 +277,7 @@ static void check_function(struct search *search, const struct listing_set *set)
     if (f->type == UFF_COHERENCE && v->max > COHERENCE_MOST)
         add(search, "coherence", line, "%s: the coherence goes up to %g, above 1", name, v->max);
     check_abscissa(search, line, name, entry);
+    check_unit(search, line, name, &f->abscissa);
     check_unit(search, line, name, &f->numerator);
     if (f->denominator.specific_type)
         check_unit(search, line, name, &f->denominator);
@@ -430,10 +433,13 @@ static int read_header(struct listing_work *job)
     return status;
 }
 
-static int read_units(struct listing_work *job)
+static int read_units(struct listing_work *job, const struct uff_set *set)
 {
+    const struct uff_units *before = job->listing->units;
     struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
     int status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
+    if (!status && before && (before->length != units->length || before->force != units->force))
+        job->listing->units_line = set->line;
     job->listing->units = status ? job->listing->units : units;
     return status;
 }
@@ -452,7 +458,7 @@ static int read_set(struct listing_work *job, struct listing_set *set)
     case 151:
         return read_header(job);
     case 164:
-        return read_units(job);
+        return read_units(job, &set->set);
     default:
         return UFF_END; /* read over */
     }

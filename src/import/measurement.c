@@ -8,7 +8,15 @@
 
 #define PIECE 4096
 
-enum { DISPLACEMENT = 8, REACTION_FORCE = 9, VELOCITY = 11, ACCELERATION = 12, EXCITATION_FORCE = 13 };
+enum {
+    DISPLACEMENT = 8,
+    REACTION_FORCE = 9,
+    VELOCITY = 11,
+    ACCELERATION = 12,
+    EXCITATION_FORCE = 13,
+    ABSCISSA_TIME = 17,
+    ABSCISSA_FREQUENCY = 18
+};
 
 static int is_one_of(const char *text, const char *const *words)
 {
@@ -196,9 +204,25 @@ static int read_function(struct growing *g, struct uff_reader *reader, const str
     return status;
 }
 
-static int read_set(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
+/* A second system of units would change what the values before it mean, or after it. */
+static int read_units(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
 {
     struct contents *c = g->contents;
+    struct uff_units units;
+    int status = uff_read_units(reader, &units);
+    if (!status && c->has_units && (units.length != c->units.length || units.force != c->units.force)) {
+        message_add(g->messages, SEVERITY_ERROR, g->path, set->line, 1,
+                    "a second set 164 has other factors than the first, expected one system of units in a file");
+        return ROTID_ERROR_ARGUMENT;
+    }
+    if (!status)
+        c->units = units;
+    c->has_units |= !status;
+    return status;
+}
+
+static int read_set(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
+{
     struct uff_node *node;
     int count, status;
     switch (set->number) {
@@ -208,9 +232,7 @@ static int read_set(struct growing *g, struct uff_reader *reader, const struct u
         status = uff_read_nodes(reader, g->scratch, &count, &node);
         return status ? status : add_nodes(g, set, count, node);
     case 164:
-        status = uff_read_units(reader, &c->units);
-        c->has_units |= !status;
-        return status;
+        return read_units(g, reader, set);
     case 58:
         return read_function(g, reader, set);
     default:
@@ -313,6 +335,50 @@ static int force_of(const struct contents *c, int response, int by_case)
             found = i;
     }
     return found;
+}
+
+/* Whether the text of an axis names another unit than the one that counts, with a factor to SI; the abscissa counts as it is. */
+static int contradicts(const struct contents *c, const struct uff_axis *axis, int type, double counts, const char **said,
+                       struct pool *pool)
+{
+    double by_text = unit_text_factor(type, axis->unit);
+    if (!(by_text > 0) || fabs(by_text - counts) <= 1e-3 * counts)
+        return 0;
+    if (!*said)
+        *said = pool_format(pool, "'%s', which is %.6g %s, where %s %.6g", axis->unit, by_text, si_unit(type),
+                            type == ABSCISSA_TIME || type == ABSCISSA_FREQUENCY ? "values count as"
+                            : c->has_units                                      ? "set 164 says"
+                                                                                : "no set 164 does and values count as",
+                            counts);
+    return 1;
+}
+
+/* A unit that nobody reads is a wrong factor: of the functions that a measurement consists of. */
+static void check_units(struct pool *pool, const struct contents *c, const char *path, struct message_list *messages)
+{
+    static const int motion[] = {[FRF_DISPLACEMENT] = DISPLACEMENT, [FRF_VELOCITY] = VELOCITY, [FRF_ACCELERATION] = ACCELERATION};
+    const struct uff_units *units = c->has_units ? &c->units : NULL;
+    const char *said = NULL;
+    int count = 0, line = 0;
+    for (int i = 0; i < c->count; i++) {
+        const struct uff_function *f = &c->item[i].function;
+        int quantity = motion_of(&f->numerator), bad = 0;
+        if (f->type != UFF_TRANSFER && f->type != UFF_TIME)
+            continue;
+        bad |= contradicts(c, &f->abscissa, f->type == UFF_TIME ? ABSCISSA_TIME : ABSCISSA_FREQUENCY, 1, &said, pool);
+        if (quantity >= 0)
+            bad |= contradicts(c, &f->numerator, motion[quantity], uff_si_factor(units, &f->numerator), &said, pool);
+        else if (is_force(&f->numerator))
+            bad |= contradicts(c, &f->numerator, EXCITATION_FORCE, uff_si_factor(units, &f->numerator), &said, pool);
+        if (f->type == UFF_TRANSFER && is_force(&f->denominator))
+            bad |= contradicts(c, &f->denominator, EXCITATION_FORCE, uff_si_factor(units, &f->denominator), &said, pool);
+        line = bad && !count ? f->line : line;
+        count += bad;
+    }
+    if (count)
+        message_add(messages, SEVERITY_WARNING, path, line, 1,
+                    "%d functions have unit texts other than the units that count, here %s: a factor may be wrong", count,
+                    said ? said : "");
 }
 
 struct loading {
@@ -715,6 +781,7 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
         out->node = contents.node;
         out->units = contents.units;
         out->has_units = contents.has_units;
+        check_units(&scratch, &contents, path, messages);
         int model = common_kind(&contents, options);
         if (model >= 0)
             status = load_transfers(&l, model);

@@ -153,11 +153,15 @@ double unit_text_factor(int specific_type, const char *text)
         {13, "kN", 1e3},      {13, "mN", 1e-3},      {13, "lbf", 4.4482216152605},
         {15, "Pa", 1},        {15, "kPa", 1e3},      {15, "MPa", 1e6},
         {17, "s", 1},         {17, "sec", 1},        {17, "ms", 1e-3},
-        {18, "Hz", 1},        {18, "kHz", 1e3},
+        {18, "Hz", 1},        {18, "kHz", 1e3},      {18, "rad/s", 0.15915494309189535},
+        {18, "rpm", 1 / 60.}, {12, "G", 9.80665},
     };
-    int type = specific_type == 9 ? 13 : specific_type;
+    int type = specific_type == 9 ? 13 : specific_type, is_motion = type == 8 || type == 11 || type == 12;
+    size_t length = strlen(text);
+    if (is_motion && length > 2 && !strcmp(text + length - 2, "/N")) /* the whole quotient where the motion belongs */
+        length -= 2;
     for (int i = 0; i < COUNT(units); ++i)
-        if (units[i].type == type && !strcmp(units[i].text, text)) /* mN is not MN */
+        if (units[i].type == type && strlen(units[i].text) == length && !strncmp(units[i].text, text, length)) /* mN is not MN */
             return units[i].factor;
     return 0;
 }
