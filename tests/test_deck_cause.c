@@ -492,6 +492,34 @@ POOL_TEST(bounds_are_told_in_the_units_of_the_deck)
     }
 }
 
+/* L/14 = 94.857142857142857... mm in fifteen digits lies above that bound; a value off by more is no rounding. */
+POOL_TEST(a_bound_in_another_unit_is_that_bound)
+{
+    static const struct {
+        const char *width, *upper, *more, *told;
+    } cases[] = {{"94.8571428571429", "94.8571428571429", "", NULL},
+                 {"20", "94.8571428571429", "*SET\nc.width, 94.8571428571429\n", NULL},
+                 {"94.857143", "94", "", "width is 94.857143, expected a value from 6.64 to 94.8571"},
+                 {"20", "94.857143", "", "the bounds of c.width are 7 and 94.857143, expected them inside 6.64 to 94.8571"},
+                 {"20", "94", "*SET\nc.width, 94.857143\n", "c.width is 94.857143, expected a value from 6.64 to 94.8571"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct reading r;
+        try_path(
+            &r,
+            folder_write("bounds.inp",
+                         pool_format(&test_pool,
+                                     "*UNITS, LENGTH=MM\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                     "*SHAFT, NAME=left, MATERIAL=steel\n1328, 50, 0, 12\n*CAUSE, NAME=c, "
+                                     "TYPE=stiffness_local\ndepth, 0.3\nz, 500\nwidth, %s\n*IDENTIFY\nc.width, 7, %s, 30\n%s",
+                                     cases[i].width, cases[i].upper, cases[i].more)),
+            NULL);
+        assert_int_equal(r.messages.errors, cases[i].told != NULL);
+        if (cases[i].told)
+            assert_non_null(find_message(&r.messages, cases[i].told));
+        pool_close(&r.pool);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------ faults of the world */
 
 UNIT_TEST(without_memory_nothing_leaks)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "deck/deck.h"
+#include "deck/deck_row.h"
 #include "diagnose/causes/causes.h"
 
 struct cause_card {
@@ -293,7 +294,7 @@ static int check_options(const struct cause_card *c)
 }
 
 static int check_value(const struct cause_card *c, int p, const struct effect_parameter_name *known, const struct field *field,
-                       double value)
+                       double *value)
 {
     double lower, upper, si = deck_in_si(c->reader, known->unit);
     if (!c->kind->bounds)
@@ -302,7 +303,7 @@ static int check_value(const struct cause_card *c, int p, const struct effect_pa
     double neutral = c->kind->parameter[p].neutral;
     int has_neutral = c->kind->class == CAUSE_DATA ||
                       (p != c->kind->place && p != c->kind->width); /* of a place or width none is without effect */
-    if ((value >= lower && value <= upper) || (has_neutral && value == neutral))
+    if ((has_neutral && *value == neutral) || deck_clip(lower, upper, value))
         return 0;
     if (has_neutral && (neutral < lower || neutral > upper))
         deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g, or %.6g: no effect", known->name,
@@ -344,7 +345,7 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
         return 1;
     }
     cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
-    if (bound[0] < bound[1] && bound[0] >= lower && bound[1] <= upper)
+    if (bound[0] < bound[1] && deck_clip(lower, upper, &bound[0]) && deck_clip(lower, upper, &bound[1]))
         return 0;
     deck_error(c->reader, field[1].place,
                "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g", known[p].name,
@@ -383,7 +384,7 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
         int p = find_value(c, &line->field[0], count, known);
         if (!given[p])
             continue; /* its bounds */
-        bad |= check_value(c, p, &known[p], &line->field[1], value[p]);
+        bad |= check_value(c, p, &known[p], &line->field[1], &value[p]);
     }
     for (int p = 0; p < count && !c->suspect && !bad; p++)
         if (!given[p]) {

@@ -569,6 +569,15 @@ int deck_is_near(double a, double b)
     return a == b || fabs(a - b) <= DECK_ROUNDING * fmax(fabs(a), fabs(b)) || (isnan(a) && isnan(b));
 }
 
+int deck_clip(double lower, double upper, double *value)
+{
+    if (*value < lower && deck_is_near(*value, lower))
+        *value = lower;
+    if (*value > upper && deck_is_near(*value, upper))
+        *value = upper;
+    return *value >= lower && *value <= upper;
+}
+
 static int is_same_text(const char *a, const char *b)
 {
     return a && b ? same_text(a, b) : !a == !b;

@@ -15,7 +15,7 @@
 
 /* Below zero is physical for some parameters of causes: each states its own range. */
 static void check_effect_bounds(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,
-                                const rotid_parameter *bounds)
+                                rotid_parameter *bounds)
 {
     const struct rotor *rotor = &reader->job->rotor;
     const struct effect *effect = &rotor->effect[parameter->index];
@@ -24,10 +24,10 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
     if (!cause || !cause->bounds)
         return;
     cause_reach(cause, rotor, effect, parameter->component, &lower, &upper);
-    if (bounds->lower < lower || bounds->upper > upper)
-        deck_error(reader, line->field[bounds->lower < lower ? 1 : 2].place,
-                   "the bounds of %s are %s and %s, expected them inside %.6g to %.6g", bounds->name, line->field[1].text,
-                   line->field[2].text, lower / si, upper / si);
+    int is_low = !deck_clip(lower, upper, &bounds->lower);
+    if (is_low || !deck_clip(lower, upper, &bounds->upper))
+        deck_error(reader, line->field[is_low ? 1 : 2].place, "the bounds of %s are %s and %s, expected them inside %.6g to %.6g",
+                   bounds->name, line->field[1].text, line->field[2].text, lower / si, upper / si);
 }
 
 void deck_drop_unknown(struct deck_reader *reader, int p)

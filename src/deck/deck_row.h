@@ -132,6 +132,9 @@ void deck_put_list_item(struct deck_writer *w, const char *card, const void *fro
  * a quotient by a unit. */
 #define DECK_ROUNDING 1e-11
 int deck_is_near(double a, double b);
+
+/* Whether a value lies from lower to upper; one beyond them by rounding becomes the bound. */
+int deck_clip(double lower, double upper, double *value);
 int deck_is_same_material(const struct material *a, const struct material *b);
 int deck_is_same(const struct deck_row *row, const void *a, const void *b);
 int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b);

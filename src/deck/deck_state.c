@@ -314,7 +314,8 @@ void deck_set_lengths(struct deck_reader *reader)
 }
 
 /* Of a parameter of a cause its own range; of the others what their cards ask for. 0, or 1 after an error. */
-static int check_value(struct deck_reader *reader, const struct data_line *line, struct parameter parameter, double value)
+static int check_value(struct deck_reader *reader, const struct data_line *line, struct parameter parameter, double *value,
+                       double si)
 {
     const struct rotor *rotor = &reader->job->rotor;
     double lower = parameter.kind == PARAMETER_TENSION ? -INFINITY : parameter.kind == PARAMETER_NU ? -1 : 0, upper = INFINITY;
@@ -323,14 +324,13 @@ static int check_value(struct deck_reader *reader, const struct data_line *line,
     if (parameter.kind == PARAMETER_EFFECT) {
         const struct cause_kind *cause = catalogue_of(&rotor->effect[parameter.index]);
         if (cause && cause->bounds)
-            cause->bounds(rotor, &rotor->effect[parameter.index], parameter.component, &lower, &upper);
+            cause_reach(cause, rotor, &rotor->effect[parameter.index], parameter.component, &lower, &upper);
     }
     int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */
-    if (value > lower || (value == lower && !above))
-        if (value <= upper)
-            return 0;
+    if (deck_clip(lower, upper, value) && (*value > lower || !above))
+        return 0;
     deck_error(reader, line->field[1].place, "%s is %s, expected a value %s %.6g%s%.6g", line->field[0].text, line->field[1].text,
-               above ? "above" : "from", lower, above ? " and at most " : " to ", upper);
+               above ? "above" : "from", lower / si, above ? " and at most " : " to ", upper / si);
     return 1;
 }
 
@@ -346,8 +346,9 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
         deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length", name);
     if (found || deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "value", ANY, &value))
         return;
-    value *= deck_in_si(reader, unit ? unit : "");
-    if (check_value(reader, line, parameter, value))
+    double si = deck_in_si(reader, unit ? unit : "");
+    value *= si;
+    if (check_value(reader, line, parameter, &value, si))
         return;
     if (parameter.kind == PARAMETER_G)
         job->rotor.group[parameter.index].material.isotropic = 0;
