@@ -229,6 +229,9 @@ $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 # compiled once, run once: what they call is optimised
 $(BUILD)/tests/test_%.o: ALL_CFLAGS += -O0
+# these compute much themselves
+EXTRA_test_evidence = -O2
+EXTRA_test_modal_fit = -O2
 $(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(call tell,LD,$@)
 	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
