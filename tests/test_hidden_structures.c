@@ -27,6 +27,12 @@ static const char hung[] = HUBS("0.1, 500", "0.8, 500"), held[] = HUBS("0.05, 2e
                                     "0.4, 0.10, 0, 20\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.07, 0, 20\n" DATA("shaft"),
                   wheel[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n0.9, 0.06, 0, 60\n*DISK, NAME=wheel\n0.6, 6, 0.03, 0.05\n"
                                   "*SPRING, NAME=front\n0.1, 1e9\n*SPRING, NAME=rear\n0.8, 5e8\n" DATA("shaft"),
+                  soft[] = STEEL "*MATERIAL, NAME=own\n*ELASTIC, TYPE=SHEAR\n3.2e10, 7.6e9, 0.3\n*DENSITY\n7440\n"
+                                 "*SHAFT, NAME=left, MATERIAL=steel\n0.076, 0.095, 0, 3\n0.134, 0.041, 0, 5\n0.24, 0.1, 0, 9\n"
+                                 "*SHAFT, NAME=core, MATERIAL=own\n0.32, 0.105, 0, 12\n"
+                                 "*SHAFT, NAME=right, MATERIAL=steel\n0.116, 0.1, 0, 5\n0.207, 0.0735, 0, 8\n"
+                                 "*SLING, LENGTH=1.7\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.0012, SHAPE=0.026\n"
+                                 "*IDENTIFY\ncore.E, 6e9, 1.3e11, 3e10\ncore.G, 7.6e8, 6e10, 6e9\n*FIT, FUNCTIONAL=LIKELIHOOD\n",
                   noisy[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n1, 0.08, 0, 60\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.004, "
                                   "SHAPE=0.045\n*IDENTIFY\nshaft.E, 1e11, 3e11, 2e11\n*FIT, FUNCTIONAL=LIKELIHOOD\n";
 
@@ -46,10 +52,11 @@ static const struct {
     {strip, "clamp:at=vice,rotational=1.5e-4", 1, 1, 0.1},
     {strip, "clamp:at=vice,rotational=1.5e-4", 0, 0, 0.1},
     {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},
-    {roller, "support_extra:z=0.4,stiffness=1e5", 1, 0, 0.25},    /* worth 46: its place is open */
-    {stepped, "support_rotation:z=0.2,stiffness=3e6", 1, 1, 0.1}, /* so stiff that the suspension bends: no bending mode more */
-    {noisy, "support_rotation:z=0.99,stiffness=3e5", 1, 1, 0.1},  /* towards an end a place says less and less */
-    {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1},            /* modes change their order: no straight line leads there */
+    {roller, "support_extra:z=0.4,stiffness=1e5", 1, 0, 0.25},      /* worth 46: its place is open */
+    {stepped, "support_rotation:z=0.2,stiffness=3e6", 1, 1, 0.1},   /* so stiff that the suspension bends: no bending mode more */
+    {noisy, "support_rotation:z=0.99,stiffness=3e5", 1, 1, 0.1},    /* towards an end a place says less and less */
+    {soft, "support_rotation:z=0.0565,stiffness=1.8e6", 1, 1, 0.1}, /* alone, its fit ends in another minimum */
+    {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1},              /* modes change their order: no straight line leads there */
     {wheel, "added_inertia:at=wheel,inertia=0.3", 1, 1, 0.1},
     {wheel, "added_mass:mass=5,z=0.88", 1, 1, 0.1},
 };
@@ -93,7 +100,8 @@ UNIT_TEST(causes_of_small_structures_are_found)
         assert_int_equal(hidden_run(&c, NULL, look, &seen, &score), 0);
         int right = score.outcome == HIDDEN_RIGHT;
         int good = table[i].named ? right && score.size_error < table[i].within : right || seen.in_set;
-        good &= seen.first == (table[i].deck == stepped ? 2 : 1); /* who reads that deck counts the pivoting as bending */
+        int pivots = table[i].deck == stepped || table[i].deck == soft; /* who reads these counts the pivoting as bending */
+        good &= seen.first == (pivots ? 2 : 1);
         bad += !good;
         print_message("%s %-42s %-10s %s%s%s, drop %.0f, size off by %.3f\n", good ? "    " : " BAD", table[i].effect,
                       table[i].shapes ? "" : "frequencies", hidden_outcome_name(score.outcome), score.wrong[0] ? ": " : "",

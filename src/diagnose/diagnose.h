@@ -87,6 +87,7 @@ struct evidence_data;
 
 struct explanation { /* a set of causes, perhaps with something else beside it */
     int nmember, something_else, expanded;
+    int again; /* fitted once more, from a larger set */
     struct candidate member[MOST_MEMBERS];
     const struct refit *refit;  /* its fit; NULL: none, but the line of the scan */
     const struct scan *scan;    /* at that fit; NULL: not scanned */

@@ -98,6 +98,15 @@ static struct explanation *find(const struct posterior *p, const struct explanat
     return NULL;
 }
 
+/* Whether a set stands where a larger one does not have its causes: its fit may have ended in another minimum. */
+static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *larger)
+{
+    int all = 1;
+    for (int m = 0; m < set->nmember; m++)
+        all &= has(p, larger, &set->member[m]);
+    return !all && set->refit && !set->again;
+}
+
 /* ---- priors */
 
 /* How many faults of its kind there are; *kinds: of all that channels can have. */
@@ -347,7 +356,8 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
     return status;
 }
 
-/* A set of physical causes with one less: what led to it may not be needed any more. */
+/* A set of physical causes with one less: what led to it may not be needed any more. A set that was fitted is so again where the
+ * larger one has a cause at another place. */
 static void propose_removals(const struct posterior *p, int parent, struct proposal *proposal, int most, int *count)
 {
     const struct explanation *from = &p->item[parent];
@@ -365,7 +375,8 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
         set->expanded = 0;
         set->log_prior = prior_of(p, set);
         set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
-        if (physical && !find(p, set))
+        struct explanation *known = find(p, set);
+        if (physical && (!known || stands_elsewhere(p, known, from)))
             proposal[(*count)++] = one;
     }
 }
@@ -500,8 +511,14 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
         if (!status && proposal[i].candidate >= 0)
             prefer_columns(states_of_explanation(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
                            &p->item[proposal[i].parent], &e);
-        if (!status && !append(p, &e))
+        struct explanation *known = find(p, &e);
+        if (known) {
+            known->again = e.again = 1;
+            if (!status && e.log_posterior > known->log_posterior)
+                *known = e;
+        } else if (!status && !append(p, &e)) {
             status = ROTID_ERROR_MEMORY;
+        }
     }
     return status;
 }
