@@ -218,12 +218,36 @@ static void wrong_input_is_refused(void **state)
     rotid_host_diagnosis_free(NULL);
 }
 
+/* Failing allocations throughout a small diagnosis, frequencies and two causes. */
+static void without_memory_there_is_no_diagnosis(void **state)
+{
+    struct failing_allocator failing;
+    const rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
+    rotid_host_diagnosis *d;
+    rotid_measured few = data.measured;
+    int status = ROTID_ERROR_MEMORY, fail_at = 0;
+    (void)state;
+    few.nmode = 4;
+    few.shape = few.shape_std = NULL;
+    while (status) {
+        failing_allocator_open(&failing, fail_at += 7);
+        status = rotid_diagnose_model(&host.model, beam_parameters, &few, 2, cause, NULL, &environment, failure, &d);
+        if (!status)
+            rotid_host_diagnosis_free(d);
+        else
+            assert_int_equal(status, ROTID_ERROR_MEMORY);
+        assert_int_equal(failing.in_use, 0);
+    }
+    print_message("%d allocations\n", fail_at);
+    assert_true(fail_at > 100);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_all, close_test_pool)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {TEST(what_is_hidden_is_named_with_its_size),
                                        TEST(nothing_hidden_is_nothing_and_what_is_no_cause_is_something_else),
-                                       TEST(wrong_input_is_refused)};
+                                       TEST(wrong_input_is_refused), TEST(without_memory_there_is_no_diagnosis)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

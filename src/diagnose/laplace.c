@@ -573,7 +573,9 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
     double weighed = -INFINITY, sum;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, most_columns);
     double *more = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(most_columns + 1));
-    int status = all && more ? with_field(d, pool, n, u, rows, NULL, 0, nown, out, &weighed, &sum) : ROTID_ERROR_MEMORY;
+    if (!all || !more)
+        return ROTID_ERROR_MEMORY;
+    int status = with_field(d, pool, n, u, rows, NULL, 0, nown, out, &weighed, &sum);
     memcpy(all, u, (size_t)n * sizeof *u);
     memcpy(more, rows, (size_t)nrow * (size_t)n * sizeof *rows);
     for (int p = n; p < most_columns; p++)
