@@ -32,6 +32,15 @@ static int try_read(const rotid_deck *deck, const rotid_environment *environment
     return status;
 }
 
+static int try_read_states(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    rotid_deck *made = (void *)1;
+    (void)deck;
+    int status = rotid_deck_read(ROTID_SOURCE_DIR "/input/strip_states.inp", 0, NULL, environment, NULL, &made);
+    *result = made;
+    return status;
+}
+
 static int try_read_wrong(const rotid_deck *deck, const rotid_environment *environment, void **result)
 {
     static const char *const override[] = {"FIT.FUNCTIONAL=NONE", "SHAFTS.NAME=x"};
@@ -163,6 +172,7 @@ UNIT_TEST(every_allocation_may_fail)
 {
     rotid_deck *deck = bench_deck(folder_path("deck.inp")), *bar = bench_deck(folder_path("bar.inp"));
     sweep("rotid_deck_read", NULL, try_read, free_deck, 100000, 1);
+    sweep("rotid_deck_read of states", NULL, try_read_states, free_deck, 100000, 1);
     sweep("rotid_deck_read of a wrong deck", NULL, try_read_wrong, free_deck, 300, 1.1);
     sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
     sweep("rotid_identify", bar, try_identify, free_identification, 200, 1.02);

@@ -99,6 +99,8 @@ static int show_states(const struct states *states, struct pool *own, const roti
         if (status)
             return status;
         show(&state->job, own, list[s]);
+        if (own->out_of_memory)
+            return ROTID_ERROR_MEMORY;
         name[s] = state->name;
         for (int p = 0; p < state->job.unknowns.nparameter; p++)
             stated[state->unknown[p]] = list[s]->stated[p];
