@@ -357,8 +357,9 @@ static int respond(struct pool *pool, struct bands *b, const struct machine_valu
     const rotid_probe_response *curve = b->out->unbalance;
     int nprobe = b->out->nunbalance, failed;
     struct system s;
-    if (system_build(pool, b->machine, b->job, values, b->nominal, &fewer, &s, &failed))
-        return ROTID_OK; /* this draw has none */
+    int status = system_build(pool, b->machine, b->job, values, b->nominal, &fewer, &s, &failed);
+    if (status)
+        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* this draw has none */
     double complex *q = POOL_ARRAY(pool, double complex, s.size);
     float *to = b->response + (ptrdiff_t)index * curve->nspeed_rpm * nprobe;
     for (int i = 0; i < curve->nspeed_rpm && q; i++) {
@@ -400,7 +401,9 @@ static int one_draw(void *context, int index, int worker)
                 break;
             }
             set_values(b, d, (double)step / steps, x, &values);
-            if (system_build(&pool, b->machine, b->job, &values, b->nominal, &b->basis, &system[own], &failed)) {
+            int built = system_build(&pool, b->machine, b->job, &values, b->nominal, &b->basis, &system[own], &failed);
+            if (built) {
+                status = built == ROTID_ERROR_MEMORY ? built : ROTID_OK;
                 lost = b->ncritical;
                 break;
             }
@@ -428,6 +431,7 @@ static int one_draw(void *context, int index, int worker)
         if (!status && from != b->nominal)
             watch(&pool, b, (struct system *)from, &b->growth[index]);
         done = !lost;
+        status = !status && pool.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&pool);
     }
     return status;
