@@ -26,7 +26,7 @@ static int frequencies(struct pool *pool, const struct torsion *t, double *hz)
     if (!status)
         status = spectrum_compute_parts(&scratch, t->job.models, &rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, 0, &spectrum);
     for (int k = 0; k < MODES; k++)
-        hz[k] = k < spectrum.count ? spectrum.full_hz[k] : NAN;
+        hz[k] = !status && k < spectrum.count ? spectrum.full_hz[k] : NAN;
     pool_close(&scratch);
     return status;
 }
@@ -68,7 +68,7 @@ static int spread(struct pool *pool, struct torsion *t, const rotid_fit_result *
         double std = t->machine->change[i].std;
         if (std > 0)
             status = differentiate(pool, t, &t->values.change[i], STEP * t->values.change[i], STEP, changed);
-        for (int k = 0; k < MODES && std > 0; k++)
+        for (int k = 0; k < MODES && std > 0 && !status; k++)
             variance[k] += changed[k] * changed[k] * std * std;
     }
     return status;
