@@ -3,7 +3,7 @@
 const char *const verdict_words[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
 
-static const struct record_field value_fields[] = {
+PART_TABLE(cause_value_record, rotid_cause_value) = {
     TEXT(rotid_cause_value, name, 0),
     TEXT(rotid_cause_value, unit, MAY_BE_NULL),
     NUMBER(rotid_cause_value, value, 0),
@@ -12,30 +12,27 @@ static const struct record_field value_fields[] = {
     FLAG(rotid_cause_value, fixed, 0),
     {0},
 };
-static const struct record value_record = RECORD(rotid_cause_value, value_fields);
 
-static const struct record_field cause_fields[] = {
+TABLE(cause_record, rotid_cause) = {
     TEXT(rotid_cause, id, 0),
     TEXT(rotid_cause, target, 0),
     TEXT(rotid_cause, name, MAY_BE_NULL),
     TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
-    STRUCTS(rotid_cause, parameters, 0, value_record),
+    STRUCTS(rotid_cause, parameters, 0, cause_value_record),
     TEXT(rotid_cause, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
-const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
-static const struct record_field explanation_fields[] = {
+PART_TABLE(explanation_record, rotid_explanation) = {
     STRUCTS(rotid_explanation, causes, 0, cause_record),
     FLAG(rotid_explanation, something_else, 0),
     NUMBER(rotid_explanation, probability, PROBABILITY),
     NUMBER(rotid_explanation, at_rest, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
-    STRUCTS(rotid_explanation, identified, 0, value_record),
+    STRUCTS(rotid_explanation, identified, 0, cause_value_record),
     {0},
 };
-static const struct record explanation_record = RECORD(rotid_explanation, explanation_fields);
 
-static const struct record_field marginal_fields[] = {
+PART_TABLE(marginal_record, rotid_marginal) = {
     TEXT(rotid_marginal, id, 0),
     TEXT(rotid_marginal, target, 0),
     TEXT(rotid_marginal, state, MAY_BE_NULL),
@@ -43,16 +40,14 @@ static const struct record_field marginal_fields[] = {
     NUMBER(rotid_marginal, probability, PROBABILITY),
     {0},
 };
-static const struct record marginal_record = RECORD(rotid_marginal, marginal_fields);
 
-static const struct record_field averaged_fields[] = {
+PART_TABLE(averaged_record, rotid_averaged_parameter) = {
     TEXT(rotid_averaged_parameter, name, 0),     TEXT(rotid_averaged_parameter, unit, 0),
     NUMBER(rotid_averaged_parameter, value, 0),  NUMBER(rotid_averaged_parameter, std, FROM_0),
     INTERVAL(rotid_averaged_parameter, ci95, 0), {0},
 };
-static const struct record averaged_record = RECORD(rotid_averaged_parameter, averaged_fields);
 
-static const struct record_field verdict_fields[] = {
+TABLE(verdict_record, rotid_verdict) = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
     FLAG(rotid_verdict, adequate_after, 0),
     NUMBER(rotid_verdict, p_value, MAY_BE_NULL | PROBABILITY),
@@ -72,9 +67,8 @@ static const struct record_field verdict_fields[] = {
     NUMBER(rotid_verdict, runup_p, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
     {0},
 };
-const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
 
-static const struct record_field data_finding_fields[] = {
+TABLE(data_finding_record, rotid_data_finding) = {
     TEXT(rotid_data_finding, id, 0),
     INTEGERS(rotid_data_finding, sensors, 0),
     INTEGERS(rotid_data_finding, modes, 0),
@@ -85,12 +79,11 @@ static const struct record_field data_finding_fields[] = {
     NUMBER(rotid_data_finding, chi2_drop, MAY_BE_NULL),
     TEXT(rotid_data_finding, text, MAY_BE_NULL),
     TEXT(rotid_data_finding, state, MAY_BE_NULL | SINCE_LATER),
-    STRUCTS(rotid_data_finding, parameters, SINCE_LATER, value_record),
+    STRUCTS(rotid_data_finding, parameters, SINCE_LATER, cause_value_record),
     {0},
 };
-const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
 
-static const struct record_field numerical_finding_fields[] = {
+PART_TABLE(numerical_finding_record, rotid_numerical_finding) = {
     TEXT(rotid_numerical_finding, id, 0),
     INTEGERS(rotid_numerical_finding, modes, 0),
     NUMBERS_BY(rotid_numerical_finding, error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
@@ -98,9 +91,8 @@ static const struct record_field numerical_finding_fields[] = {
     TEXT(rotid_numerical_finding, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
-static const struct record numerical_finding_record = RECORD(rotid_numerical_finding, numerical_finding_fields);
 
-static const struct record_field round_fields[] = {
+PART_TABLE(round_record, rotid_round) = {
     INTEGER(rotid_round, round, FROM_1),
     NUMBER(rotid_round, chi2, MAY_BE_NULL),
     NUMBER(rotid_round, chi2_frequency, MAY_BE_NULL),
@@ -113,9 +105,8 @@ static const struct record_field round_fields[] = {
     NUMBER(rotid_round, p_total, MAY_BE_NULL | PROBABILITY),
     {0},
 };
-static const struct record round_record = RECORD(rotid_round, round_fields);
 
-static const struct record_field candidate_fields[] = {
+PART_TABLE(candidate_record, rotid_candidate) = {
     INTEGER(rotid_candidate, round, FROM_1),
     INLINE(rotid_candidate, cause, 0, cause_record),
     FLAG(rotid_candidate, suspect, 0),
@@ -130,16 +121,14 @@ static const struct record_field candidate_fields[] = {
     NUMBER(rotid_candidate, probability, PROBABILITY),
     {0},
 };
-static const struct record candidate_record = RECORD(rotid_candidate, candidate_fields);
 
-static const struct record_field pair_fields[] = {
+PART_TABLE(pair_record, rotid_pair) = {
     NUMBER(rotid_pair, before, MAY_BE_NULL),
     NUMBER(rotid_pair, after, MAY_BE_NULL),
     {0},
 };
-static const struct record pair_record = RECORD(rotid_pair, pair_fields);
 
-static const struct record_field changed_parameter_fields[] = {
+PART_TABLE(changed_parameter_record, rotid_changed_parameter) = {
     TEXT(rotid_changed_parameter, name, 0),
     TEXT(rotid_changed_parameter, unit, 0),
     NUMBER(rotid_changed_parameter, before, MAY_BE_NULL),
@@ -148,9 +137,8 @@ static const struct record_field changed_parameter_fields[] = {
     INTERVAL(rotid_changed_parameter, after_ci95, 0),
     {0},
 };
-static const struct record changed_parameter_record = RECORD(rotid_changed_parameter, changed_parameter_fields);
 
-static const struct record_field gain_fields[] = {
+PART_TABLE(gain_record, rotid_gain) = {
     STRUCT(rotid_gain, frequency_rms_percent, 0, pair_record),
     STRUCT(rotid_gain, frequency_max_percent, 0, pair_record),
     STRUCT(rotid_gain, shape_rms, 0, pair_record),
@@ -164,25 +152,22 @@ static const struct record_field gain_fields[] = {
     STRUCTS(rotid_gain, parameters, 0, changed_parameter_record),
     {0},
 };
-static const struct record gain_record = RECORD(rotid_gain, gain_fields);
 
-static const struct record_field sensor_residual_fields[] = {
+PART_TABLE(sensor_residual_record, rotid_sensor_residual) = {
     INTEGER(rotid_sensor_residual, id, 0),
     NUMBER(rotid_sensor_residual, z_m, 0),
     NUMBER(rotid_sensor_residual, rms, MAY_BE_NULL | FROM_0),
     TEXT(rotid_sensor_residual, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
-static const struct record sensor_residual_record = RECORD(rotid_sensor_residual, sensor_residual_fields);
 
-static const struct record_field localisation_fields[] = {
+PART_TABLE(localisation_record, rotid_localisation) = {
     NUMBER(rotid_localisation, z_m, 0),
     NUMBER(rotid_localisation, indicator, MAY_BE_NULL),
     {0},
 };
-static const struct record localisation_record = RECORD(rotid_localisation, localisation_fields);
 
-static const struct record_field detectable_fields[] = {
+TABLE(detectable_record, rotid_detectable) = {
     TEXT(rotid_detectable, id, 0),
     TEXT(rotid_detectable, target, 0),
     TEXT(rotid_detectable, parameter, 0),
@@ -193,16 +178,14 @@ static const struct record_field detectable_fields[] = {
     FLAG(rotid_detectable, beyond, 0),
     {0},
 };
-const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
 
-static const struct record_field step_fields[] = {
+PART_TABLE(step_record, rotid_step) = {
     TEXT(rotid_step, name, 0),
     NUMBER(rotid_step, seconds, FROM_0),
     {0},
 };
-static const struct record step_record = RECORD(rotid_step, step_fields);
 
-static const struct record_field diagnosis_fields[] = {
+TABLE(diagnosis_record, rotid_diagnosis) = {
     FLAG(rotid_diagnosis, interrupted, 0),
     TEXT(rotid_diagnosis, before, MAY_BE_NULL | SINCE_LATER),
     TEXT(rotid_diagnosis, after, MAY_BE_NULL | SINCE_LATER),
@@ -226,12 +209,10 @@ static const struct record_field diagnosis_fields[] = {
     STRUCTS(rotid_diagnosis, steps, SINCE_LATER, step_record),
     {0},
 };
-const struct record diagnosis_record = RECORD(rotid_diagnosis, diagnosis_fields);
 
-static const struct record_field diagnosis_whole_fields[] = {
+TABLE(diagnosis_whole_record, rotid_diagnosis) = {
     ROWS(0, diagnosis_record),
     STRUCTS(rotid_diagnosis, message, 0, message_record),
     TEXT(rotid_diagnosis, extended_deck, 0),
     {0},
 };
-const struct record diagnosis_whole_record = RECORD(rotid_diagnosis, diagnosis_whole_fields);

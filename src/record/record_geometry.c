@@ -2,7 +2,7 @@
 
 static const char *const bundles[] = {"RODS", "TUBE", NULL};
 
-static const struct record_field material_fields[] = {
+PART_TABLE(material_record, rotid_material) = {
     TEXT(rotid_material, name, MAY_BE_NULL),
     NUMBER(rotid_material, e_pa, FROM_0),
     NUMBER(rotid_material, g_pa, FROM_0),
@@ -12,9 +12,8 @@ static const struct record_field material_fields[] = {
     NUMBER(rotid_material, stacking, IF_KNOWN | ABOVE_0),
     {0},
 };
-static const struct record material_record = RECORD(rotid_material, material_fields);
 
-static const struct record_field segment_fields[] = {
+PART_TABLE(segment_record, rotid_segment) = {
     NUMBER(rotid_segment, from_m, ROUNDED),
     NUMBER(rotid_segment, to_m, ROUNDED),
     INTEGER(rotid_segment, elements, FROM_1),
@@ -25,17 +24,15 @@ static const struct record_field segment_fields[] = {
     NUMBER(rotid_segment, stiff_outer_m, MAY_BE_NULL | SINCE_LATER | ABOVE_0 | ROUNDED),
     {0},
 };
-static const struct record segment_record = RECORD(rotid_segment, segment_fields);
 
-static const struct record_field perforation_fields[] = {
+PART_TABLE(perforation_record, rotid_perforation) = {
     INTEGER(rotid_perforation, number, FROM_1),
     NUMBER(rotid_perforation, hole_diameter_m, ABOVE_0 | ROUNDED),
     NUMBER(rotid_perforation, pitch_radius_m, ABOVE_0 | ROUNDED),
     {0},
 };
-static const struct record perforation_record = RECORD(rotid_perforation, perforation_fields);
 
-static const struct record_field group_fields[] = {
+PART_TABLE(group_record, rotid_group) = {
     TEXT(rotid_group, name, 0),
     TEXT(rotid_group, layer_of, IF_KNOWN),
     NUMBER(rotid_group, from_m, ROUNDED),
@@ -46,9 +43,8 @@ static const struct record_field group_fields[] = {
     NUMBER(rotid_group, preload_n, 0),
     {0},
 };
-static const struct record group_record = RECORD(rotid_group, group_fields);
 
-static const struct record_field tierods_fields[] = {
+PART_TABLE(tierods_record, rotid_tierods) = {
     TEXT(rotid_tierods, name, MAY_BE_NULL),
     NUMBER(rotid_tierods, from_m, ROUNDED),
     NUMBER(rotid_tierods, to_m, ROUNDED),
@@ -62,9 +58,8 @@ static const struct record_field tierods_fields[] = {
     FLAG(rotid_tierods, self_equilibrated, 0),
     {0},
 };
-static const struct record tierods_record = RECORD(rotid_tierods, tierods_fields);
 
-static const struct record_field bars_fields[] = {
+PART_TABLE(bars_record, rotid_bars) = {
     TEXT(rotid_bars, name, MAY_BE_NULL),
     NUMBER(rotid_bars, from_m, ROUNDED),
     NUMBER(rotid_bars, to_m, ROUNDED),
@@ -77,39 +72,34 @@ static const struct record_field bars_fields[] = {
     INTEGER(rotid_bars, elements, FROM_1),
     {0},
 };
-static const struct record bars_record = RECORD(rotid_bars, bars_fields);
 
-static const struct record_field disk_fields[] = {
+PART_TABLE(disk_record, rotid_disk) = {
     TEXT(rotid_disk, name, MAY_BE_NULL),         NUMBER(rotid_disk, z_m, FROM_0 | ROUNDED), NUMBER(rotid_disk, mass_kg, FROM_0),
     NUMBER(rotid_disk, diametral_kg_m2, FROM_0), NUMBER(rotid_disk, polar_kg_m2, FROM_0),   {0},
 };
-static const struct record disk_record = RECORD(rotid_disk, disk_fields);
 
-static const struct record_field spring_fields[] = {
+PART_TABLE(spring_record, rotid_spring) = {
     TEXT(rotid_spring, name, MAY_BE_NULL),
     NUMBER(rotid_spring, z_m, FROM_0 | ROUNDED),
     NUMBER(rotid_spring, lateral_n_m, FROM_0),
     NUMBER(rotid_spring, rotational_nm_rad, FROM_0),
     {0},
 };
-static const struct record spring_record = RECORD(rotid_spring, spring_fields);
 
-static const struct record_field sensor_fields[] = {
+TABLE(sensor_record, rotid_sensor) = {
     INTEGER(rotid_sensor, id, 0),
     NUMBER(rotid_sensor, z_m, FROM_0 | ROUNDED),
     {0},
 };
-const struct record sensor_record = RECORD(rotid_sensor, sensor_fields);
 
-static const struct record_field cause_parameter_fields[] = {
+PART_TABLE(cause_parameter_record, rotid_cause_parameter) = {
     TEXT(rotid_cause_parameter, name, 0),
     TEXT(rotid_cause_parameter, unit, 0),
     NUMBER(rotid_cause_parameter, value, 0),
     {0},
 };
-static const struct record cause_parameter_record = RECORD(rotid_cause_parameter, cause_parameter_fields);
 
-static const struct record_field model_cause_fields[] = {
+PART_TABLE(model_cause_record, rotid_model_cause) = {
     TEXT(rotid_model_cause, name, MAY_BE_NULL),
     TEXT(rotid_model_cause, id, 0),
     TEXT(rotid_model_cause, target, 0),
@@ -118,9 +108,8 @@ static const struct record_field model_cause_fields[] = {
     STRUCTS(rotid_model_cause, parameters, 0, cause_parameter_record),
     {0},
 };
-static const struct record model_cause_record = RECORD(rotid_model_cause, model_cause_fields);
 
-static const struct record_field geometry_fields[] = {
+TABLE(geometry_record, rotid_geometry) = {
     NUMBER(rotid_geometry, length_m, ABOVE_0 | ROUNDED),
     STRUCTS(rotid_geometry, groups, NOT_EMPTY, group_record),
     STRUCTS(rotid_geometry, tierods, 0, tierods_record),
@@ -133,4 +122,3 @@ static const struct record_field geometry_fields[] = {
     NUMBERS(rotid_geometry, nodes_z_m, FROM_0 | ROUNDED),
     {0},
 };
-const struct record geometry_record = RECORD(rotid_geometry, geometry_fields);

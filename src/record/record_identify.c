@@ -9,7 +9,7 @@ const char *const pairing_words[] = {"shape", "number", NULL};
 static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
 static const char *const grounds[] = {"noise", "residuals", NULL};
 
-static const struct record_field parameter_fields[] = {
+TABLE(fitted_parameter_record, rotid_fitted_parameter) = {
     TEXT(rotid_fitted_parameter, name, 0),
     TEXT(rotid_fitted_parameter, unit, 0),
     NUMBER(rotid_fitted_parameter, value, 0),
@@ -22,9 +22,8 @@ static const struct record_field parameter_fields[] = {
     FLAG(rotid_fitted_parameter, identifiable, 0),
     {0},
 };
-const struct record fitted_parameter_record = RECORD(rotid_fitted_parameter, parameter_fields);
 
-static const struct record_field mode_fields[] = {
+TABLE(compared_mode_record, rotid_compared_mode) = {
     INTEGER(rotid_compared_mode, mode, FROM_1),
     INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
     NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
@@ -39,17 +38,15 @@ static const struct record_field mode_fields[] = {
     TEXT_OF(rotid_compared_mode, type, SINCE_LATER, mode_type_words),
     {0},
 };
-const struct record compared_mode_record = RECORD(rotid_compared_mode, mode_fields);
 
-static const struct record_field member_fields[] = {
+PART_TABLE(member_record, rotid_member_shape) = {
     TEXT(rotid_member_shape, name, MAY_BE_NULL),
     NUMBERS(rotid_member_shape, z_m, ROUNDED),
     NUMBERS_BY(rotid_member_shape, shape, ELEMENTS_MAY_BE_NULL | ROUNDED, nz_m, "z_m"),
     {0},
 };
-static const struct record member_record = RECORD(rotid_member_shape, member_fields);
 
-static const struct record_field mode_shapes_fields[] = {
+PART_TABLE(mode_shapes_record, rotid_mode_shapes) = {
     INTEGER(rotid_mode_shapes, mode, FROM_1),
     INTEGER(rotid_mode_shapes, measured_mode, FROM_1 | SINCE_LATER),
     NUMBERS(rotid_mode_shapes, measured, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | ROUNDED),
@@ -60,18 +57,16 @@ static const struct record_field mode_shapes_fields[] = {
     STRUCTS(rotid_mode_shapes, bars, 0, member_record),
     {0},
 };
-static const struct record mode_shapes_record = RECORD(rotid_mode_shapes, mode_shapes_fields);
 
-static const struct record_field shapes_fields[] = {
+PART_TABLE(shapes_record, rotid_shapes) = {
     INTEGERS(rotid_shapes, sensor_id, 0),
     NUMBERS_BY(rotid_shapes, z_m, FROM_0 | ROUNDED, nsensor_id, "sensor_id"),
     NUMBERS(rotid_shapes, axis_z_m, FROM_0 | ROUNDED),
     STRUCTS(rotid_shapes, modes, 0, mode_shapes_record),
     {0},
 };
-static const struct record shapes_record = RECORD(rotid_shapes, shapes_fields);
 
-static const struct record_field history_fields[] = {
+PART_TABLE(history_record, rotid_history_entry) = {
     INTEGER(rotid_history_entry, iteration, FROM_0),
     NUMBER(rotid_history_entry, objective, FROM_0),
     NUMBER(rotid_history_entry, gradient, FROM_0),
@@ -82,9 +77,8 @@ static const struct record_field history_fields[] = {
     NUMBERS(rotid_history_entry, x, 0),
     {0},
 };
-static const struct record history_record = RECORD(rotid_history_entry, history_fields);
 
-static const struct record_field minimiser_fields[] = {
+PART_TABLE(minimiser_record, rotid_minimiser) = {
     TEXT_OF(rotid_minimiser, algorithm, 0, algorithms),
     TEXT(rotid_minimiser, result, 0),
     FLAG(rotid_minimiser, usable, 0),
@@ -96,9 +90,8 @@ static const struct record_field minimiser_fields[] = {
     NUMBERS(rotid_minimiser, predicted_hz, ELEMENTS_MAY_BE_NULL | FROM_0 | SINCE_LATER),
     {0},
 };
-static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
-static const struct record_field noise_fields[] = {
+TABLE(noise_record, rotid_noise) = {
     NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
     FLAG(rotid_noise, frequency_assumed, 0),
@@ -106,10 +99,9 @@ static const struct record_field noise_fields[] = {
     TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
     {0},
 };
-const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
 static const char *const weighed_words[] = {"mass", "centre", NULL};
-static const struct record_field weighed_fields[] = {
+TABLE(weighed_record, rotid_weighed) = {
     TEXT_OF(rotid_weighed, quantity, 0, weighed_words),
     TEXT(rotid_weighed, unit, 0),
     TEXT(rotid_weighed, state, IF_KNOWN),
@@ -119,9 +111,8 @@ static const struct record_field weighed_fields[] = {
     NUMBER(rotid_weighed, z, 0),
     {0},
 };
-const struct record weighed_record = RECORD(rotid_weighed, weighed_fields);
 
-static const struct record_field state_fields[] = {
+PART_TABLE(state_record, rotid_identified_state) = {
     TEXT(rotid_identified_state, name, 0),
     INTEGER(rotid_identified_state, fitted_residuals, FROM_0),
     FLAG(rotid_identified_state, shapes_fitted, 0),
@@ -143,9 +134,8 @@ static const struct record_field state_fields[] = {
     STRUCT(rotid_identified_state, geometry, BEHIND_POINTER, geometry_record),
     {0},
 };
-static const struct record state_record = RECORD(rotid_identified_state, state_fields);
 
-static const struct record_field identification_fields[] = {
+TABLE(identification_record, rotid_identification) = {
     TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
@@ -187,9 +177,8 @@ static const struct record_field identification_fields[] = {
     STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
     {0},
 };
-const struct record identification_record = RECORD(rotid_identification, identification_fields);
 
-static const struct record_field hidden_fields[] = {
+TABLE(hidden_cause_record, rotid_hidden) = {
     TEXT(rotid_hidden, parameter, 0),
     NUMBER(rotid_hidden, shift, 0),
     TEXT(rotid_hidden, unit, 0),
@@ -203,20 +192,17 @@ static const struct record_field hidden_fields[] = {
     FLAG(rotid_hidden, beyond, 0),
     {0},
 };
-const struct record hidden_cause_record = RECORD(rotid_hidden, hidden_fields);
 
-static const struct record_field identification_alone_fields[] = {
+TABLE(identification_alone_record, rotid_identification) = {
     STRUCT(rotid_identification, noise, SINCE_LATER | BEHIND_POINTER, noise_record),
     STRUCT(rotid_identification, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCTS(rotid_identification, hidden, SINCE_LATER, hidden_cause_record),
     {0},
 };
-const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
 
-static const struct record_field identification_whole_fields[] = {
+TABLE(identification_whole_record, rotid_identification) = {
     ROWS(0, identification_record),
     ROWS(0, identification_alone_record),
     STRUCTS(rotid_identification, message, 0, message_record),
     {0},
 };
-const struct record identification_whole_record = RECORD(rotid_identification, identification_whole_fields);

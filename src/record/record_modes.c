@@ -1,6 +1,6 @@
 #include "record/rows.h"
 
-static const struct record_field measured_fields[] = {
+PART_TABLE(measured_record, rotid_compared_mode) = {
     INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
     NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
     NUMBER(rotid_compared_mode, frequency_std, ABOVE_0 | MAY_BE_NULL | SINCE_LATER),
@@ -13,17 +13,15 @@ static const struct record_field measured_fields[] = {
     TEXT_OF(rotid_compared_mode, type, SINCE_LATER, mode_type_words),
     {0},
 };
-static const struct record measured_record = RECORD(rotid_compared_mode, measured_fields);
 
-static const struct record_field meridian_mode_fields[] = {
+PART_TABLE(meridian_mode_record, rotid_meridian_mode) = {
     NUMBERS(rotid_meridian_mode, u, ROUNDED),
     NUMBERS(rotid_meridian_mode, w, ROUNDED),
     NUMBERS(rotid_meridian_mode, energy, ROUNDED),
     {0},
 };
-static const struct record meridian_mode_record = RECORD(rotid_meridian_mode, meridian_mode_fields);
 
-static const struct record_field mode_fields[] = {
+PART_TABLE(mode_record, rotid_model_mode) = {
     INTEGER(rotid_model_mode, mode, FROM_1),
     NUMBER(rotid_model_mode, full_hz, FROM_0),
     NUMBER(rotid_model_mode, reduced_hz, FROM_0 | MAY_BE_NULL),
@@ -34,24 +32,21 @@ static const struct record_field mode_fields[] = {
     STRUCT(rotid_model_mode, meridian, IF_KNOWN | BEHIND_POINTER, meridian_mode_record),
     {0},
 };
-static const struct record mode_record = RECORD(rotid_model_mode, mode_fields);
 
-static const struct record_field meridian_element_fields[] = {
+PART_TABLE(meridian_element_record, rotid_meridian_element) = {
     INTEGER(rotid_meridian_element, group, FROM_0),
     INDICES(rotid_meridian_element, corner, 4),
     {0},
 };
-static const struct record meridian_element_record = RECORD(rotid_meridian_element, meridian_element_fields);
 
-static const struct record_field meridian_fields[] = {
+PART_TABLE(meridian_record, rotid_meridian) = {
     NUMBERS(rotid_meridian, r_m, ROUNDED | FROM_0),
     NUMBERS_BY(rotid_meridian, z_m, ROUNDED, nr_m, "r_m"),
     STRUCTS(rotid_meridian, elements, NOT_EMPTY, meridian_element_record),
     {0},
 };
-static const struct record meridian_record = RECORD(rotid_meridian, meridian_fields);
 
-static const struct record_field beside_mode_fields[] = {
+PART_TABLE(beside_mode_record, rotid_beside_mode) = {
     INTEGER(rotid_beside_mode, mode, FROM_1),
     INTEGER(rotid_beside_mode, beam_mode, FROM_1),
     NUMBER(rotid_beside_mode, solid_hz, ABOVE_0),
@@ -63,18 +58,16 @@ static const struct record_field beside_mode_fields[] = {
     NUMBER(rotid_beside_mode, beam_mesh_error_percent, MAY_BE_NULL),
     {0},
 };
-static const struct record beside_mode_record = RECORD(rotid_beside_mode, beside_mode_fields);
 
-static const struct record_field beside_modulus_fields[] = {
+PART_TABLE(beside_modulus_record, rotid_beside_modulus) = {
     TEXT(rotid_beside_modulus, name, 0),
     NUMBER(rotid_beside_modulus, stated_pa, ABOVE_0),
     NUMBER(rotid_beside_modulus, found_pa, ABOVE_0),
     NUMBER(rotid_beside_modulus, change_percent, 0),
     {0},
 };
-static const struct record beside_modulus_record = RECORD(rotid_beside_modulus, beside_modulus_fields);
 
-static const struct record_field beside_fields[] = {
+PART_TABLE(beside_record, rotid_beam_beside_solid) = {
     STRUCTS(rotid_beam_beside_solid, modes, NOT_EMPTY, beside_mode_record),
     STRUCTS(rotid_beam_beside_solid, moduli, 0, beside_modulus_record),
     INTEGERS(rotid_beam_beside_solid, fitted_modes, FROM_1),
@@ -82,9 +75,8 @@ static const struct record_field beside_fields[] = {
     TEXT(rotid_beam_beside_solid, sentence, MAY_BE_NULL),
     {0},
 };
-static const struct record beside_record = RECORD(rotid_beam_beside_solid, beside_fields);
 
-static const struct record_field spectrum_fields[] = {
+TABLE(spectrum_record, rotid_spectrum) = {
     TEXT_OF(rotid_spectrum, reduction, 0, reduction_words),
     NUMBERS(rotid_spectrum, rigid_hz, FROM_0),
     NUMBERS(rotid_spectrum, sensor_z_m, 0),
@@ -95,31 +87,27 @@ static const struct record_field spectrum_fields[] = {
     STRUCT(rotid_spectrum, beside, IF_KNOWN | BEHIND_POINTER, beside_record),
     {0},
 };
-const struct record spectrum_record = RECORD(rotid_spectrum, spectrum_fields);
 
-static const struct record_field message_fields[] = {
+TABLE(message_record, rotid_message) = {
     TEXT(rotid_message, file, 0),
     TEXT(rotid_message, text, 0),
     {0},
 };
-const struct record message_record = RECORD(rotid_message, message_fields);
 
-static const struct record_field spectrum_whole_fields[] = {
+TABLE(spectrum_whole_record, rotid_spectrum) = {
     ROWS(0, spectrum_record),
     MATRIX(rotid_spectrum, master_mass, 0, nsensor_z_m, nsensor_z_m),
     STRUCTS(rotid_spectrum, message, 0, message_record),
     {0},
 };
-const struct record spectrum_whole_record = RECORD(rotid_spectrum, spectrum_whole_fields);
 
-static const struct record_field solid_mesh_fields[] = {
+PART_TABLE(solid_mesh_record, rotid_solid_mesh) = {
     INTEGER(rotid_solid_mesh, unknowns, FROM_1),  INTEGER(rotid_solid_mesh, half_band, FROM_1),
     INTEGER(rotid_solid_mesh, slices, FROM_1),    NUMBER(rotid_solid_mesh, corner_m, MAY_BE_NULL | ABOVE_0),
     NUMBER(rotid_solid_mesh, largest_m, ABOVE_0), {0},
 };
-static const struct record solid_mesh_record = RECORD(rotid_solid_mesh, solid_mesh_fields);
 
-static const struct record_field check_fields[] = {
+TABLE(check_record, rotid_check) = {
     NUMBER(rotid_check, length_m, ABOVE_0),
     NUMBER(rotid_check, mass_kg, ABOVE_0),
     NUMBER(rotid_check, center_of_mass_m, 0),
@@ -138,4 +126,3 @@ static const struct record_field check_fields[] = {
     STRUCTS(rotid_check, weighed, SINCE_LATER, weighed_record),
     {0},
 };
-const struct record check_record = RECORD(rotid_check, check_fields);

@@ -4,15 +4,14 @@ static const char *const methods[] = {"deck", "optimal", "effective_independence
 static const char *const tests[] = {"again", "modes",         "sensors", "shapes",        "noise",
                                     "mass",  "stiff_support", "free",    "moved_support", NULL};
 
-static const struct record_field modes_fields[] = {
+PART_TABLE(modes_record, rotid_expected_modes) = {
     INTEGER(rotid_expected_modes, modes, FROM_1),
     NUMBERS(rotid_expected_modes, frequencies_percent, ELEMENTS_MAY_BE_NULL | FROM_0),
     NUMBERS(rotid_expected_modes, shapes_percent, ELEMENTS_MAY_BE_NULL | FROM_0),
     {0},
 };
-static const struct record modes_record = RECORD(rotid_expected_modes, modes_fields);
 
-static const struct record_field plan_fields[] = {
+PART_TABLE(plan_record, rotid_sensor_plan) = {
     TEXT_OF(rotid_sensor_plan, method, 0, methods),
     NUMBERS(rotid_sensor_plan, z_m, 0),
     NUMBERS_BY(rotid_sensor_plan, loss_percent, ELEMENTS_MAY_BE_NULL, nz_m, "z_m"),
@@ -20,39 +19,34 @@ static const struct record_field plan_fields[] = {
     NUMBER(rotid_sensor_plan, gain_percent, MAY_BE_NULL),
     {0},
 };
-static const struct record plan_record = RECORD(rotid_sensor_plan, plan_fields);
 
-static const struct record_field count_fields[] = {
+PART_TABLE(count_record, rotid_sensor_count) = {
     INTEGER(rotid_sensor_count, sensors, FROM_1),
     NUMBER(rotid_sensor_count, half_width_percent, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_sensor_count, gain_percent, MAY_BE_NULL),
     {0},
 };
-static const struct record count_record = RECORD(rotid_sensor_count, count_fields);
 
-static const struct record_field place_fields[] = {
+PART_TABLE(place_record, rotid_sensor_place) = {
     NUMBER(rotid_sensor_place, z_m, 0),
     NUMBER(rotid_sensor_place, worth_percent, MAY_BE_NULL),
     NUMBER(rotid_sensor_place, margin_percent, MAY_BE_NULL),
     {0},
 };
-static const struct record place_record = RECORD(rotid_sensor_place, place_fields);
 
-static const struct record_field rival_fields[] = {
+PART_TABLE(rival_record, rotid_rival) = {
     TEXT(rotid_rival, label, 0),        STRUCTS(rotid_rival, causes, 0, cause_record), NUMBER(rotid_rival, chi2, FROM_0),
     NUMBER(rotid_rival, score, FROM_0), NUMBER(rotid_rival, share, PROBABILITY),       {0},
 };
-static const struct record rival_record = RECORD(rotid_rival, rival_fields);
 
-static const struct record_field margin_fields[] = {
+PART_TABLE(margin_record, rotid_expected_margin) = {
     INTEGER(rotid_expected_margin, truth, FROM_0),      INTEGER(rotid_expected_margin, rival, FROM_0),
     NUMBER(rotid_expected_margin, before, 0),           NUMBER(rotid_expected_margin, distance, FROM_0),
     NUMBER(rotid_expected_margin, expected, 0),         NUMBER(rotid_expected_margin, refitted, MAY_BE_NULL),
     NUMBER(rotid_expected_margin, chance, PROBABILITY), {0},
 };
-static const struct record margin_record = RECORD(rotid_expected_margin, margin_fields);
 
-static const struct record_field test_fields[] = {
+PART_TABLE(test_record, rotid_suggested_test) = {
     TEXT_OF(rotid_suggested_test, id, 0, tests),        TEXT(rotid_suggested_test, text, 0),
     NUMBER(rotid_suggested_test, cost, FROM_0),         INTEGER(rotid_suggested_test, setups, FROM_0),
     INTEGER(rotid_suggested_test, points, FROM_1),      INTEGER(rotid_suggested_test, modes, FROM_1),
@@ -62,18 +56,16 @@ static const struct record_field test_fields[] = {
     NUMBERS(rotid_suggested_test, expected_percent, 0), STRUCTS(rotid_suggested_test, margins, 0, margin_record),
     TEXT(rotid_suggested_test, cards, MAY_BE_NULL),     {0},
 };
-static const struct record test_record = RECORD(rotid_suggested_test, test_fields);
 
-static const struct record_field speed_test_fields[] = {
+PART_TABLE(speed_test_record, rotid_speed_test) = {
     TEXT(rotid_speed_test, test, 0),
     INTEGER(rotid_speed_test, modes, FROM_1),
     NUMBER(rotid_speed_test, std_rpm, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_speed_test, narrowed_percent, MAY_BE_NULL),
     {0},
 };
-static const struct record speed_test_record = RECORD(rotid_speed_test, speed_test_fields);
 
-static const struct record_field suggestion_fields[] = {
+TABLE(suggestion_record, rotid_suggestion) = {
     STRUCTS(rotid_suggestion, parameters, 0, fitted_parameter_record),
     STRUCT(rotid_suggestion, noise, 0, noise_record),
     NUMBER(rotid_suggestion, wanted_percent, ABOVE_0),
@@ -100,11 +92,9 @@ static const struct record_field suggestion_fields[] = {
     STRUCTS(rotid_suggestion, speed_tests, SINCE_LATER, speed_test_record),
     {0},
 };
-const struct record suggestion_record = RECORD(rotid_suggestion, suggestion_fields);
 
-static const struct record_field suggestion_whole_fields[] = {
+TABLE(suggestion_whole_record, rotid_suggestion) = {
     ROWS(0, suggestion_record),
     STRUCTS(rotid_suggestion, message, 0, message_record),
     {0},
 };
-const struct record suggestion_whole_record = RECORD(rotid_suggestion, suggestion_whole_fields);

@@ -53,4 +53,13 @@
         .name = #S, .size = sizeof(S), .field = (FIELDS)                                                                         \
     }
 
+/* The record NAME of struct S, behind which its rows stand, ended by {0}; PART_TABLE: for tables of the same file alone. The
+ * names of both are unique in the program. */
+#define TABLE(NAME, S)      TABLE_OF(, NAME, S)
+#define PART_TABLE(NAME, S) TABLE_OF(static, NAME, S)
+#define TABLE_OF(LINKAGE, NAME, S)                                                                                               \
+    extern const struct record_field NAME##_rows[];                                                                              \
+    LINKAGE const struct record NAME = RECORD(S, NAME##_rows);                                                                   \
+    const struct record_field NAME##_rows[]
+
 #endif

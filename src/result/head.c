@@ -5,14 +5,13 @@
 
 #include "record/rows.h"
 
-static const struct record_field reference_fields[] = {
+PART_TABLE(reference_record, rotid_reference) = {
     TEXT(rotid_reference, quantity, 0),
     NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),
     {0},
 };
-static const struct record reference_record = RECORD(rotid_reference, reference_fields);
 
-static const struct record_field provenance_fields[] = {
+TABLE(provenance_record, struct result_head) = {
     INTEGER(struct result_head, schema, FROM_1),
     TEXT(struct result_head, rotid, 0),
     TEXT(struct result_head, commit, 0),
@@ -22,9 +21,8 @@ static const struct record_field provenance_fields[] = {
     TEXT(struct result_head, command, 0),
     {0},
 };
-const struct record provenance_record = RECORD(struct result_head, provenance_fields);
 
-static const struct record_field deck_fields[] = {
+TABLE(deck_record, struct result_head) = {
     TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
     STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
@@ -32,7 +30,6 @@ static const struct record_field deck_fields[] = {
     TEXT(struct result_head, frequency_unit, IF_KNOWN),
     {0},
 };
-const struct record deck_record = RECORD(struct result_head, deck_fields);
 
 const rotid_reference *head_reference(const struct result_head *head, const char *quantity)
 {

@@ -12,9 +12,8 @@
 
 /* The same of each state. */
 #define STATE(M, R)                                                                                                              \
-    static const struct record_field M##_state_fields[] = {                                                                      \
-        TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R), {0}};                             \
-    static const struct record M##_state_record = RECORD(struct result_state, M##_state_fields)
+    PART_TABLE(M##_state_record, struct result_state) = {                                                                        \
+        TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R), {0}}
 #define STATES(M) STRUCTS(struct result, states, IF_KNOWN, M##_state_record)
 
 STATE(check, check_record);

@@ -38,47 +38,41 @@ static const char *const doubts[] = {
 /* ---- keys that stand together or not at all */
 
 #define CURVE(M) NUMBERS_BY(struct transfer_function, M, ELEMENTS_MAY_BE_NULL, nfrequency_hz, "frequency_hz")
-static const struct record_field transfer_function_curve_fields[] = {
+PART_TABLE(transfer_function_curve_record, struct transfer_function) = {
     NUMBERS(struct transfer_function, frequency_hz, ABOVE_0),
     CURVE(synthesised_re),
     CURVE(synthesised_im),
     {0},
 };
-static const struct record transfer_function_curve_record = RECORD(struct transfer_function, transfer_function_curve_fields);
 
-static const struct record_field transfer_function_measured_curve_fields[] = {
+PART_TABLE(transfer_function_measured_curve_record, struct transfer_function) = {
     CURVE(measured_re),
     CURVE(measured_im),
     {0},
 };
-static const struct record transfer_function_measured_curve_record =
-    RECORD(struct transfer_function, transfer_function_measured_curve_fields);
 
-static const struct record_field listed_nodes_every_node_fields[] = {
+PART_TABLE(listed_nodes_every_node_record, struct listed_nodes) = {
     INTEGERS(struct listed_nodes, ids, 0),
     MATRIX(struct listed_nodes, x, 0, nids, nx),
     {0},
 };
-static const struct record listed_nodes_every_node_record = RECORD(struct listed_nodes, listed_nodes_every_node_fields);
 
-static const struct record_field listed_shape_every_value_fields[] = {
+PART_TABLE(listed_shape_every_value_record, struct listed_shape) = {
     INTEGERS(struct listed_shape, nodes, 0),
     NUMBERS(struct listed_shape, real, 0),
     NUMBERS(struct listed_shape, imag, 0),
     {0},
 };
-static const struct record listed_shape_every_value_record = RECORD(struct listed_shape, listed_shape_every_value_fields);
 
 /* ---- results.def */
 
-#define BEGIN(S) static const struct record_field S##_fields[] = {
+#define BEGIN(S) TABLE(S##_record, struct S) = {
 #define END(S)                                                                                                                   \
     {                                                                                                                            \
         0                                                                                                                        \
     }                                                                                                                            \
     }                                                                                                                            \
-    ;                                                                                                                            \
-    const struct record S##_record = RECORD(struct S, S##_fields);
+    ;
 #define KEY(KIND, S, ...)         KIND(struct S, __VA_ARGS__),
 #define PART(KIND, S, M, BITS, T) KIND(struct S, M, BITS, T##_record),
 #define TOGETHER(BITS, R)         ROWS(BITS, R),
@@ -96,7 +90,7 @@ static const struct record listed_shape_every_value_record = RECORD(struct liste
 
 #define GROWING (ELEMENTS_MAY_BE_NULL | FROM_0)
 
-static const struct record_field parameter_fields[] = {
+PART_TABLE(parameter_record, struct sensitivity_parameter) = {
     COUNT_OF(struct sensitivity_parameter, nfrequency_hz, struct sensitivity, nfrequency_hz),
     COUNT_OF(struct sensitivity_parameter, nrelative_value, struct sensitivity, nrelative_value),
     TEXT(struct sensitivity_parameter, name, 0),
@@ -108,27 +102,24 @@ static const struct record_field parameter_fields[] = {
     MATRIX(struct sensitivity_parameter, curves, GROWING, nfrequency_hz, nrelative_value),
     {0},
 };
-static const struct record parameter_record = RECORD(struct sensitivity_parameter, parameter_fields);
 
-static const struct record_field line_fields[] = {
+PART_TABLE(line_record, struct growth_line) = {
     COUNT_OF(struct growth_line, nepsilon_squared, struct growth, nepsilon_squared),
     NUMBERS_BY(struct growth_line, objective, GROWING, nepsilon_squared, "epsilon_squared"),
     NUMBER(struct growth_line, slope, MAY_BE_NULL),
     NUMBER(struct growth_line, intercept, MAY_BE_NULL),
     {0},
 };
-static const struct record line_record = RECORD(struct growth_line, line_fields);
 
-static const struct record_field growth_fields[] = {
+PART_TABLE(growth_record, struct growth) = {
     NUMBERS(struct growth, epsilon_squared, ABOVE_0),
     STRUCT(struct growth, hybrid, 0, line_record),
     STRUCT(struct growth, hybrid_f, 0, line_record),
     NUMBERS_BY(struct growth, shapes_alone, GROWING | SINCE_LATER, nepsilon_squared, "epsilon_squared"),
     {0},
 };
-static const struct record growth_record = RECORD(struct growth, growth_fields);
 
-static const struct record_field sensitivity_fields[] = {
+TABLE(sensitivity_record, struct sensitivity) = {
     TEXT_OF(struct sensitivity, reduction, 0, reduction_words),
     NUMBER(struct sensitivity, step, ABOVE_0),
     NUMBERS(struct sensitivity, frequency_hz, FROM_0),
@@ -137,35 +128,31 @@ static const struct record_field sensitivity_fields[] = {
     STRUCT(struct sensitivity, functional_growth, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, growth_record),
     {0},
 };
-const struct record sensitivity_record = RECORD(struct sensitivity, sensitivity_fields);
 
 /* ---- the line of a run of a study: rows of the result of its command */
 
-static const struct record_field value_fields[] = {
+PART_TABLE(run_value_record, struct run_value) = {
     TEXT(struct run_value, name, 0),
     TEXT(struct run_value, unit, 0),
     NUMBER(struct run_value, value, 0),
     {0},
 };
-static const struct record value_record = RECORD(struct run_value, value_fields);
 
-static const struct record_field hidden_fields[] = {
+PART_TABLE(hidden_record, struct run_hidden) = {
     TEXT(struct run_hidden, id, 0),
-    STRUCTS(struct run_hidden, parameters, 0, value_record),
+    STRUCTS(struct run_hidden, parameters, 0, run_value_record),
     {0},
 };
-static const struct record hidden_record = RECORD(struct run_hidden, hidden_fields);
 
 /* Lines differ in nothing but their last seconds: no times of steps and of other minimisers. */
-static const struct record_field step_fields[] = {
+PART_TABLE(run_step_record, rotid_history_entry) = {
     INTEGER(rotid_history_entry, iteration, FROM_0),
     NUMBER(rotid_history_entry, objective, FROM_0),
     NUMBERS(rotid_history_entry, x, 0),
     {0},
 };
-static const struct record step_record = RECORD(rotid_history_entry, step_fields);
 
-static const struct record_field minimiser_fields[] = {
+PART_TABLE(run_minimiser_record, rotid_minimiser) = {
     TEXT(rotid_minimiser, algorithm, 0),
     TEXT(rotid_minimiser, result, SINCE_LATER),
     FLAG(rotid_minimiser, usable, 0),
@@ -174,16 +161,14 @@ static const struct record_field minimiser_fields[] = {
     NUMBERS(rotid_minimiser, x, 0),
     {0},
 };
-static const struct record run_minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
-static const struct record_field state_fields[] = {
+PART_TABLE(run_state_record, rotid_identified_state) = {
     TEXT(rotid_identified_state, name, 0),
     STRUCTS(rotid_identified_state, modes, NOT_EMPTY, compared_mode_record),
     {0},
 };
-static const struct record state_record = RECORD(rotid_identified_state, state_fields);
 
-static const struct record_field fit_fields[] = {
+PART_TABLE(fit_record, rotid_identification) = {
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
     NUMBER(rotid_identification, objective, MAY_BE_NULL | FROM_0),
@@ -195,21 +180,19 @@ static const struct record_field fit_fields[] = {
     TEXT(rotid_identification, stop_reason, 0),
     STRUCTS(rotid_identification, parameters, 0, fitted_parameter_record),
     STRUCTS(rotid_identification, modes, 0, compared_mode_record),
-    STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
-    STRUCTS(rotid_identification, history, IF_KNOWN, step_record),
+    STRUCTS(rotid_identification, states, IF_KNOWN, run_state_record),
+    STRUCTS(rotid_identification, history, IF_KNOWN, run_step_record),
     STRUCTS(rotid_identification, baseline, IF_KNOWN, run_minimiser_record),
     {0},
 };
-static const struct record fit_record = RECORD(rotid_identification, fit_fields);
 
-static const struct record_field diagnosis_fields[] = {
+PART_TABLE(diagnosis_record_of_run, rotid_diagnosis) = {
     STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
     STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
     {0},
 };
-static const struct record diagnosis_record_of_run = RECORD(rotid_diagnosis, diagnosis_fields);
 
-static const struct record_field critical_fields[] = {
+PART_TABLE(run_critical_record, rotid_critical_speed) = {
     INTEGER(rotid_critical_speed, number, FROM_1),
     NUMBER(rotid_critical_speed, speed_rpm, ABOVE_0),
     NUMBER(rotid_critical_speed, std, MAY_BE_NULL | FROM_0),
@@ -219,24 +202,21 @@ static const struct record_field critical_fields[] = {
     STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
     {0},
 };
-static const struct record critical_record = RECORD(rotid_critical_speed, critical_fields);
 
-static const struct record_field speeds_fields[] = {
-    STRUCTS(rotid_speeds, critical_speeds, 0, critical_record),
+PART_TABLE(speeds_record_of_run, rotid_speeds) = {
+    STRUCTS(rotid_speeds, critical_speeds, 0, run_critical_record),
     STRUCT(rotid_speeds, stability, 0, stability_record),
     STRUCTS(rotid_speeds, runup, 0, runup_record),
     {0},
 };
-static const struct record speeds_record_of_run = RECORD(rotid_speeds, speeds_fields);
 
-static const struct record_field stamp_fields[] = {
+PART_TABLE(stamp_record, struct study_run) = {
     TEXT(struct study_run, study, 0),
     TEXT(struct study_run, digest, 0),
     {0},
 };
-static const struct record stamp_record = RECORD(struct study_run, stamp_fields);
 
-static const struct record_field run_fields[] = {
+TABLE(study_run_record, struct study_run) = {
     INTEGER(struct study_run, run, FROM_0),
     STRUCT(struct study_run, cell, 0, study_axes_record),
     INTEGER(struct study_run, replicate, FROM_0),
@@ -257,4 +237,3 @@ static const struct record_field run_fields[] = {
     ROWS(IF_KNOWN, stamp_record),
     {0},
 };
-const struct record study_run_record = RECORD(struct study_run, run_fields);
