@@ -205,7 +205,7 @@ POOL_TEST(entries_are_complete)
             for (int p = 0; p < cause->effect->nparameter; p++) {
                 double lower = NAN, upper = NAN, neutral = cause->parameter[p].neutral, typical = cause->parameter[p].typical;
                 assert_true(cause->effect->parameter[p].name && cause->effect->parameter[p].unit);
-                cause->bounds(rotor, &effect, p, &lower, &upper);
+                cause_range(cause, rotor, &effect, p, &lower, &upper);
                 assert_true(lower < upper);
                 if (p == cause->place || p == cause->width)
                     continue;
@@ -226,7 +226,7 @@ POOL_TEST(sizes_reach_beyond_their_usual_bounds)
         double lower, upper, least, most, neutral = cause->parameter[cause->size].neutral;
         if (!cause->effect->nparameter)
             continue;
-        cause->bounds(rotor, &effect, cause->size, &lower, &upper);
+        cause_range(cause, rotor, &effect, cause->size, &lower, &upper);
         cause_bounds(cause, rotor, &effect, cause->size, &least, &most);
         assert_true(least <= lower && most >= upper);
         assert_int_equal(cause->widest > 1, most > upper);

@@ -213,7 +213,7 @@ static int check_probe(const struct job *job, struct effect *effect, const struc
         struct columns c;
         double column[MOST], moved[MOST], lower, upper;
         open_columns(job, &none, &c);
-        cause->bounds(&job->rotor, effect, p, &lower, &upper); /* at an end of the rotor there is one way only */
+        cause_range(cause, &job->rotor, effect, p, &lower, &upper); /* at an end of the rotor there is one way only */
         int side = size->one_sided ? size->one_sided : (lower == size->neutral) - (upper == size->neutral);
         assert_status(columns_probe(&c, effect), ROTID_OK);
         assert_status(columns_parameter(&c, job->unknowns.nparameter + p, column), ROTID_OK);

@@ -297,8 +297,6 @@ static int check_value(const struct cause_card *c, int p, const struct effect_pa
                        double *value)
 {
     double lower, upper, si = deck_in_si(c->reader, known->unit);
-    if (!c->kind->bounds)
-        return 0;
     cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
     double neutral = c->kind->parameter[p].neutral;
     int has_neutral = c->kind->class == CAUSE_DATA ||

@@ -21,7 +21,7 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
     const struct effect *effect = &rotor->effect[parameter->index];
     const struct cause_kind *cause = catalogue_of(effect);
     double lower, upper, si = deck_in_si(reader, bounds->unit ? bounds->unit : "");
-    if (!cause || !cause->bounds)
+    if (!cause)
         return;
     cause_reach(cause, rotor, effect, parameter->component, &lower, &upper);
     int is_low = !deck_clip(lower, upper, &bounds->lower);

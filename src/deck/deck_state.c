@@ -323,7 +323,7 @@ static int check_value(struct deck_reader *reader, const struct data_line *line,
         upper = 0.5;
     if (parameter.kind == PARAMETER_EFFECT) {
         const struct cause_kind *cause = catalogue_of(&rotor->effect[parameter.index]);
-        if (cause && cause->bounds)
+        if (cause)
             cause_reach(cause, rotor, &rotor->effect[parameter.index], parameter.component, &lower, &upper);
     }
     int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */

@@ -58,7 +58,7 @@ static double inside_physical(const struct rotor *rotor, const struct effect *ef
 {
     const struct cause_kind *kind = catalogue_of(effect);
     double lower, upper;
-    if (!kind || !kind->bounds)
+    if (!kind)
         return value;
     cause_reach(kind, rotor, effect, p, &lower, &upper);
     return fmin(fmax(value, lower), upper);

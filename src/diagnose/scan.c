@@ -77,7 +77,7 @@ static void list_items(const struct part *part, struct scan *scan)
         c->count = part[c->home].open ? item_count(scan, c, model->naxis) : 0;
         double lower = 1, upper = 1;
         if (cause->width >= 0)
-            cause->bounds(rotor, &c->effect, cause->width, &lower, &upper);
+            cause_range(cause, rotor, &c->effect, cause->width, &lower, &upper);
         for (int j = 0; j < c->count; j++) {
             struct scan_item *item = &scan->item[scan->nitem++];
             int node = j / widths * stride;

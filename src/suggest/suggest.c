@@ -79,7 +79,7 @@ static int list_targets(struct pool *pool, const struct job *job, struct targets
             if (cause->place >= 0)
                 effect.value[cause->place] = length * (j + 0.5) / CAUSE_PLACES;
             if (cause->width >= 0) {
-                cause->bounds(&job->rotor, &effect, cause->width, &lower, &upper);
+                cause_range(cause, &job->rotor, &effect, cause->width, &lower, &upper);
                 effect.value[cause->width] = sqrt(lower * upper);
             }
             t->effect[t->n] = effect;

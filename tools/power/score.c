@@ -141,7 +141,7 @@ int hidden_which(const struct job *job, const struct candidate *c, const cJSON *
 static int is_beyond(const struct rotor *rotor, const cJSON *effect)
 {
     const struct cause_kind *cause = catalogue_find(text_of(effect, "id"));
-    if (!cause || !cause->effect || !cause->bounds || !cause->effect->nparameter)
+    if (!cause || !cause->effect || !cause->effect->nparameter)
         return 0;
     double lower, upper, value = parameter_of(effect, cause->effect->parameter[cause->size].name);
     struct effect at = {.kind = cause->effect, .target = -1};
@@ -158,7 +158,7 @@ static int is_beyond(const struct rotor *rotor, const cJSON *effect)
             at.target = i;
     if (at.target < 0 && cause->target != TARGET_NONE && cause->target != TARGET_SENSOR)
         return 0;
-    cause->bounds(rotor, &at, cause->size, &lower, &upper);
+    cause_range(cause, rotor, &at, cause->size, &lower, &upper);
     return value < lower || (value > upper && value != cause->parameter[cause->size].neutral);
 }
 

@@ -12,12 +12,22 @@ int cause_parameters(const struct effect *effect)
     return effect_parameters(effect);
 }
 
+void cause_range(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
+                 double *upper)
+{
+    int stated = cause->lower < cause->upper;
+    *lower = stated ? cause->lower : -INFINITY;
+    *upper = stated ? cause->upper : INFINITY;
+    if (cause->bounds)
+        cause->bounds(rotor, effect, p, lower, upper);
+}
+
 /* A lower bound above zero is a ratio; a negative one lies where the stiffness would vanish. */
 void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                  double *upper)
 {
     double neutral = cause->parameter[cause->size].neutral;
-    cause->bounds(rotor, effect, p, lower, upper);
+    cause_range(cause, rotor, effect, p, lower, upper);
     if (p != cause->size || !(cause->widest > 1))
         return;
     *upper = neutral + cause->widest * (*upper - neutral);

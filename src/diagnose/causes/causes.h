@@ -65,6 +65,10 @@ struct cause_parameter {
 #define PRIOR_DECADES(decades)     .prior = PRIOR_LOG_FLAT, .scale = (decades)
 #define PRIOR_UNIFORM              .prior = PRIOR_FLAT
 
+/* For causes: of a size alone; of a factor on what is known roughly. */
+#define NO_PLACE             .place = -1, .width = -1
+#define FACTOR_ROUGHLY_KNOWN .lower = 0.5, .upper = 1.5
+
 struct cause_kind {
     const char *id;
     enum cause_class class;
@@ -85,8 +89,10 @@ struct cause_kind {
     double discrepancy_frequency, discrepancy_shape;
     /* whether the cause makes sense for this target; identified [ngroup]: E or G of the group is free. NULL: always */
     int (*applies)(const struct rotor *rotor, int target, const int *identified);
-    /* bounds of parameter p, lower < upper: of the size the usual ones */
+    /* bounds of parameter p, lower < upper: of the size the usual ones; NULL: lower and upper, of any
+     * rotor; none where both are 0 */
     void (*bounds)(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
+    double lower, upper;
     double widest; /* how many times so far from no effect its size is still possible; 0: those bounds are the limit */
     /* causes of the measurement chain: the value a CAUSE card gives ("gain", "1"), NULL where it gives none, and up to two behind
      * it; and what takes the fault out of the data of a job, whose arrays may be changed in place. ROTID_OK, ROTID_ERROR_MEMORY,
@@ -107,6 +113,10 @@ int cause_of_beam(const struct cause_kind *cause);
 
 /* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
 int cause_parameters(const struct effect *effect);
+
+/* The usual bounds of parameter p, on this rotor; infinite ones where the cause states none. */
+void cause_range(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
+                 double *upper);
 
 /* Bounds of parameter p: those of the effect where it is the size and has some, else as far as is physically possible. */
 void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
@@ -200,9 +210,6 @@ int scale_along_group(const struct effect *effect, const struct rotor *rotor, co
 
 /* E and G times the factor (p < 0), or their derivative. Returns 1. */
 int scale_stiffness(double factor, int p, struct effect_field *field);
-
-/* Lower and upper bound of a factor on what is known roughly, whatever the target: 0.5 ... 1.5. */
-void bounds_of_factor(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
 
 /* EI of a segment without its holes, rings of layers included. */
 double bending_stiffness(const struct rotor *rotor, int segment);

@@ -5,8 +5,7 @@ const struct cause_kind cause_guyan_reduction = {
     .id = "guyan_reduction",
     .class = CAUSE_NUMERICAL,
     .target = TARGET_NONE,
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .sentence = "the error of the condensation to the sensors exceeds the noise",
     .check = "repeat the fit with REDUCTION=NONE and see whether the moduli move",
 };

@@ -50,13 +50,6 @@ static int field(const struct effect *effect, const struct rotor *rotor, const s
     return 1;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0;
-    *upper = 1;
-}
-
 static int applies(const struct rotor *rotor, int target, const int *identified)
 {
     (void)target, (void)identified;
@@ -74,10 +67,10 @@ const struct cause_kind cause_hub_stiffness = {
     .target = TARGET_NONE,
     .effect = &kind,
     .parameter = {{.typical = 0.5, .one_sided = 1, PRIOR_NORMAL(0.5)}},
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .applies = applies,
-    .bounds = bounds,
+    .lower = 0,
+    .upper = 1,
     .sentence = "hubs that stiffen the shaft on which they sit",
     .check = "measure the shaft without its disks, or the fit of the hubs",
 };

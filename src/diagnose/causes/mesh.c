@@ -5,8 +5,7 @@ const struct cause_kind cause_mesh = {
     .id = "mesh",
     .class = CAUSE_NUMERICAL,
     .target = TARGET_NONE,
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .sentence = "the error of the mesh exceeds the noise",
     .check = "double the number of elements and see whether the frequencies move",
 };

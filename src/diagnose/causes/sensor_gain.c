@@ -25,7 +25,9 @@ const struct cause_kind cause_sensor_gain = {
     .id = "sensor_gain",
     .class = CAUSE_DATA,
     .target = TARGET_SENSOR,
-    .parameter = {{.neutral = 1, .typical = 1.2, PRIOR_LOGNORMAL(0.5)}}, /* sensitivities are mistaken by some tens of percent, or by a factor */
+    .parameter = {{.neutral = 1,
+                   .typical = 1.2,
+                   PRIOR_LOGNORMAL(0.5)}}, /* sensitivities are mistaken by some tens of percent, or by a factor */
     .place = -1,
     .width = -1,
     .bounds = bounds,

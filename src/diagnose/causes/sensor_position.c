@@ -77,8 +77,7 @@ const struct cause_kind cause_sensor_position = {
     .class = CAUSE_DATA,
     .target = TARGET_SENSOR,
     .parameter = {{.neutral = 0, .typical = 0.02, PRIOR_OF_BOUND(0.02)}}, /* of the length */
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .bounds = bounds,
     .value = {"shift", "m"},
     .correct = correct,

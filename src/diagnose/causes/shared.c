@@ -22,13 +22,6 @@ int scale_stiffness(double factor, int p, struct effect_field *field)
     return 1;
 }
 
-void bounds_of_factor(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0.5;
-    *upper = 1.5;
-}
-
 double bending_stiffness(const struct rotor *rotor, int s)
 {
     const struct segment *segment = &rotor->segment[s];

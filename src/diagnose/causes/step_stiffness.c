@@ -208,13 +208,6 @@ static int section(const struct effect *effect, const struct rotor *rotor, const
     return 1;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 10;
-    *upper = 80;
-}
-
 static int applies(const struct rotor *rotor, int target, const int *identified)
 {
     (void)target, (void)identified;
@@ -234,13 +227,13 @@ const struct cause_kind cause_step_stiffness = {
     .target = TARGET_NONE,
     .effect = &kind,
     .parameter = {{.neutral = 90, .typical = 30, .one_sided = -1, PRIOR_UNIFORM}},
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .secant = 1,
     .discrepancy_frequency = 0.005,
     .discrepancy_shape = 0.025,
     .applies = applies,
-    .bounds = bounds,
+    .lower = 10,
+    .upper = 80,
     .sentence = "corners at steps of the diameter carry no load: only a cone from the smaller diameter is stiff",
     .check = "compare with a solid model of the bare rotor, or give the stiff diameter of each section by hand",
 };

@@ -12,13 +12,6 @@ static int field(const struct effect *effect, const struct rotor *rotor, const s
     return scale_along_group(effect, rotor, span, p, shape, out);
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = -0.9;
-    *upper = 0.9;
-}
-
 static const struct effect_kind kind = {
     .id = "stiffness_gradient", .nparameter = 1, .parameter = {{"slope", "1"}}, .field = field};
 
@@ -28,9 +21,9 @@ const struct cause_kind cause_stiffness_gradient = {
     .target = TARGET_GROUP,
     .effect = &kind,
     .parameter = {{.typical = 0.1, PRIOR_NORMAL(0.2)}},
-    .place = -1,
-    .width = -1,
-    .bounds = bounds,
+    NO_PLACE,
+    .lower = -0.9,
+    .upper = 0.9,
     .sentence = "stiffness that rises from one end of the group to the other",
     .check = "compare both ends of the group: pressing, temperature history, material batch; measure more points along it",
 };

@@ -13,13 +13,6 @@ static int field(const struct effect *effect, const struct rotor *rotor, const s
     return scale_along_group(effect, rotor, span, p, shape, out);
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = -0.9;
-    *upper = 1.2;
-}
-
 static const struct effect_kind kind = {
     .id = "stiffness_profile", .nparameter = 1, .parameter = {{"profile", "1"}}, .field = field};
 
@@ -29,10 +22,10 @@ const struct cause_kind cause_stiffness_profile = {
     .target = TARGET_GROUP,
     .effect = &kind,
     .parameter = {{.typical = 0.1, PRIOR_NORMAL(0.2)}},
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .limit_of = "stiffness_local",
-    .bounds = bounds,
+    .lower = -0.9,
+    .upper = 1.2,
     .sentence = "stiffness that differs between the ends and the middle of the group",
     .check = "measure the shapes at more points in the middle of the group, or the pressure along it",
 };

@@ -10,13 +10,6 @@ static int on_spring(const struct effect *effect, const struct rotor *rotor, int
     return 1;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0.01;
-    *upper = 100;
-}
-
 static const struct effect_kind kind = {.id = "support", .nparameter = 1, .parameter = {{"factor", "1"}}, .spring = on_spring};
 
 const struct cause_kind cause_support = {
@@ -25,11 +18,11 @@ const struct cause_kind cause_support = {
     .target = TARGET_SPRING,
     .effect = &kind,
     .parameter = {{.neutral = 1, .typical = 2, PRIOR_LOGNORMAL(1)}},
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .limit_of = "support_extra",
     .applies = applies_to_felt_spring,
-    .bounds = bounds,
+    .lower = 0.01,
+    .upper = 100,
     .widest = 100,
     .sentence = "a support stiffer or softer than stated",
     .check = "measure the frequency of the rotor swinging on its supports, or hang it on softer ones",

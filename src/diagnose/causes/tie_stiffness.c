@@ -10,13 +10,6 @@ static int on_tierod(const struct effect *effect, const struct rotor *rotor, int
     return 1;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0.05;
-    *upper = 2; /* two rods more or a diameter 20 % larger are 1.2 to 1.4 */
-}
-
 static const struct effect_kind kind = {
     .id = "tie_stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}, .tierod = on_tierod};
 
@@ -26,9 +19,9 @@ const struct cause_kind cause_tie_stiffness = {
     .target = TARGET_TIEROD,
     .effect = &kind,
     .parameter = {{.neutral = 1, .typical = 0.8, PRIOR_NORMAL(0.3)}},
-    .place = -1,
-    .width = -1,
-    .bounds = bounds,
+    NO_PLACE,
+    .lower = 0.05,
+    .upper = 2, /* two rods more or a diameter 20 % larger are 1.2 to 1.4 */
     .widest = 3,
     .sentence = "tie rods that hold the ends together less or more stiffly than stated",
     .check = "check diameter, thread and washers of the rods, and measure their stretch while tightening",

@@ -10,13 +10,6 @@ static int on_tierod(const struct effect *effect, const struct rotor *rotor, int
     return 1;
 }
 
-static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
-{
-    (void)rotor, (void)effect, (void)p;
-    *lower = 0;
-    *upper = 2;
-}
-
 static int applies(const struct rotor *rotor, int target, const int *identified)
 {
     (void)identified;
@@ -32,10 +25,10 @@ const struct cause_kind cause_tie_tension = {
     .target = TARGET_TIEROD,
     .effect = &kind,
     .parameter = {{.neutral = 1, .typical = 0.5, PRIOR_NORMAL(0.5)}},
-    .place = -1,
-    .width = -1,
+    NO_PLACE,
     .applies = applies,
-    .bounds = bounds,
+    .lower = 0,
+    .upper = 2,
     .sentence = "tie rods tightened less or more than stated",
     .check = "measure the tension of the rods, by torque, stretch or their own frequency",
 };
