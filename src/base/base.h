@@ -98,6 +98,10 @@ void *pool_grow(struct pool *pool, void *array, size_t count, size_t *capacity, 
 int pool_add(struct pool *pool, void **list, int *count, size_t size, const void *item);
 #define POOL_ADD(pool, list, count, item) pool_add((pool), (void **)&(list), &(count), sizeof *(list), 1 ? (item) : (list))
 
+/* A list of the `count` elements of `list` and `more` of zeros behind them; of NULL zeros alone. NULL where memory is out. */
+void *pool_copy(struct pool *pool, const void *list, size_t count, size_t more, size_t size);
+#define POOL_COPY(pool, list, count, more) pool_copy((pool), (list), (size_t)(count), (size_t)(more), sizeof *(list))
+
 char *pool_copy_text(struct pool *pool, const char *text);
 char *pool_format(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -120,11 +120,17 @@ int pool_add(struct pool *pool, void **list, int *count, size_t size, const void
     return 0;
 }
 
+void *pool_copy(struct pool *pool, const void *list, size_t count, size_t more, size_t size)
+{
+    void *copy = count + more < count ? NULL : pool_get(pool, count + more, size);
+    if (copy && list && count)
+        memcpy(copy, list, count * size);
+    return copy;
+}
+
 char *pool_copy_text(struct pool *pool, const char *text)
 {
-    size_t bytes = strlen(text) + 1;
-    char *copy = pool_get(pool, bytes, 1);
-    return copy ? memcpy(copy, text, bytes) : NULL;
+    return pool_copy(pool, text, strlen(text) + 1, 0, 1);
 }
 
 char *pool_format(struct pool *pool, const char *format, ...)

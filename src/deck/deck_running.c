@@ -48,12 +48,11 @@ void deck_split_running(struct deck_reader *reader, int *nread)
     if (begin < 0)
         return;
     reader->nrunning = end - begin;
-    reader->running = POOL_ARRAY(reader->pool, struct card, reader->nrunning);
+    reader->running = POOL_COPY(reader->pool, text->card + begin, reader->nrunning, 0);
     if (!reader->running) {
         reader->out_of_memory = 1;
         return;
     }
-    memcpy(reader->running, text->card + begin, (size_t)reader->nrunning * sizeof *text->card);
     for (int c = 0; c < text->ncard; c++)
         if (c < begin || c >= end)
             text->card[kept++] = text->card[c];

@@ -312,11 +312,10 @@ static void add_option(struct taking *t, struct card *card, const char *name, co
 /* 0, or 1 where memory is out. */
 static int add_line(struct taking *t, struct card *card, struct place row, int count, const struct field *field)
 {
-    struct field *copy = POOL_ARRAY(t->reader->pool, struct field, count);
+    struct field *copy = POOL_COPY(t->reader->pool, field, count, 0);
     t->reader->out_of_memory |= !copy;
     if (!copy)
         return 1;
-    memcpy(copy, field, (size_t)count * sizeof *field);
     const struct data_line line = {
         .place = row, .end = {row.file, row.line, field[count - 1].place.column + 1}, .text = "", .count = count, .field = copy};
     return DECK_ADD(t->reader, card->line, card->nline, &line);

@@ -135,11 +135,9 @@ struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const
 /* In a copy: the options that it has may be those of another card. */
 int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option)
 {
-    struct card_option *longer = POOL_ARRAY(pool, struct card_option, card->noption + 1);
+    struct card_option *longer = POOL_COPY(pool, card->option, card->noption, 1);
     if (!longer)
         return 1;
-    if (card->option)
-        memcpy(longer, card->option, (size_t)card->noption * sizeof *longer);
     longer[card->noption++] = option;
     card->option = longer;
     return 0;

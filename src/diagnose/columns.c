@@ -64,14 +64,10 @@ static int open_model(struct pool *pool, const struct job *job, const struct eff
     struct rotor rotor = job->rotor;
     int effects = rotor.neffect, nparameter = job->unknowns.nparameter, failed;
     int added = extra ? EFFECT_MOST_PARAMETERS : 0;
-    struct effect *effect = POOL_ARRAY(pool, struct effect, effects + 1);
-    struct parameter *parameter = POOL_ARRAY(pool, struct parameter, nparameter + added);
+    struct effect *effect = POOL_COPY(pool, rotor.effect, effects, 1);
+    struct parameter *parameter = POOL_COPY(pool, job->unknowns.parameter, nparameter, added);
     if (!effect || !parameter)
         return ROTID_ERROR_MEMORY;
-    if (effects)
-        memcpy(effect, rotor.effect, (size_t)effects * sizeof *effect);
-    if (nparameter)
-        memcpy(parameter, job->unknowns.parameter, (size_t)nparameter * sizeof *parameter);
     if (extra)
         effect[rotor.neffect++] = *extra;
     for (int i = 0; i < added; i++)

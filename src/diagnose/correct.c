@@ -1,20 +1,17 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "diagnose/causes/causes.h"
 
 int correction_add(struct pool *pool, struct job *job, const struct correction *correction)
 {
-    struct correction *more = POOL_ARRAY(pool, struct correction, job->measurement.ncorrection + 1);
+    struct correction *more = POOL_COPY(pool, job->measurement.correction, job->measurement.ncorrection, 1);
     int status = more ? corrections_keep_raw(pool, job) : ROTID_ERROR_MEMORY;
     if (!status)
         status = correction_apply(pool, job, correction);
     if (status)
         return status;
-    if (job->measurement.ncorrection)
-        memcpy(more, job->measurement.correction, (size_t)job->measurement.ncorrection * sizeof *more);
     more[job->measurement.ncorrection++] = *correction;
     job->measurement.correction = more;
     return ROTID_OK;

@@ -10,14 +10,6 @@
 #define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */
 #define LEAST_SPAN              0.5   /* of the rotor's length, by the sensors */
 
-static void *copy(struct pool *pool, const void *source, size_t count, size_t size)
-{
-    void *to = pool_get(pool, count, size);
-    if (to && source && count)
-        memcpy(to, source, count * size);
-    return to;
-}
-
 /* The shapes and their noise: the rest of what was read is never changed. */
 static int copy_raw(struct pool *pool, struct job *job)
 {
@@ -29,56 +21,40 @@ static int copy_raw(struct pool *pool, struct job *job)
     job->measurement.raw = raw;
     if (!raw->shape)
         return ROTID_OK;
-    raw->shape = copy(pool, raw->shape, components, sizeof *raw->shape);
-    raw->shape_std = copy(pool, raw->shape_std, components, sizeof *raw->shape_std);
+    raw->shape = POOL_COPY(pool, raw->shape, components, 0);
+    raw->shape_std = POOL_COPY(pool, raw->shape_std, components, 0);
     return raw->shape && raw->shape_std ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int data_copy(struct pool *pool, struct job *job)
 {
-    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
-    job->rotor.sensor = copy(pool, job->rotor.sensor, (size_t)job->rotor.nsensor, sizeof *job->rotor.sensor);
-    job->rotor.effect = copy(pool, job->rotor.effect, (size_t)job->rotor.neffect, sizeof *job->rotor.effect);
-    job->unknowns.suspect = copy(pool, job->unknowns.suspect, (size_t)job->unknowns.nsuspect, sizeof *job->unknowns.suspect);
-    job->measurement.number =
-        copy(pool, job->measurement.number, (size_t)job->measurement.nmode, sizeof *job->measurement.number);
-    job->measurement.frequency_hz =
-        copy(pool, job->measurement.frequency_hz, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_hz);
-    job->measurement.damping =
-        copy(pool, job->measurement.damping, (size_t)job->measurement.nmode, sizeof *job->measurement.damping);
-    job->measurement.frequency_std =
-        copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_std);
-    job->measurement.holdout =
-        copy(pool, job->measurement.holdout, (size_t)job->measurement.nmode, sizeof *job->measurement.holdout);
-    if (!job->rotor.sensor || !job->rotor.effect || !job->unknowns.suspect || !job->measurement.number ||
-        !job->measurement.frequency_hz || !job->measurement.damping || !job->measurement.frequency_std ||
-        !job->measurement.holdout)
-        return ROTID_ERROR_MEMORY;
-    if (job->measurement.shape) {
-        job->measurement.shape = copy(pool, job->measurement.shape, components, sizeof *job->measurement.shape);
-        job->measurement.shape_std = copy(pool, job->measurement.shape_std, components, sizeof *job->measurement.shape_std);
-        if (!job->measurement.shape || !job->measurement.shape_std)
-            return ROTID_ERROR_MEMORY;
+    struct job_measurement *m = &job->measurement;
+    size_t components = (size_t)job->rotor.nsensor * (size_t)m->nmode;
+    job->rotor.sensor = POOL_COPY(pool, job->rotor.sensor, job->rotor.nsensor, 0);
+    job->rotor.effect = POOL_COPY(pool, job->rotor.effect, job->rotor.neffect, 0);
+    job->unknowns.suspect = POOL_COPY(pool, job->unknowns.suspect, job->unknowns.nsuspect, 0);
+    m->number = POOL_COPY(pool, m->number, m->nmode, 0);
+    m->frequency_hz = POOL_COPY(pool, m->frequency_hz, m->nmode, 0);
+    m->damping = POOL_COPY(pool, m->damping, m->nmode, 0);
+    m->frequency_std = POOL_COPY(pool, m->frequency_std, m->nmode, 0);
+    m->holdout = POOL_COPY(pool, m->holdout, m->nmode, 0);
+    if (m->shape) {
+        m->shape = POOL_COPY(pool, m->shape, components, 0);
+        m->shape_std = POOL_COPY(pool, m->shape_std, components, 0);
     }
-    if (job->measurement.point_frequency_hz) {
-        job->measurement.point_frequency_hz =
-            copy(pool, job->measurement.point_frequency_hz, components, sizeof *job->measurement.point_frequency_hz);
-        job->measurement.point_frequency_std =
-            copy(pool, job->measurement.point_frequency_std, components, sizeof *job->measurement.point_frequency_std);
-        if (!job->measurement.point_frequency_hz || !job->measurement.point_frequency_std)
-            return ROTID_ERROR_MEMORY;
+    if (m->point_frequency_hz) {
+        m->point_frequency_hz = POOL_COPY(pool, m->point_frequency_hz, components, 0);
+        m->point_frequency_std = POOL_COPY(pool, m->point_frequency_std, components, 0);
     }
-    return job->measurement.raw ? copy_raw(pool, job) : ROTID_OK;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : m->raw ? copy_raw(pool, job) : ROTID_OK;
 }
 
 int data_add_finding(struct engine *engine, const rotid_data_finding *finding)
 {
     struct diagnosis *out = engine->out;
-    rotid_data_finding *more = POOL_ARRAY(engine->pool, rotid_data_finding, out->result.ndata_findings + 1);
+    rotid_data_finding *more = POOL_COPY(engine->pool, out->result.data_findings, out->result.ndata_findings, 1);
     if (!more || !finding->text)
         return ROTID_ERROR_MEMORY;
-    if (out->result.ndata_findings)
-        memcpy(more, out->result.data_findings, (size_t)out->result.ndata_findings * sizeof *more);
     more[out->result.ndata_findings] = *finding;
     more[out->result.ndata_findings].state = engine->state;
     more[out->result.ndata_findings++].unit = catalogue_find(finding->id)->value.unit;

@@ -207,11 +207,9 @@ static int keep_effects(struct pool *pool, const struct job *before, const doubl
     struct state state;
     (void)states_of(before, &state);
     int more = before->rotor.neffect - first;
-    struct effect *effect = POOL_ARRAY(pool, struct effect, rotor->neffect + more);
+    struct effect *effect = POOL_COPY(pool, rotor->effect, rotor->neffect, more);
     if (!effect)
         return ROTID_ERROR_MEMORY;
-    if (rotor->neffect)
-        memcpy(effect, rotor->effect, (size_t)rotor->neffect * sizeof *effect);
     for (int e = first; e < before->rotor.neffect; e++) {
         struct effect *kept = &effect[rotor->neffect++];
         effect_at(&state, e, x, kept);

@@ -1,7 +1,6 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/base.h"
 #include "run/run.h"
@@ -63,11 +62,9 @@ static int cost_of(struct pool *pool, const struct trials *trials, const struct 
     *cost = INFINITY;
     message_open(&quiet, pool);
     job.measurement = *trials->measured;
-    job.rotor.effect = POOL_ARRAY(pool, struct effect, job.rotor.neffect + 1);
+    job.rotor.effect = POOL_COPY(pool, e->job->rotor.effect, job.rotor.neffect, 1);
     if (!job.rotor.effect)
         return ROTID_ERROR_MEMORY;
-    if (job.rotor.neffect)
-        memcpy(job.rotor.effect, e->job->rotor.effect, (size_t)job.rotor.neffect * sizeof *effect);
     job.rotor.effect[job.rotor.neffect++] = *effect;
     *spectrum = (struct spectrum){0};
     int status = spectrum_try(pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter, e->fit->x,

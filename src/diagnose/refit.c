@@ -57,20 +57,14 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
         return status || !x ? status : job_started_at(pool, to, x, to);
     }
     *to = *job;
-    to->rotor.effect = POOL_ARRAY(pool, struct effect, index + 1);
-    to->unknowns.parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);
-    to->unknowns.bounds = POOL_ARRAY(pool, rotid_parameter, nown + nnew);
+    to->rotor.effect = POOL_COPY(pool, rotor->effect, index, 1);
+    to->unknowns.parameter = POOL_COPY(pool, job->unknowns.parameter, nown, nnew);
+    to->unknowns.bounds = POOL_COPY(pool, job->unknowns.bounds, nown, nnew);
     if (!to->rotor.effect || !to->unknowns.parameter || !to->unknowns.bounds)
         return ROTID_ERROR_MEMORY;
-    if (index)
-        memcpy(to->rotor.effect, rotor->effect, (size_t)index * sizeof *effect);
     to->rotor.effect[to->rotor.neffect++] = *effect;
-    for (int p = 0; p < nown; p++) {
-        to->unknowns.parameter[p] = job->unknowns.parameter[p];
-        to->unknowns.bounds[p] = job->unknowns.bounds[p];
-        if (x)
-            set_start(&to->unknowns.bounds[p], x[p]);
-    }
+    for (int p = 0; p < nown && x; p++)
+        set_start(&to->unknowns.bounds[p], x[p]);
     for (int p = 0; p < nnew; p++) {
         if (fixed && fixed[p])
             continue;

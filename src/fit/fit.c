@@ -241,12 +241,11 @@ static int grow_history(struct fit *fit)
 {
     rotid_fit_result *result = fit->result;
     size_t rows = 2 * (size_t)fit->history_rows, n = (size_t)fit->n;
-    rotid_fit_iteration *history = POOL_ARRAY(fit->keep, rotid_fit_iteration, rows);
-    double *x = POOL_ARRAY(fit->keep, double, rows *n);
+    size_t taken = (size_t)result->nhistory;
+    rotid_fit_iteration *history = POOL_COPY(fit->keep, result->history, taken, rows - taken);
+    double *x = POOL_COPY(fit->keep, result->history_x, taken * n, (rows - taken) * n);
     if (!history || !x || rows > INT_MAX)
         return 1;
-    memcpy(history, result->history, (size_t)result->nhistory * sizeof *history);
-    memcpy(x, result->history_x, (size_t)result->nhistory * n * sizeof *x);
     result->history = history;
     result->history_x = x;
     fit->history_rows = (int)rows;

@@ -147,10 +147,7 @@ static int take_abscissa(struct growing *g, struct uff_reader *reader, struct co
     while (done < f->count && got > 0 && !status) { /* the count is only announced: room comes with the values */
         if (done == room) {
             room = room ? 2 * room : PIECE;
-            double *more = POOL_ARRAY(&scratch, double, room);
-            if (more && done)
-                memcpy(more, x, (size_t)done * sizeof *x);
-            x = more;
+            x = POOL_COPY(&scratch, x, done, room - done);
         }
         status =
             x ? uff_read_values(reader, room - done < f->count - done ? room - done : f->count - done, x + done, NULL, NULL, &got)
@@ -180,9 +177,7 @@ static int take_abscissa(struct growing *g, struct uff_reader *reader, struct co
         if (fabs(f->start) < 1e-3 * slope)
             f->start = 0;
     } else {
-        item->x = POOL_ARRAY(g->pool, double, done);
-        if (item->x && done)
-            memcpy(item->x, x, (size_t)done * sizeof *x);
+        item->x = POOL_COPY(g->pool, x, done, 0);
         status = item->x ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
     pool_close(&scratch);

@@ -1,30 +1,20 @@
-#include <string.h>
-
 #include "rotor/rotor.h"
 
 static const double gravity = 9.81; /* m/s2: the value the paper's table of the rotor rests on */
-
-static void *copy_array(struct pool *pool, const void *source, int count, size_t size, int room)
-{
-    void *copy = pool_get(pool, (size_t)count + (size_t)room, size);
-    if (copy && count)
-        memcpy(copy, source, (size_t)count * size);
-    return copy;
-}
 
 int rotor_copy(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
 {
     int sling = rotor->sling > 0 ? 2 : 0;
     *copy = *rotor;
-    copy->group = copy_array(pool, rotor->group, rotor->ngroup, sizeof *rotor->group, 0);
-    copy->segment = copy_array(pool, rotor->segment, rotor->nsegment, sizeof *rotor->segment, 0);
-    copy->ring = copy_array(pool, rotor->ring, rotor->nring, sizeof *rotor->ring, 0);
-    copy->tierod = copy_array(pool, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod, 0);
-    copy->bars = copy_array(pool, rotor->bars, rotor->nbars, sizeof *rotor->bars, 0);
-    copy->disk = copy_array(pool, rotor->disk, rotor->ndisk, sizeof *rotor->disk, 0);
-    copy->spring = copy_array(pool, rotor->spring, rotor->nspring, sizeof *rotor->spring, sling);
-    copy->sensor = copy_array(pool, rotor->sensor, rotor->nsensor, sizeof *rotor->sensor, 0);
-    copy->effect = copy_array(pool, rotor->effect, rotor->neffect, sizeof *rotor->effect, 0);
+    copy->group = POOL_COPY(pool, rotor->group, rotor->ngroup, 0);
+    copy->segment = POOL_COPY(pool, rotor->segment, rotor->nsegment, 0);
+    copy->ring = POOL_COPY(pool, rotor->ring, rotor->nring, 0);
+    copy->tierod = POOL_COPY(pool, rotor->tierod, rotor->ntierod, 0);
+    copy->bars = POOL_COPY(pool, rotor->bars, rotor->nbars, 0);
+    copy->disk = POOL_COPY(pool, rotor->disk, rotor->ndisk, 0);
+    copy->spring = POOL_COPY(pool, rotor->spring, rotor->nspring, sling);
+    copy->sensor = POOL_COPY(pool, rotor->sensor, rotor->nsensor, 0);
+    copy->effect = POOL_COPY(pool, rotor->effect, rotor->neffect, 0);
     if (!copy->group || !copy->segment || !copy->ring || !copy->tierod || !copy->bars || !copy->disk || !copy->spring ||
         !copy->sensor || !copy->effect)
         return ROTID_ERROR_MEMORY;

@@ -198,11 +198,9 @@ static int distinct_points(struct pool *pool, const struct job *job, const struc
  * would share the mass of an accelerometer that goes from sensor to sensor. */
 static int add_nodes(struct pool *pool, int count, const struct placed *point, struct rotor *rotor)
 {
-    struct disk *disk = POOL_ARRAY(pool, struct disk, rotor->ndisk + count);
+    struct disk *disk = POOL_COPY(pool, rotor->disk, rotor->ndisk, count);
     if (!disk)
         return ROTID_ERROR_MEMORY;
-    if (rotor->ndisk)
-        memcpy(disk, rotor->disk, (size_t)rotor->ndisk * sizeof *disk);
     for (int i = 0; i < count; i++)
         if (!point[i].is_sensor)
             disk[rotor->ndisk++] = (struct disk){.position = point[i].z};
@@ -334,11 +332,10 @@ static int residuals(struct solver *v, double up_to_hz, const int *dof, struct s
 
 static int keep_modes(struct pool *pool, const struct prediction *p, const int *dof, struct synthesis *s)
 {
-    s->lambda = POOL_ARRAY(pool, double, s->nmode);
+    s->lambda = POOL_COPY(pool, p->lambda, s->nmode, 0);
     s->shape = POOL_ARRAY(pool, double, (size_t)s->nmode *(size_t)s->npoint);
     if (!s->lambda || !s->shape)
         return ROTID_ERROR_MEMORY;
-    memcpy(s->lambda, p->lambda, (size_t)s->nmode * sizeof *s->lambda);
     for (int i = 0; i < s->npoint; i++)
         for (int r = 0; r < s->nmode; r++)
             s->shape[r + (ptrdiff_t)i * s->nmode] = p->phi[dof[i] + (ptrdiff_t)r * p->size];

@@ -92,13 +92,10 @@ int states_modes(const struct states *states, int count)
 
 int states_copy(struct pool *pool, const struct states *from, struct states *to)
 {
-    const struct states copy = *from;
-    *to = copy;
-    to->state = POOL_ARRAY(pool, struct state, copy.nstate);
-    if (!to->state)
-        return ROTID_ERROR_MEMORY;
-    memcpy(to->state, copy.state, (size_t)copy.nstate * sizeof *copy.state);
-    return ROTID_OK;
+    struct state *state = POOL_COPY(pool, from->state, from->nstate, 0);
+    *to = *from;
+    to->state = state;
+    return state ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 void states_refuse(const struct states *states, const char *deck, struct message_list *notes)

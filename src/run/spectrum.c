@@ -1,7 +1,6 @@
 #include "run/run.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 #include "modal/modal.h"
@@ -91,15 +90,6 @@ static void keep_shapes(const struct rotor_model *model, const struct prediction
     }
 }
 
-static double *copy(struct pool *pool, const double *from, int rows, int columns)
-{
-    size_t count = (size_t)rows * (size_t)columns;
-    double *to = POOL_ARRAY(pool, double, count);
-    if (to && count)
-        memcpy(to, from, count * sizeof *to);
-    return to;
-}
-
 /* same of a solution whose model stands at x, by the mass between its modes and the other ones on its mesh. */
 static int pair_meshes(struct pool *pool, struct pool *scratch, const struct prediction *p, const struct solution *known,
                        struct solution *out)
@@ -152,7 +142,7 @@ static int solve(struct pool *pool, struct models *models, const struct rotor *r
         out->size = p.size;
         out->pairs = equations->nrigid + *count;
         out->hz = POOL_ARRAY(pool, double, out->pairs);
-        out->phi = copy(pool, p.phi, p.size, out->pairs);
+        out->phi = POOL_COPY(pool, p.phi, (size_t)p.size * (size_t)out->pairs, 0);
         out->shape = POOL_ARRAY(pool, double, (size_t)equations->nmaster *(size_t)*count);
         status = out->hz && out->phi && out->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
         for (int j = 0; j < out->pairs && !status; j++)
@@ -181,7 +171,7 @@ static int condensed_mass(struct pool *pool, struct pool *scratch, struct predic
         status = reduction_new(scratch, ROTID_GUYAN, &p->k, s->nmaster, p->model->master, &r);
     if (!status)
         status = reduction_compute(&r, &p->k, &p->m);
-    if (!status && !(s->mass = copy(pool, r.mc, s->nmaster, s->nmaster)))
+    if (!status && !(s->mass = POOL_COPY(pool, r.mc, (size_t)s->nmaster * (size_t)s->nmaster, 0)))
         status = ROTID_ERROR_MEMORY;
     return status;
 }

@@ -1,6 +1,5 @@
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "running/running.h"
 
@@ -95,14 +94,13 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     int count, last = nspeed - 1;
     struct pair *all = POOL_ARRAY(pool, struct pair, s->size);
     *t = (struct tracks){.nspeed = nspeed, .room = s->size};
-    t->speed = POOL_ARRAY(pool, double, nspeed);
+    t->speed = POOL_COPY(pool, speed, nspeed, 0);
     t->pair = POOL_ARRAY(pool, struct pair, (size_t)nspeed * (size_t)s->size);
     if (!all || !t->speed || !t->pair)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < s->size; i++)
         if (pair_new(pool, s->size, &all[i]))
             return ROTID_ERROR_MEMORY;
-    memcpy(t->speed, speed, (size_t)nspeed * sizeof *speed);
     int status = pairs_all(pool, s, speed[0], &count, all);
     for (int i = 0; i < count && !status; i++) {
         if (cimag(all[i].lambda) > limit && t->nmode >= 6)

@@ -135,14 +135,12 @@ static int add_masses(struct worth *w, int count, const int *number, int highest
     struct mass_properties mass;
     int status = model_weigh(w->pool, NULL, &w->job->rotor, 0, NULL, NULL, &mass);
     double *rows = POOL_ARRAY(w->pool, double, (size_t)highest *(size_t)w->at_rest);
-    struct disk *disk = POOL_ARRAY(w->pool, struct disk, w->job->rotor.ndisk + 1);
+    struct disk *disk = POOL_COPY(w->pool, w->job->rotor.disk, w->job->rotor.ndisk, 1);
     if (!status && (!rows || !disk))
         status = ROTID_ERROR_MEMORY;
     for (int i = 0; i < PLACES && !status; i++) {
         struct pool scratch;
         struct rotor rotor = w->job->rotor;
-        if (rotor.ndisk)
-            memcpy(disk, rotor.disk, (size_t)rotor.ndisk * sizeof *disk);
         disk[rotor.ndisk] = (struct disk){.position = rotor_length(&rotor) * i / (PLACES - 1), .mass = MASS_SHARE * mass.mass};
         rotor.disk = disk;
         rotor.ndisk++;

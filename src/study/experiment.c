@@ -183,14 +183,10 @@ static void follow(struct effect *effect, const int *new_index)
 
 static int own_effects(struct pool *pool, struct job *job, const int *new_index)
 {
-    struct effect *effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
-    struct suspect *suspect = POOL_ARRAY(pool, struct suspect, job->unknowns.nsuspect);
+    struct effect *effect = POOL_COPY(pool, job->rotor.effect, job->rotor.neffect, 0);
+    struct suspect *suspect = POOL_COPY(pool, job->unknowns.suspect, job->unknowns.nsuspect, 0);
     if (!effect || !suspect)
         return ROTID_ERROR_MEMORY;
-    if (job->rotor.neffect)
-        memcpy(effect, job->rotor.effect, (size_t)job->rotor.neffect * sizeof *effect);
-    if (job->unknowns.nsuspect)
-        memcpy(suspect, job->unknowns.suspect, (size_t)job->unknowns.nsuspect * sizeof *suspect);
     job->rotor.effect = effect;
     job->unknowns.suspect = suspect;
     for (int i = 0; i < job->rotor.neffect; i++)
@@ -306,13 +302,10 @@ static int place_sensors(struct pool *pool, const struct truth *truth, struct jo
         job->measurement.point_frequency_std = NULL;
     if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
         return ROTID_OK;
-    job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
-    job->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
+    job->rotor.sensor = POOL_COPY(pool, truth->job.rotor.sensor, job->rotor.nsensor, 0);
+    job->rotor.effect = POOL_COPY(pool, truth->job.rotor.effect, job->rotor.neffect, 0);
     if (!job->rotor.sensor || !job->rotor.effect)
         return ROTID_ERROR_MEMORY;
-    memcpy(job->rotor.sensor, truth->job.rotor.sensor, (size_t)job->rotor.nsensor * sizeof *job->rotor.sensor);
-    if (job->rotor.neffect)
-        memcpy(job->rotor.effect, truth->job.rotor.effect, (size_t)job->rotor.neffect * sizeof *job->rotor.effect);
     job->unknowns.nsuspect = 0;
     return correction_apply(pool, job, &truth->fault);
 }
@@ -364,13 +357,12 @@ static int solve_moving(struct pool *pool, struct models *models, const struct r
     int n = modes->nsensor, status;
     struct rotor with = *rotor;
     struct modes bare, loaded;
-    with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
+    with.effect = POOL_COPY(pool, rotor->effect, rotor->neffect, 0);
     status = with.effect ? modes_room(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
     if (!status)
         status = modes_room(pool, modes->count, n, &loaded);
     if (status)
         return status;
-    memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
     with.effect[effect].variant = 1; /* FIXED */
     with.effect[effect].target = -1; /* nowhere */
     status = solve(models, &with, refine, &bare);
@@ -492,22 +484,16 @@ static int own_states(struct pool *pool, const struct plan *plan, const struct s
 {
     int status = ROTID_OK;
     *out = *fitted;
-    out->state = POOL_ARRAY(pool, struct state, fitted->nstate);
-    out->bounds = POOL_ARRAY(pool, rotid_parameter, fitted->nparameter);
+    out->state = POOL_COPY(pool, fitted->state, fitted->nstate, 0);
+    out->bounds = POOL_COPY(pool, fitted->bounds, fitted->nparameter, 0);
     if (!out->state || !out->bounds)
         return ROTID_ERROR_MEMORY;
-    if (fitted->nparameter)
-        memcpy(out->bounds, fitted->bounds, (size_t)fitted->nparameter * sizeof *out->bounds);
     for (int s = 0; s < fitted->nstate && !status; s++) {
         struct job *job = &out->state[s].job;
-        out->state[s] = fitted->state[s];
         status = own_data(pool, plan, job);
-        rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
-        if (!bounds)
+        job->unknowns.bounds = POOL_COPY(pool, job->unknowns.bounds, job->unknowns.nparameter, 0);
+        if (!job->unknowns.bounds)
             return ROTID_ERROR_MEMORY;
-        if (job->unknowns.nparameter)
-            memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
-        job->unknowns.bounds = bounds;
     }
     return status;
 }

@@ -299,10 +299,9 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
     for (int i = 0; i < card->nline; i++) {
         struct data_line *line = &cause->line[i];
         *line = card->line[i];
-        line->field = POOL_ARRAY(pool, struct field, line->count);
+        line->field = POOL_COPY(pool, card->line[i].field, line->count, 0);
         if (!line->field)
             return NULL;
-        memcpy(line->field, card->line[i].field, (size_t)line->count * sizeof *line->field);
         if (line->count > 2 && end)
             line->field[1] = line->field[2];
         line->count = line->count > 2 ? 2 : line->count;

@@ -169,12 +169,11 @@ int design_value(struct pool *pool, int ndesign, const struct design *design, in
 
 int design_half_widths(struct pool *pool, int n, const double *g, double *half_width)
 {
-    double *factor = POOL_ARRAY(pool, double, (size_t)n *(size_t)n), *unit = POOL_ARRAY(pool, double, n);
+    double *factor = POOL_COPY(pool, g, (size_t)n * (size_t)n, 0), *unit = POOL_ARRAY(pool, double, n);
     if (!factor || !unit)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++)
         half_width[p] = NAN;
-    memcpy(factor, g, (size_t)n * (size_t)n * sizeof *factor);
     if (cholesky_factor(n, factor))
         return ROTID_OK;
     for (int p = 0; p < n; p++) {

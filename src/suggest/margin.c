@@ -113,11 +113,10 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
     s->nrow = c->nrow;
     s->j = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)s->n);
     s->unit = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)c->nmode);
-    s->d = POOL_ARRAY(pool, double, s->nrow);
+    s->d = POOL_COPY(pool, c->r, s->nrow, 0);
     s->work = POOL_ARRAY(pool, double, s->nrow + s->n);
     if (!s->j || !s->unit || !s->d || !s->work)
         return ROTID_ERROR_MEMORY;
-    memcpy(s->d, c->r, (size_t)s->nrow * sizeof *s->d);
     status = take_columns(c, b, x, s);
     return status ? status : factor_both(pool, b, own_of_all, s);
 }

@@ -1,7 +1,6 @@
 #include "suggest/suggest.h"
 
 #include <math.h>
-#include <string.h>
 
 const char *test_id(enum test_kind kind)
 {
@@ -40,11 +39,9 @@ const char *test_text(struct pool *pool, const struct job *job, const struct tes
 
 static int add_mass(struct pool *pool, const struct test *t, struct rotor *rotor)
 {
-    struct disk *disk = POOL_ARRAY(pool, struct disk, rotor->ndisk + 1);
+    struct disk *disk = POOL_COPY(pool, rotor->disk, rotor->ndisk, 1);
     if (!disk)
         return ROTID_ERROR_MEMORY;
-    if (rotor->ndisk)
-        memcpy(disk, rotor->disk, (size_t)rotor->ndisk * sizeof *disk);
     disk[rotor->ndisk++] = (struct disk){.position = t->z, .mass = t->mass};
     rotor->disk = disk;
     return ROTID_OK;
@@ -58,11 +55,10 @@ static int is_stiffness(const struct parameter *p)
 static int change_springs(struct pool *pool, const struct test *t, struct job *to, double *x, int *own)
 {
     struct rotor *rotor = &to->rotor;
-    struct spring *spring = POOL_ARRAY(pool, struct spring, rotor->nspring);
+    struct spring *spring = POOL_COPY(pool, rotor->spring, rotor->nspring, 0);
     double factor = t->kind == TEST_STIFF ? TEST_STIFFER : t->kind == TEST_FREE ? TEST_SOFTER : 1;
     if (!spring)
         return ROTID_ERROR_MEMORY;
-    memcpy(spring, rotor->spring, (size_t)rotor->nspring * sizeof *spring);
     for (int s = 0; s < rotor->nspring; s++) {
         spring[s].lateral *= factor;
         spring[s].rotational *= factor;

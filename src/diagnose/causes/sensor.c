@@ -1,7 +1,6 @@
 #include "diagnose/causes/causes.h"
 
 #include <math.h>
-#include <string.h>
 
 int sensor_find(const struct job *job, int id)
 {
@@ -112,36 +111,28 @@ void sensors_exchange(struct job *job, int a, int b)
         exchange_target(&job->unknowns.suspect[i].effect, a, b);
 }
 
-/* NULL for NULL; *failed where memory is out */
-static void *copy(struct pool *pool, const void *source, size_t count, size_t size, int *failed)
+static double *copy(struct pool *pool, const double *list, size_t count)
 {
-    void *target = source ? pool_get(pool, count, size) : NULL;
-    if (target)
-        memcpy(target, source, count * size);
-    *failed |= source && !target;
-    return target;
+    return list ? POOL_COPY(pool, list, count, 0) : NULL;
 }
 
 int corrections_keep_raw(struct pool *pool, struct job *job)
 {
-    int n = job->rotor.nsensor, failed = 0;
-    size_t components = (size_t)n * (size_t)job->measurement.nmode;
-    if (job->measurement.raw)
+    const struct job_measurement *m = &job->measurement;
+    size_t modes = (size_t)m->nmode, components = (size_t)job->rotor.nsensor * modes;
+    if (m->raw)
         return ROTID_OK;
     struct job_raw *raw = POOL_NEW(pool, struct job_raw);
     if (!raw)
         return ROTID_ERROR_MEMORY;
-    *raw = (struct job_raw){.nsensor = n,
-                            .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
-                            .shape = copy(pool, job->measurement.shape, components, sizeof *raw->shape, &failed),
-                            .shape_std = copy(pool, job->measurement.shape_std, components, sizeof *raw->shape_std, &failed),
-                            .frequency_std = copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode,
-                                                  sizeof *raw->frequency_std, &failed),
-                            .point_frequency_hz = copy(pool, job->measurement.point_frequency_hz, components,
-                                                       sizeof *raw->point_frequency_hz, &failed),
-                            .point_frequency_std = copy(pool, job->measurement.point_frequency_std, components,
-                                                        sizeof *raw->point_frequency_std, &failed)};
-    if (failed)
+    *raw = (struct job_raw){.nsensor = job->rotor.nsensor,
+                            .sensor = POOL_COPY(pool, job->rotor.sensor, job->rotor.nsensor, 0),
+                            .shape = copy(pool, m->shape, components),
+                            .shape_std = copy(pool, m->shape_std, components),
+                            .frequency_std = copy(pool, m->frequency_std, modes),
+                            .point_frequency_hz = copy(pool, m->point_frequency_hz, components),
+                            .point_frequency_std = copy(pool, m->point_frequency_std, components)};
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     job->measurement.raw = raw;
     return ROTID_OK;

@@ -1,6 +1,5 @@
 /* A sensor that sits elsewhere than stated, by a shift along the axis. */
 #include <math.h>
-#include <string.h>
 
 #include "diagnose/causes/causes.h"
 #include "model/model.h"
@@ -9,10 +8,9 @@
 static int stands_alone(struct pool *scratch, const struct rotor *stated, int s, double z, int *alone)
 {
     struct rotor rotor = *stated;
-    rotor.sensor = POOL_ARRAY(scratch, struct sensor, rotor.nsensor);
+    rotor.sensor = POOL_COPY(scratch, stated->sensor, rotor.nsensor, 0);
     if (!rotor.sensor)
         return ROTID_ERROR_MEMORY;
-    memcpy(rotor.sensor, stated->sensor, (size_t)rotor.nsensor * sizeof *rotor.sensor);
     rotor.sensor[s].position = z; /* the mesh does not mind their order */
     return model_sensor_alone(scratch, &rotor, s, alone);
 }
