@@ -78,13 +78,9 @@ static int compute(struct call *call, const struct states *states, const rotid_f
     const struct job *job = &states->state[0].job;
     rotid_speeds made = {.low_rpm = NAN};
     rotid_fit_result own;
-    int n = machine_unknowns(machine, job), status = fit ? machine_fit(pool, states, fit, &own) : ROTID_OK;
-    double *x = POOL_ARRAY(pool, double, n);
-    for (int p = 0; p < n && x && !status; p++)
-        x[p] = fit ? own.x[p] : machine_bounds(machine, job, p)->start;
+    int status = machine_fit(pool, states, fit, &own);
     if (!status)
-        status = x ? speeds_run(pool, machine, job, x, fit ? &own : NULL, options, &call->environment, &call->notes, &made)
-                   : ROTID_ERROR_MEMORY;
+        status = speeds_run(pool, machine, job, own.x, fit ? &own : NULL, options, &call->environment, &call->notes, &made);
     if (status < 0)
         return status;
     *result = CALL_KEEP(call, &speeds_whole_record, &made);

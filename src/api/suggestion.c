@@ -81,23 +81,20 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
     struct pool *pool = &call->entry.scratch;
     const struct job *job = &states->state[0].job;
     rotid_fit_result own;
-    int status = machine_refuse(call, states), n = status ? 0 : machine_unknowns(states->machine, job), assumed;
-    double *x = POOL_ARRAY(pool, double, n);
+    int status = machine_refuse(call, states), assumed;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     if (!status)
         status = machine_fit_all(call, states, fit);
-    if (!status && *fit)
+    if (!status)
         status = machine_fit(pool, states, *fit, &own);
     int failed;
     if (!status)
-        status = x && model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
-                                         model, &failed)
-                            : ROTID_ERROR_MEMORY;
+        status = model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, model,
+                                    &failed)
+                       : ROTID_ERROR_MEMORY;
     if (status)
         return status;
-    for (int p = 0; p < n; p++)
-        x[p] = *fit ? own.x[p] : machine_bounds(states->machine, job, p)->start;
-    model_set(model, x);
+    model_set(model, own.x);
     const rotid_fit_result none = {.variance_from_residuals = 1};
     rotid_noise *noise = result_noise(pool, job, *fit ? *fit : &none);
     rotid_suggestion made = {.wanted_percent = o->wanted_percent > 0 ? o->wanted_percent : 2,
@@ -112,7 +109,7 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
     made.noise.frequency = noise_of(job, noise, *fit, o->frequency_noise, &assumed);
     made.noise.frequency_assumed = assumed;
     const struct worth_options options = {o->speed, o->speed_backward != 0, made.noise.frequency};
-    status = worth_run(pool, states->machine, job, x, *fit ? &own : NULL, &options, &call->notes, &made);
+    status = worth_run(pool, states->machine, job, own.x, *fit ? &own : NULL, &options, &call->notes, &made);
     if (status)
         return status;
     *result = CALL_KEEP(call, &suggestion_whole_record, &made);

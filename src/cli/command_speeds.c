@@ -72,18 +72,13 @@ static int run(struct command *command, const struct states *states, const rotid
     const struct machine *machine = states->machine;
     const struct job *job = &states->state[0].job;
     rotid_speeds *speeds = POOL_NEW(&command->pool, rotid_speeds);
-    int n = machine_unknowns(machine, job);
-    double last = 0, *x = POOL_ARRAY(&command->pool, double, n);
+    double last = 0;
     rotid_fit_result own;
     const rotid_environment environment = command_environment(command, &last);
-    if (!speeds || !x)
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    int status = fit ? machine_fit(&command->pool, states, fit, &own) : ROTID_OK;
-    for (int p = 0; p < n && !status; p++)
-        x[p] = fit ? own.x[p] : machine_bounds(machine, job, p)->start;
+    int status = speeds ? machine_fit(&command->pool, states, fit, &own) : ROTID_ERROR_MEMORY;
     if (!status)
         status =
-            speeds_run(&command->pool, machine, job, x, fit ? &own : NULL, options, &environment, &command->messages, speeds);
+            speeds_run(&command->pool, machine, job, own.x, fit ? &own : NULL, options, &environment, &command->messages, speeds);
     if (environment.progress)
         terminal_progress_end();
     if (status < 0)

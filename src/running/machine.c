@@ -50,11 +50,11 @@ double machine_bearing_factor(const struct machine *machine, const struct machin
 int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_result *fit, rotid_fit_result *own)
 {
     const struct state *state = &states->state[0];
-    int at_rest = state->job.unknowns.nparameter, n = machine_unknowns(states->machine, &state->job), all = fit->n;
+    int at_rest = state->job.unknowns.nparameter, n = machine_unknowns(states->machine, &state->job), all = fit ? fit->n : 0;
     double *x = POOL_ARRAY(pool, double, (size_t)n *(size_t)(n + 2));
     if (!x)
         return ROTID_ERROR_MEMORY;
-    *own = *fit;
+    *own = fit ? *fit : (rotid_fit_result){0};
     own->n = n;
     own->x = x;
     own->std = x + n;

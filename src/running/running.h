@@ -153,7 +153,8 @@ double machine_covariance(const struct machine *machine, const struct job *job, 
 double machine_bearing_factor(const struct machine *machine, const struct machine_values *values, int i, int damping);
 
 /* What a fit of all states says of the unknowns of the machine: n, x, std and covariance of *own alone are to be used. Those of
- * the machine that took no part in the fit are at their starts, without std. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * the machine that took no part in the fit, and without a fit (NULL) all, are at their starts, without std. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
 int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_result *fit, rotid_fit_result *own);
 
 /* Whether unknown p acts in the machine: what it is of may have been left at the test. */
