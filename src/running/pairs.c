@@ -249,7 +249,8 @@ int pair_refine(struct system *s, double at, const int *side, struct pair *pair)
     return side_of(pair->lambda, at) == -own ? 0 : refine(s, 0, pair);
 }
 
-double complex pair_share(const struct system *s, const struct pair *pair, const double complex *product)
+/* l* A u/(l* dD/dlambda u) for the product A u [size] */
+static double complex share_of(const struct system *s, const struct pair *pair, const double complex *product)
 {
     double complex below = 0, above = inner(s->size, pair->left, product);
     for (int j = 0; j < s->size; j++) {
@@ -276,13 +277,13 @@ double complex pair_difference(struct system *nominal, struct system side[2], do
         for (size_t row = 0; row < size; row++)
             product[row] += (above[row + size * col] - below[row + size * col]) / apart * pair->u[col];
     system_at(nominal, speed);
-    return -pair_share(nominal, pair, product);
+    return -share_of(nominal, pair, product);
 }
 
 double complex pair_rate(const struct system *s, const struct pair *pair)
 {
     by_speed(s, pair->lambda, pair->u, s->right);
-    return -pair_share(s, pair, s->right);
+    return -share_of(s, pair, s->right);
 }
 
 /* Of two modes u and v of one speed l* ((lambda + mu) M + C) v = 0, l and lambda being those of u. The quotient of that by the

@@ -265,9 +265,6 @@ int pair_follow(struct system *system, double from, double to, int least, struct
 /* d lambda/dW at the speed of system_at; the pair has its left vector. */
 double complex pair_rate(const struct system *system, const struct pair *pair);
 
-/* l* A u/(l* dD/dlambda u) for the product A u [size] */
-double complex pair_share(const struct system *system, const struct pair *pair, const double complex *product);
-
 /* d lambda/dp of a pair that has its left vector, dD/dp from the matrices of two machines on the basis of the nominal one,
  * `apart` in p: -l* dD u/(l* dD/dlambda u). turn: side of the loss factors. work [2 size^2 + size] */
 double complex pair_difference(struct system *nominal, struct system side[2], double apart, double speed, int turn,

@@ -18,7 +18,8 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-enum uff_fault uff_parse_integer(const char *text, size_t length, long long *value)
+/* The whole of text [length] must be the number; *value is set when it is. */
+static enum uff_fault parse_integer(const char *text, size_t length, long long *value)
 {
     size_t i = length && (text[0] == '-' || text[0] == '+');
     if (i == length)
@@ -434,7 +435,7 @@ static enum uff_fault parse_fields(const struct uff_lines *lines, const struct u
         enum uff_fault fault;
         if (*bad < form->integers) {
             long long value = 0;
-            fault = uff_parse_integer(text, length, &value);
+            fault = parse_integer(text, length, &value);
             if (fault == UFF_FAULT_NONE && (value < INT_MIN || value > INT_MAX))
                 fault = UFF_FAULT_RANGE;
             if (fault == UFF_FAULT_NONE)
@@ -640,7 +641,7 @@ int uff_find_integers(const struct uff_lines *lines, int count, const int *start
     int found = 0;
     for (int i = 0; i < count; ++i) {
         struct uff_field column = uff_cut_column(lines, (size_t)start[i], (size_t)width[i]);
-        found += column.length && uff_parse_integer(lines->text + column.start, column.length, &value[i]) == UFF_FAULT_NONE;
+        found += column.length && parse_integer(lines->text + column.start, column.length, &value[i]) == UFF_FAULT_NONE;
     }
     if (found == count)
         return 1;
@@ -651,7 +652,7 @@ int uff_find_integers(const struct uff_lines *lines, int count, const int *start
         if (field[i] >= tokens)
             return 0;
         struct uff_field one = token[field[i]];
-        if (uff_parse_integer(lines->text + one.start, one.length, &value[i]) != UFF_FAULT_NONE)
+        if (parse_integer(lines->text + one.start, one.length, &value[i]) != UFF_FAULT_NONE)
             return 0;
     }
     return 1;
@@ -665,8 +666,7 @@ static enum uff_fault read_cell(const struct uff_lines *lines, enum uff_kind kin
         return UFF_FAULT_NONE;
     if (!field.length)
         return kind == UFF_REQUIRED_INTEGER || kind == UFF_LONG ? UFF_FAULT_MALFORMED : UFF_FAULT_NONE;
-    return kind == UFF_REAL ? uff_parse_real(text, field.length, &cell->real)
-                            : uff_parse_integer(text, field.length, &cell->integer);
+    return kind == UFF_REAL ? uff_parse_real(text, field.length, &cell->real) : parse_integer(text, field.length, &cell->integer);
 }
 
 int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_column *column, struct uff_cell *cell)
