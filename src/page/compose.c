@@ -1,7 +1,500 @@
-/* A page of one or more results: its name, the answers, the sections in the order in which they are read. */
+/* A page of one or more results: what it says of a fit, of modes, sensitivities, transfer functions, a modal analysis, a
+ * suggestion and a study; what it rests on and where it comes from; then its name, the answers, the sections in the order in
+ * which they are read. */
+#include <math.h>
 #include <string.h>
 
 #include "page/page.h"
+#include "report/report.h"
+#include "study/study.h"
+
+static void section_agreement(struct document *document, const struct result *result)
+{
+    document_section(document, "agreement", "Model and measurement");
+    document_figures(document, "shapes");
+    document_figures(document, "agreement");
+    document_figures(document, "matrices");
+    document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
+    if (result->identify->nweighed)
+        document_table(document, table_of_weighed(document->pool, result->identify->nweighed, result->identify->weighed));
+    if (result->identify->nrunup)
+        document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
+}
+
+static void section_identify(struct document *document, const struct result *result)
+{
+    const rotid_identification *fit = result->identify;
+    section_trust(document, result);
+    if (fit->nstates) {
+        document_section(document, "states", "All states together");
+        document_figures(document, "states");
+        document_table(document, table_of_states(document->pool, fit));
+    }
+    document_section(document, "parameters", "What was identified");
+    document_figures(document, "parameters");
+    document_table(document, table_of_parameters(document->pool, fit));
+    document_section(document, "fit", "How the fit got there");
+    document_figures(document, "fit");
+    document_table(document, table_of_minimisers(document->pool, fit));
+}
+
+static void section_modes(struct document *document, const struct result *result)
+{
+    document_section(document, "model-modes", "Modes of the model");
+    document_figures(document, "modes");
+    document_table(document, table_of_model_modes(document->pool, result->modes));
+    if (!result->modes->beside)
+        return;
+    document_section(document, "beside", "The beam beside the solid");
+    if (result->modes->beside->sentence)
+        document_paragraph(document, "In short, %s.", result->modes->beside->sentence);
+    document_table(document, table_of_beside_modes(document->pool, result->modes->beside));
+    document_table(document, table_of_beside_moduli(document->pool, result->modes->beside));
+}
+
+static void section_sensitivity(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    const struct sensitivity *s = result->sensitivity;
+    const char *at = "";
+    for (int p = 0; p < s->nparameters && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
+                         human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
+    document_section(document, "dependence", "Sensitivity");
+    document_paragraph(document, "At %s, reduction %s.", or_nothing(at), s->reduction);
+    document_figures(document, "sensitivity");
+    document_table(document, table_of_sensitivity(pool, s));
+}
+
+static void section_transfer(struct document *document, const struct result *result)
+{
+    const struct transfer_result *out = result->frf;
+    struct pool *pool = document->pool;
+    const char *at = "";
+    document_section(document, "transfer", "Transfer functions");
+    document_paragraph(document, "%d synthesised %s from modes up to %s with the damping below; %s%s.", out->nfunctions,
+                       human_plural(out->nfunctions, "function", "functions"), human_value(pool, out->modes_up_to_hz, "Hz"),
+                       out->measured_file ? "measured ones from " : "none was measured", or_nothing(out->measured_file));
+    for (int p = 0; p < out->nparameters && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
+                         human_value(pool, out->parameters[p].value, out->parameters[p].unit));
+    if (out->nparameters)
+        document_paragraph(document, "The model is the identified one: %s.", or_nothing(at));
+    if (out->agreement && isfinite(out->agreement->frac))
+        document_paragraph(
+            document, "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
+            human_fixed(pool, out->agreement->frac, 3), human_fixed(pool, out->agreement->frac_at_measured_frequencies, 3));
+    if (!out->with_curves)
+        document_paragraph(document, "The result has no curves, because there were too many lines: rotid frf -o writes them as a "
+                                     "universal file.");
+    if (!out->complete)
+        document_paragraph(document, "It was interrupted: %d functions were finished.", out->nfunctions);
+    document_figures(document, "transfer");
+    document_table(document, table_of_transfer_modes(pool, out));
+}
+
+/* ---- modal analysis */
+
+static int doubtful_modes(const struct ema_result *ema)
+{
+    int count = 0;
+    for (int k = 0; k < ema->nmodes; k++)
+        count += ema->modes[k].doubts != 0;
+    return count;
+}
+
+static int doubtful_channels(const struct ema_result *ema)
+{
+    int count = 0;
+    for (int c = 0; c < ema->nchannels; c++)
+        count += ema->channels[c].doubts != 0;
+    return count;
+}
+
+static void answer_ema(struct document *document, const struct result *result)
+{
+    const struct ema_result *ema = result->ema;
+    struct pool *pool = document->pool;
+    int modes = doubtful_modes(ema), channels = doubtful_channels(ema), doubtful = modes || channels;
+    if (!ema->nmodes) {
+        document->now.tone = TONE_BAD;
+        document->now.headline = "No mode was found";
+        document->now.text = "No pole of the transfer functions is stable enough to be a mode.";
+        return;
+    }
+    document->now.tone = doubtful ? TONE_CARE : TONE_GOOD;
+    document->now.text =
+        pool_format(pool, "%d %s from %s in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
+                    human_range(pool, ema->modes[0].frequency_hz, ema->modes[ema->nmodes - 1].frequency_hz, "Hz"),
+                    ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
+                    doubtful ? or_nothing(pool_format(pool, "%d of the modes and %d of the channels %s doubtful, see below.",
+                                                      modes, channels, modes + channels == 1 ? "is" : "are"))
+                             : "No mode and no channel is doubtful.");
+    for (int k = 0; k < ema->nmodes && k < TILES_MOST; k++)
+        document_tile(document, pool_format(pool, "mode %d [Hz]", ema->modes[k].mode),
+                      human_digits(pool, ema->modes[k].frequency_hz, 6),
+                      pool_format(pool, "damping %s\xc2\xa0%%%s", human_digits(pool, 100 * ema->modes[k].damping, 3),
+                                  ema->modes[k].doubts ? "; doubtful" : ""));
+    document->now.next =
+        doubtful ? "Next: look at the doubtful ones in the diagram and in the functions, before a model is fitted to them."
+                 : "Next: name the file of the modes in *MEASURED of a deck, and identify the model.";
+}
+
+static void list_doubts(struct document *document, const struct ema_result *ema)
+{
+    int count;
+    const char **text = ema_doubts(document->pool, ema, &count);
+    if (!text) {
+        document->failed = 1;
+        return;
+    }
+    document_section(document, "doubts", "Doubtful modes and channels");
+    document_list(document, count, text);
+}
+
+static void section_ema(struct document *document, const struct result *result)
+{
+    const struct ema_result *ema = result->ema;
+    document_section(document, "modes-of-test", "Modes of the test");
+    document_figures(document, "ema-shapes");
+    document_table(document, table_of_test_modes(document->pool, ema));
+    list_doubts(document, ema);
+    document_section(document, "poles", "Where the modes come from");
+    document_figures(document, "ema-poles");
+    if (!ema->ncurves)
+        return;
+    document_section(document, "functions", "Measured and synthesised functions");
+    document_paragraph(document, "Synthesised: the modes of the result, with one term for the modes below and one for those "
+                                 "above the band. FRAC is 1 where both are the same but for a factor.");
+    document_figures(document, "ema-functions");
+}
+
+/* ---- what to measure next */
+
+static void section_suggest(struct document *document, const struct result *result)
+{
+    const rotid_suggestion *s = result->suggest;
+    struct pool *pool = document->pool;
+    if (s->ntests) {
+        document_section(document, "tests", "Tests that could be made next");
+        if (s->verdict)
+            document_paragraph(document, "The diagnosis: %s", s->verdict);
+        document_figures(document, "tests");
+        document_table(document, table_of_tests(pool, s));
+        document_table(document, table_of_rivals(pool, s));
+    }
+    if (isfinite(s->speed_rpm)) {
+        document_section(document, "tests", "Tests at rest for a critical speed");
+        document_table(document, table_of_speed_tests(pool, s));
+        return;
+    }
+    document_section(document, "sensors", "Sensors and modes");
+    document_figures(document, "sensors");
+    document_table(document, table_of_plans(pool, s));
+    document_table(document, table_of_expected(pool, s));
+}
+
+/* ---- a study */
+
+#define MOST_FAILURES 8
+
+/* Shares over all cells that have them: intervals that hold the truth, starts that came to the best. */
+struct shares {
+    double intervals, held, starts, reached, judged, good, scored, false_alarm;
+};
+
+static struct shares add_up(const struct study_result *s)
+{
+    struct shares sum = {0};
+    for (int i = 0; i < s->ncells; i++) {
+        const struct study_cell_result *cell = &s->cells[i];
+        for (int p = 0; p < cell->nparameters; p++)
+            if (isfinite(cell->parameters[p].coverage95)) {
+                sum.intervals += cell->parameters[p].intervals;
+                sum.held += cell->parameters[p].intervals * cell->parameters[p].coverage95;
+            }
+        if (cell->reached_best != ROTID_NONE) {
+            sum.starts += cell->runs;
+            sum.reached += cell->reached_best;
+        }
+        sum.judged += cell->diagnoses ? cell->diagnoses->count : 0;
+        const int *scores = summary_is_scored(cell) ? cell->diagnoses->scores : NULL;
+        for (int k = 0; k < STUDY_SCORES && scores; k++) {
+            sum.scored += scores[k];
+            sum.good += k == 0 || k == 2 || k == 3 ? scores[k] : 0;
+            sum.false_alarm += k == 1 || k == 7 ? scores[k] : 0;
+        }
+    }
+    return sum;
+}
+
+static double not_converged(const struct study_result *s)
+{
+    double count = 0;
+    for (int i = 0; i < s->ncells; i++)
+        count += s->cells[i].not_converged;
+    return count;
+}
+
+static const char *runs_of(const struct study_result *s, double count)
+{
+    if (!strcmp(s->studies, "diagnose"))
+        return count == 1 ? "diagnosis" : "diagnoses";
+    return count == 1 ? "identification" : "identifications";
+}
+
+static void answer_study(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    const struct study_result *s = result->study;
+    struct shares sum = add_up(s);
+    double stuck = not_converged(s);
+    const char *text = pool_format(pool, "%d %s: %s.", s->done, runs_of(s, s->done),
+                                   or_nothing(s->failed > 0 || stuck > 0
+                                                  ? pool_format(pool, "%d failed, %.0f did not converge", s->failed, stuck)
+                                                  : "none failed, all converged"));
+    if (sum.starts > 0 && text)
+        text =
+            sum.reached == sum.starts
+                ? pool_format(pool, "%s Every start leads to the same minimum in its cell.", text)
+                : pool_format(pool, "%s Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
+                              text, sum.starts, sum.reached);
+    if (sum.intervals > 0 && text)
+        text = pool_format(pool, "%s Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", text, sum.intervals,
+                           human_fixed(pool, 100 * sum.held / sum.intervals, 1));
+    if (sum.scored > 0 && text)
+        text = pool_format(
+            pool, "%s Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
+            text, sum.scored, sum.good, sum.false_alarm);
+    if (s->plan)
+        document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan));
+    document->now.tone = s->done < s->runs || s->failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;
+    document->now.headline =
+        s->done < s->runs ? pool_format(pool, "%d of %d runs", s->done, s->runs) : pool_format(pool, "%d runs", s->done);
+    document->now.text = or_nothing(text);
+}
+
+static void section_study(struct document *document, const struct result *result)
+{
+    const struct study_result *s = result->study;
+    struct pool *pool = document->pool;
+    document_section(document, "study", "The study");
+    document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->plan ? s->plan : "Decks as they stand", s->done, s->runs,
+                       runs_of(s, s->runs), s->ncells, human_plural(s->ncells, "cell", "cells"),
+                       isfinite(s->seconds) && s->done > 0
+                           ? or_nothing(pool_format(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)))
+                           : "");
+    if (!cJSON_IsArray(result->json) && s->done > 0)
+        document_paragraph(
+            document,
+            "%s is a summary. The file of results itself (.jsonl) holds the single runs, of which more figures are "
+            "made: starts and ends, what depends on the number of modes, errors of the runs.",
+            result->file);
+    for (int i = 0; i < s->nerrors && i < MOST_FAILURES; i++)
+        document_paragraph(document, "%d failed: %s", s->errors[i].runs, s->errors[i].error);
+    document_figures(document, "study");
+    if (!s->ncells)
+        return;
+    document_table(document, table_of_cells(pool, s));
+    document_table(document, table_of_cell_parameters(pool, s));
+    document_table(document, table_of_cell_diagnoses(pool, s));
+}
+
+/* ---- basis and provenance */
+
+#define KEYS_SINCE "0.3.0" /* the version whose results hold what a page asks for beyond those of 0.2 */
+
+static const char *noise_of(struct pool *pool, const struct result *result)
+{
+    const rotid_noise *noise = noise_of_result(result);
+    if (!noise || !fit_of_result(result) || !(noise->intervals_from || result->diagnose))
+        return NULL;
+    const char *frequency = isfinite(noise->frequency)
+                                ? pool_format(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
+                                              noise->frequency_assumed ? " (assumed)" : "")
+                                : "frequencies: not stated",
+               *shape = isfinite(noise->shape)
+                            ? pool_format(pool, "shapes %s\xc2\xa0%% of the largest component%s",
+                                          human_digits(pool, 100 * noise->shape, 2), noise->shape_assumed ? " (assumed)" : "")
+                            : "shapes: not stated";
+    return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
+}
+
+static const char *records_of(struct pool *pool, const struct ema_source *source)
+{
+    const char *impacts = source->from_time_records
+                              ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
+                              : "";
+    return pool_format(pool, "%d transfer %s of %d lines from %s%s", source->transfer_functions,
+                       human_plural(source->transfer_functions, "function", "functions"), source->lines,
+                       human_range(pool, source->low_hz, source->high_hz, "Hz"), impacts ? impacts : "");
+}
+
+static const char *data_of(struct pool *pool, const struct result *result)
+{
+    const rotid_identification *fit = fit_of_result(result);
+    int shapes = 0;
+    if (result->ema)
+        return records_of(pool, &result->ema->source);
+    if (!fit || !fit->nmodes)
+        return NULL;
+    for (int k = 0; fit->shapes && k < fit->shapes->nmodes; k++)
+        shapes += fit->shapes->modes[k].measured != NULL;
+    double low = INFINITY, high = 0;
+    for (int k = 0; k < fit->nmodes; k++) {
+        low = fmin(low, fit->modes[k].measured_hz);
+        high = fmax(high, fit->modes[k].measured_hz);
+    }
+    const char *text = pool_format(pool, "%d measured %s from %s", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
+                                   human_range(pool, low, high, "Hz"));
+    if (!fit->shapes || !text)
+        return text;
+    return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor_id)
+                  : pool_format(pool, "%s, without shapes", text);
+}
+
+/* Elements along the axis. */
+static int elements_of(const rotid_geometry *geometry)
+{
+    int elements = 0;
+    for (int g = 0; g < geometry->ngroups; g++)
+        for (int s = 0; s < geometry->groups[g].nsegments && !geometry->groups[g].layer_of; s++)
+            elements += geometry->groups[g].segments[s].elements;
+    return elements;
+}
+
+static const char *model_of(struct pool *pool, const struct result *result)
+{
+    const rotid_identification *fit = fit_of_result(result);
+    const rotid_geometry *geometry = geometry_of_result(result);
+    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length_m, 4),
+                                              elements_of(geometry), human_plural(elements_of(geometry), "element", "elements"))
+                                : "",
+               *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
+                                        *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
+                                        human_trimmed(pool, fit->center_of_mass_m, 4), fit->functional, fit->reduction)
+                          : "";
+    return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
+}
+
+#define MOST_FACTS 6
+
+/* What one section says of a result: names and values, NULL where it has none. */
+struct facts {
+    int count;
+    const char *const *name;
+    void (*of)(struct pool *pool, const struct result *result, const char *value[MOST_FACTS]);
+};
+
+/* The values of a result that none before it has: a model said in fewer words is no other one. Their number. */
+static int new_facts(struct pool *pool, const struct facts *facts, const struct result *result, int i,
+                     const char *value[MOST_FACTS])
+{
+    const char *before[MOST_FACTS] = {NULL};
+    int told = 0;
+    facts->of(pool, &result[i], value);
+    for (int j = 0; j < i; j++) {
+        facts->of(pool, &result[j], before);
+        for (int k = 0; k < facts->count; k++)
+            if (value[k] && before[k] && !strncmp(value[k], before[k], strlen(value[k])))
+                value[k] = NULL;
+    }
+    for (int k = 0; k < facts->count; k++)
+        told += value[k] != NULL;
+    return told;
+}
+
+static void add_facts(struct document *document, const struct facts *facts, int count, const struct result *result)
+{
+    const char *value[MOST_FACTS] = {NULL};
+    for (int i = 0; i < count; i++) {
+        if (!new_facts(document->pool, facts, result, i, value))
+            continue;
+        if (count > 1)
+            document_heading(document, page_source(&result[i]));
+        document_facts(document, facts->count, facts->name, value);
+    }
+}
+
+static void basics_of(struct pool *pool, const struct result *result, const char *value[MOST_FACTS])
+{
+    value[0] = data_of(pool, result);
+    value[1] = noise_of(pool, result);
+    value[2] = model_of(pool, result);
+}
+
+static void section_basis(struct document *document, int count, const struct result *result)
+{
+    static const char *const name[] = {"Data", "Noise", "Model"};
+    static const struct facts basics = {3, name, basics_of};
+    const char *value[MOST_FACTS] = {NULL};
+    int told = result->head.nheading > 1;
+    for (int i = 0; i < count; i++)
+        told |= result[i].nwarnings > 0 || new_facts(document->pool, &basics, result, i, value) > 0;
+    if (!told)
+        return;
+    document_section(document, "basis", "What it rests on");
+    add_facts(document, &basics, count, result);
+    for (int k = 1; k < result->head.nheading; k++)
+        document_paragraph(document, "%s", result->head.heading[k]);
+    for (int i = 0; i < count; i++)
+        if (result[i].nwarnings) {
+            document_heading(document, "What rotid notes");
+            document_list(document, result[i].nwarnings, result[i].warnings);
+        }
+}
+
+/* "soft zone: stiffness_local", of every cause that a diagnosis tried or has a limit for and whose name in words is another one.
+ */
+static const char *ids_of(struct pool *pool, const struct result *result)
+{
+    const rotid_diagnosis *d = result->diagnose;
+    const char *text = "";
+    for (int r = 0; d && r < d->nrounds; r++) {
+        int count;
+        const rotid_candidate *candidate = diagnosis_candidates(d, r, &count);
+        for (int i = 0; i < count && text; i++) {
+            const char *id = candidate[i].cause.id,
+                       *pair = strchr(id, '_') ? pool_format(pool, "%s: %s", plain_cause(pool, id), id) : NULL;
+            if (pair && !strstr(text, pair))
+                text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", pair);
+        }
+    }
+    return text && *text ? text : NULL;
+}
+
+static void origin_of(struct pool *pool, const struct result *result, const char *value[MOST_FACTS])
+{
+    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->head.command);
+    value[1] = result->ema ? result->ema->source.file : result->head.deck;
+    value[2] = pool_format(pool, "rotid %s, commit %s", result->head.rotid, result->head.commit);
+    value[3] = result->head.threads ? pool_format(pool, "seed %.0f, %d %s", result->head.seed, result->head.threads,
+                                                  human_plural(result->head.threads, "thread", "threads"))
+                                    : pool_format(pool, "seed %.0f", result->head.seed);
+    value[4] = *result->head.blas ? result->head.blas : NULL;
+    value[5] = ids_of(pool, result);
+}
+
+static void section_provenance(struct document *document, int count, const struct result *result)
+{
+    static const char *const name[] = {"Result", "Deck or file", "Program", "Seed, threads", "Linear algebra", "Causes on cards"};
+    static const struct facts origin = {MOST_FACTS, name, origin_of};
+    document->of = NULL;
+    document->verbatim = 1;
+    document_section(document, "provenance", "Provenance");
+    add_facts(document, &origin, count, result);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < result[i].nlacking; k++)
+            document_paragraph(
+                document,
+                "Not shown: %s. %s was made by rotid %s and has no key \"%s\", which results have from rotid %s on. rotid "
+                "%s %s --json %s makes a new one.",
+                result[i].lacking[k].shows, result[i].file, result[i].head.rotid, result[i].lacking[k].key, KEYS_SINCE,
+                result[i].head.command, result[i].head.deck ? result[i].head.deck : "DECK", result[i].file);
+    document->verbatim = 0;
+}
+
+/* ---- the whole */
 
 /* What a result is, in words, and how much the answer of a page rests on it: of several results that with the least rank gives
  * the page its title, wherever it was given. */

@@ -149,7 +149,7 @@ static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
     (void)fputc('[', out);
     for (int i = 0; i < d->ncandidates; i++) {
         (void)fputs(i ? ",[" : "[", out);
-        write_text(out, candidate_words(pool, d, &d->candidates[i]));
+        write_text(out, cause_label(pool, d, &d->candidates[i].cause));
         (void)fputc(',', out);
         write_text(out, candidate_fate(pool, d, &d->candidates[i]));
         (void)fputc(']', out);

@@ -8,8 +8,8 @@
  *
  *   page_result_read   a file of JSON, every mistake with its place; page_state_count: the states of a deck      read.c
  *   page_compose       answer, tiles, sections, tables, places of figures, results by rank                        compose.c
- *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c, study.c; sections.c: agreement,
- *                      modes, sensitivity, transfer functions, ema, suggestions; provenance.c: basis, program, deck
+ *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c, running.c; the others, basis and
+ *                      provenance: compose.c
  *   document_*         the page under construction: answers, headings, tables (struct table of src/report), figures  document.c
  *   words              causes, candidates and files in words; hidden_in_words: what may hide in a parameter       words.c
  *   data_write         the data block: results as JSON                                                               data.c
@@ -105,7 +105,6 @@ const char *plain_file(const char *path);                    /* the last part of
 const char *cause_check(const char *id);                     /* how to look for a cause */
 const char *cause_name(struct pool *pool, const char *id, const char *target); /* "joint between core and right" */
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
-const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
                             int causes);
@@ -128,26 +127,14 @@ void reasons_add(struct reasons *reasons, enum tone tone, const char *text);
 void tile_parameter(struct document *document, const rotid_fitted_parameter *parameter, const char *note);
 void answer_identify(struct document *document, const struct result *result);
 void answer_diagnose(struct document *document, const struct result *result);
-void answer_study(struct document *document, const struct result *result);
-void answer_ema(struct document *document, const struct result *result);
 void answer_plain(struct document *document, const struct result *result);
 
 /* of a deck that is one state, or of one of its states */
-void section_agreement(struct document *document, const struct result *result);
-void section_modes(struct document *document, const struct result *result);
-void section_sensitivity(struct document *document, const struct result *result);
-void section_transfer(struct document *document, const struct result *result);
 void section_speeds(struct document *document, const struct result *result);
 const char *answer_of_speeds(struct pool *pool, const rotid_speeds *speeds);
 /* of all states */
-void section_identify(struct document *document, const struct result *result);
 void section_trust(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);
-void section_suggest(struct document *document, const struct result *result);
-void section_study(struct document *document, const struct result *result);
-void section_ema(struct document *document, const struct result *result);
-void section_basis(struct document *document, int count, const struct result *result);
-void section_provenance(struct document *document, int count, const struct result *result);
 
 void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden);
 

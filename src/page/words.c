@@ -114,11 +114,6 @@ const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid
     return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
 }
 
-const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
-{
-    return cause_label(pool, d, &c->cause);
-}
-
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
 {
     const char *text = "";
