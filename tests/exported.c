@@ -1,4 +1,5 @@
 #include "exported.h"
+#include "one_state.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 #include "hidden.h"
+#include "one_state.h"
 
 #include <math.h>
 #include <stdio.h>

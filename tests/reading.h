@@ -3,6 +3,7 @@
 #define ROTID_TESTS_READING_H
 
 #include "deck/deck.h"
+#include "one_state.h"
 
 struct reading {
     struct pool pool; /* to be closed by the test */

@@ -8,6 +8,7 @@
 #include "api_bench.h"
 #include "deck/deck.h"
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"

@@ -8,6 +8,7 @@
 #include "ema/ema.h"
 #include "folder.h"
 #include "import/import.h"
+#include "one_state.h"
 #include "support.h"
 
 #define TESTS  40

@@ -12,6 +12,7 @@
 #include "diagnose/diagnose.h"
 #include "hammer_bench.h"
 #include "import/import.h"
+#include "one_state.h"
 #include "run/run.h"
 #include "support.h"
 

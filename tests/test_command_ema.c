@@ -6,6 +6,7 @@
 
 #include "deck/deck.h"
 #include "json_value.h"
+#include "one_state.h"
 #include "support.h"
 #include "uff_program.h"
 

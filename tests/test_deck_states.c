@@ -1,4 +1,5 @@
 /* Decks of several states: what each state is made of, which unknowns they share, and what is refused, with its place. */
+#include "one_state.h"
 #include "support.h"
 
 #include <math.h>

@@ -14,6 +14,7 @@
 #include "folder.h"
 #include "modal/modal.h"
 #include "model/model.h"
+#include "one_state.h"
 #include "support.h"
 
 #define SENSORS 17

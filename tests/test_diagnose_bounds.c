@@ -1,5 +1,6 @@
 /* A parameter that ends at a bound of *IDENTIFY: the diagnosis gets off it again, and says what the bound may do. */
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #include <math.h>

@@ -9,6 +9,7 @@
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

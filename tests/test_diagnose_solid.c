@@ -1,5 +1,6 @@
 /* A diagnosis on solids: data of a stepped solid on a finer mesh, judged as a beam and as the solid it is. */
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #include <math.h>

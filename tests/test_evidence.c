@@ -6,6 +6,7 @@
 
 #include "deck/deck.h"
 #include "diagnose/diagnose.h"
+#include "one_state.h"
 #include "support.h"
 
 #define CLOSE  0.3

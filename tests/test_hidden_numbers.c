@@ -1,6 +1,7 @@
 /* Modes of which only frequencies are known, numbered as users do it wrongly (hide_case): the numbers are put right, and no cause
  * is named for them. */
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* tools/power: rotors are drawn over the range that is promised, a run goes on from its log, requirements are judged as stated,
  * and a small run of random rotors ends without an error and without a wrong name. */
+#include "one_state.h"
 #include "support.h"
 
 #include <math.h>

@@ -75,7 +75,7 @@ POOL_TEST(the_library_holds_nothing_of_the_program)
     const char *of_program =
         shell(&test_pool, "cd " ROTID_BUILD "/src && nm -g --defined-only signal/*.o ema/*.o import/*.o report/*.o "
                           "export/*.o study/*.o page/*.o cli/*.o | awk 'NF == 3 { print $3 }' | sort -u");
-    assert_non_null(strstr(held, "\ndeck_read\n")); /* that there is something to be found */
+    assert_non_null(strstr(held, "\ndeck_read_states\n")); /* that there is something to be found */
     assert_non_null(strstr(of_program, "\nestimator_transfer\n"));
     for (line = of_program; *line; line += strcspn(line, "\n") + 1) {
         const char *name = pool_format(&test_pool, "\n%.*s\n", (int)strcspn(line, "\n"), line);

@@ -16,6 +16,7 @@
 #include "base/base.h"
 #include "deck/deck.h"
 #include "folder.h"
+#include "one_state.h"
 #include "support.h"
 
 #define CORPUS      ROTID_SOURCE_DIR "/tests/data/decks/wrong"

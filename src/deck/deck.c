@@ -548,16 +548,3 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
 {
     return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, states);
 }
-
-int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
-              struct job *job)
-{
-    struct states states;
-    int status = read_deck(pool, path, NULL, noverride, override, 0, NULL, messages, &states);
-    *job = states.nstate ? states.state[0].job : (struct job){.deck = path};
-    if (!status && states.nstate > 1) {
-        states_refuse(&states, path, messages);
-        status = ROTID_ERROR_SYNTAX;
-    }
-    return status;
-}

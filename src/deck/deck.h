@@ -4,7 +4,7 @@
 /* deck: input decks (docs/deck.md) to jobs of src/run, and jobs to decks.
  *
  * Comes in: a deck as file or text, --set overrides. Goes out: struct states, one struct job a state, in SI; all errors with
- * file, line, column. Entrances: deck_read_states, deck_read (deck.c). Steps of reading:
+ * file, line, column. Entrance: deck_read_states (deck.c). Steps of reading:
  *   deck_text.c          cards, options, data lines with their places, *INCLUDE; --set
  *   deck_table.c         tables of FILE= (table_text.c) become data lines
  *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
@@ -149,10 +149,6 @@ const struct card_option *card_option(const struct card *card, const char *name)
  * ROTID_ERROR_IO, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION where all that is wrong is a section that cannot be. */
 int deck_read_states(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
                      const struct override *override, struct message_list *messages, struct states *states);
-
-/* The same of a deck that has one state, by itself or by FIT, STATE=NAME; of another SYNTAX. */
-int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
-              struct job *job);
 
 /* All states with cards [ncard] of somebody else behind those of the deck, common to all. They keep their own places, which
  * errors name. */

@@ -637,14 +637,6 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     return status ? status : diagnose(pool, &only, options, environment, notes, out);
 }
 
-int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,
-                 const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
-{
-    struct state state;
-    const struct states states = states_of(job, &state);
-    return diagnose_states(pool, &states, options, environment, notes, out);
-}
-
 void diagnose_free(struct diagnosis *out)
 {
     rotid_fit_free(out->today.fit);

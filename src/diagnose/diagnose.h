@@ -149,9 +149,6 @@ struct diagnosis {
  * fits. An interruption by the environment is no error: what is finished stands in *out with `result.interrupted`. */
 int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
                     const rotid_environment *environment, struct message_list *notes, struct diagnosis *out);
-/* The same of a job, the only state. */
-int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,
-                 const rotid_environment *environment, struct message_list *notes, struct diagnosis *out);
 void diagnose_free(struct diagnosis *out);
 
 /* -------------------------------------------------------------------------------------------------- roving accelerometer */

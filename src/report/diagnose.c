@@ -9,15 +9,14 @@
 #include "report/report.h"
 #include "result/result.h"
 
-#define LABEL     14 /* columns before a strip */
-#define BAR_HALF  14
-#define MARKS     4     /* causes that are drawn */
-#define SET_SHOWN 5     /* candidates of the set, unless verbose */
-#define SHOWN     4     /* of the others */
-#define LISTED    6     /* causes of a set by which a parameter is said */
-#define TINY      1e-12 /* zero but for rounding, in SI units */
-#define SMALL     1e-3  /* shown with a power of ten */
-#define LARGE     1e5
+#define LABEL    14 /* columns before a strip */
+#define BAR_HALF 14
+#define MARKS    4     /* causes that are drawn */
+#define SHOWN    4     /* of the others */
+#define LISTED   6     /* causes of a set by which a parameter is said */
+#define TINY     1e-12 /* zero but for rounding, in SI units */
+#define SMALL    1e-3  /* shown with a power of ten */
+#define LARGE    1e5
 
 /* ---- words of causes */
 

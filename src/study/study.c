@@ -300,7 +300,8 @@ static int check_deck(struct checker *c, int d)
     digest_open(&c->own);
     digest_text(&c->check->decks, plan->deck[d].name);
     digest_text(&c->own, plan->deck[d].name);
-    int status = deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
+    int status =
+        deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read_states says again */
     if (status == ROTID_ERROR_MEMORY)
         return status;
     digest_cards(&c->check->decks, &text);

@@ -191,7 +191,7 @@ struct study_point study_locate(const struct study *study, long run);
 /* The jobs behind a run: the deck as it is to be fitted, and the deck that makes the data. */
 
 /* The deck of a cell in its variant, with its modes; where it does not state the noise that the plan adds, and its functional
- * would be another one for that, or none, with that as *NOISE. Statuses of deck_read. */
+ * would be another one for that, or none, with that as *NOISE. Statuses of deck_read_states. */
 int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                      struct states *states);
 
@@ -242,7 +242,7 @@ struct experiment {
     double length;               /* of the rotor, in the first state [m] */
 };
 
-/* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read,
+/* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read_states,
  * model_open and the prediction; ROTID_ERROR_ARGUMENT where the model has fewer modes than were measured. */
 int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                     struct experiment *experiment);

@@ -713,14 +713,6 @@ int suggest_states(struct pool *pool, const struct states *states, const rotid_s
     return status;
 }
 
-int suggest_run(struct pool *pool, const struct job *job, const rotid_suggest_options *options,
-                const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
-{
-    struct state state;
-    const struct states states = states_of(job, &state);
-    return suggest_states(pool, &states, options, environment, notes, out);
-}
-
 void suggest_free(struct suggestion *out)
 {
     rivals_free(&out->rivals);

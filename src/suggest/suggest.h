@@ -152,12 +152,9 @@ struct suggestion {
 
 /* Of all states of a deck with options as in rotid.h, zeros for the defaults. Everything hangs on the pool except fits:
  * suggest_free, also of an error. Notes go to the list. ROTID_OK; ROTID_ERROR_ARGUMENT where the job has nothing to ask for (the
- * list says what was expected); ROTID_STOP_CANCELLED; any status of diagnose_run and the models. */
+ * list says what was expected); ROTID_STOP_CANCELLED; any status of diagnose_states and the models. */
 int suggest_states(struct pool *pool, const struct states *states, const rotid_suggest_options *options,
                    const rotid_environment *environment, struct message_list *notes, struct suggestion *out);
-/* The same of a job, the only state. */
-int suggest_run(struct pool *pool, const struct job *job, const rotid_suggest_options *options,
-                const rotid_environment *environment, struct message_list *notes, struct suggestion *out);
 void suggest_free(struct suggestion *out);
 
 /* ---------------------------------------------------------------------------------------------------------------- design */

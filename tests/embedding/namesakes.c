@@ -12,7 +12,7 @@ void *pool_get(struct pool *pool, size_t count, size_t size);
 int matrix_add(int a, int b);
 int fit(void);
 void sort_doubles(int count, double *x);
-int deck_read(void);
+int deck_read_states(void);
 
 void *pool_open(struct pool *pool, const void *allocator)
 {
@@ -46,7 +46,7 @@ void sort_doubles(int count, double *x)
     called++;
 }
 
-int deck_read(void)
+int deck_read_states(void)
 {
     called++;
     return 8;
@@ -87,7 +87,7 @@ int main(void)
     pool_open(NULL, NULL);
     pool_get(NULL, 1, 1);
     sort_doubles(0, NULL);
-    if (matrix_add(2, 3) != 5 || fit() != 7 || deck_read() != 8 || called != 6)
+    if (matrix_add(2, 3) != 5 || fit() != 7 || deck_read_states() != 8 || called != 6)
         return 2;
     printf("ok %s\n", rotid_version());
     return 0;

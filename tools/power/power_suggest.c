@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "deck/deck.h"
+#include "one_state.h"
 #include "power.h"
 #include "suggest/suggest.h"
 
