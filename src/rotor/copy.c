@@ -1,3 +1,6 @@
+#include <stddef.h>
+#include <string.h>
+
 #include "rotor/rotor.h"
 
 static const double gravity = 9.81; /* m/s2: the value the paper's table of the rotor rests on */
@@ -33,119 +36,75 @@ void rotor_set_sling(struct rotor *rotor, double mass, double center)
     spring[1].lateral = weight * center / (length * length + center * rotor->sling);
 }
 
-/* ------------------------------------------------------------------------------------------------ shape */
+/* ------------------------------------------------------------------------------------------------ shape and values */
 
-static int same_segments(const struct rotor *a, const struct rotor *b)
-{
-    for (int i = 0; i < a->nsegment; i++) {
-        const struct segment *x = &a->segment[i], *y = &b->segment[i];
-        if (x->group != y->group || x->elements != y->elements || x->rectangular != y->rectangular || x->length != y->length ||
-            x->outer != y->outer || x->inner != y->inner || x->stiff_outer != y->stiff_outer || x->height != y->height ||
-            x->width != y->width)
-            return 0;
+/* Members that stand side by side in a struct, without a gap. */
+struct span {
+    size_t from, end;
+};
+#define SPAN(S, FIRST, LAST)                                                                                                     \
+    {                                                                                                                            \
+        offsetof(S, FIRST), offsetof(S, LAST) + sizeof(((S *)0)->LAST)                                                           \
     }
+/* Of a material all that no parameter can change, and what one can. */
+#define KIND(S)  SPAN(S, material.isotropic, material.stacking)
+#define STATE(S) SPAN(S, material.e, material.rho)
+#define LIST(M)  offsetof(struct rotor, M), offsetof(struct rotor, n##M), sizeof(struct M)
+
+/* The lists of a rotor; of their structs what a mesh follows from, and what the values of a model are. */
+static const struct list {
+    size_t list, count, size;
+    struct span shape[4], values[2];
+} lists[] = {
+    {LIST(group),
+     {KIND(struct group), SPAN(struct group, holes, holes), SPAN(struct group, hole_diameter, preload),
+      SPAN(struct group, layer_of, layer_of)},
+     {STATE(struct group)}},
+    {LIST(segment), {SPAN(struct segment, group, rectangular), SPAN(struct segment, length, width)}, {{0}}},
+    {LIST(ring), {SPAN(struct ring, group, inner)}, {{0}}},
+    {LIST(tierod),
+     {KIND(struct tierod), SPAN(struct tierod, from, pitch)},
+     {STATE(struct tierod), SPAN(struct tierod, tension, tension)}},
+    {LIST(bars),
+     {KIND(struct bars), STATE(struct bars), SPAN(struct bars, center, elements), SPAN(struct bars, diameter, pitch)},
+     {{0}}},
+    {LIST(disk),
+     {SPAN(struct disk, position, position), SPAN(struct disk, hub_length, hub_outer)},
+     {SPAN(struct disk, mass, diametral)}},
+    {LIST(spring), {SPAN(struct spring, position, position)}, {SPAN(struct spring, lateral, rotational)}},
+    {LIST(sensor), {SPAN(struct sensor, position, position)}, {{0}}},
+    {LIST(effect), {SPAN(struct effect, kind, variant)}, {SPAN(struct effect, value, value)}},
+};
+#define LISTS (sizeof lists / sizeof *lists)
+
+static int count_of(const struct rotor *rotor, const struct list *list)
+{
+    return *(const int *)((const char *)rotor + list->count);
+}
+
+static int same_items(const struct rotor *a, const struct rotor *b, const struct list *list, int nspan, const struct span *span)
+{
+    const char *one = *(const char *const *)((const char *)a + list->list),
+               *other = *(const char *const *)((const char *)b + list->list);
+    for (int i = 0; i < count_of(a, list); i++, one += list->size, other += list->size)
+        for (int s = 0; s < nspan && span[s].end; s++)
+            if (memcmp(one + span[s].from, other + span[s].from, span[s].end - span[s].from) != 0)
+                return 0;
     return 1;
-}
-
-static int same_rings(const struct rotor *a, const struct rotor *b)
-{
-    for (int i = 0; i < a->nring; i++) {
-        const struct ring *x = &a->ring[i], *y = &b->ring[i];
-        if (x->group != y->group || x->segment != y->segment || x->outer != y->outer || x->inner != y->inner)
-            return 0;
-    }
-    return 1;
-}
-
-/* of a material all that no parameter can change */
-static int same_kind(const struct material *a, const struct material *b)
-{
-    return a->isotropic == b->isotropic && a->laminated == b->laminated && a->sheet_e == b->sheet_e && a->stacking == b->stacking;
-}
-
-static int same_groups(const struct rotor *a, const struct rotor *b)
-{
-    for (int i = 0; i < a->ngroup; i++) {
-        const struct group *x = &a->group[i], *y = &b->group[i];
-        if (!same_kind(&x->material, &y->material) || x->layer_of != y->layer_of || x->holes != y->holes ||
-            x->hole_diameter != y->hole_diameter || x->hole_pitch != y->hole_pitch || x->preload != y->preload)
-            return 0;
-    }
-    return 1;
-}
-
-static int same_tierods(const struct rotor *a, const struct rotor *b)
-{
-    for (int i = 0; i < a->ntierod; i++) {
-        const struct tierod *x = &a->tierod[i], *y = &b->tierod[i];
-        if (!same_kind(&x->material, &y->material) || x->from != y->from || x->to != y->to || x->model != y->model ||
-            x->self_equilibrated != y->self_equilibrated || x->number != y->number || x->elements != y->elements ||
-            x->diameter != y->diameter || x->pitch != y->pitch)
-            return 0;
-    }
-    return 1;
-}
-
-static int same_material(const struct material *a, const struct material *b)
-{
-    return a->e == b->e && a->g == b->g && a->nu == b->nu && a->rho == b->rho;
-}
-
-static int same_bars(const struct rotor *a, const struct rotor *b)
-{
-    for (int i = 0; i < a->nbars; i++) {
-        const struct bars *x = &a->bars[i], *y = &b->bars[i];
-        if (!same_kind(&x->material, &y->material) || !same_material(&x->material, &y->material) || x->center != y->center ||
-            x->length != y->length || x->model != y->model || x->number != y->number || x->elements != y->elements ||
-            x->diameter != y->diameter || x->pitch != y->pitch)
-            return 0;
-    }
-    return 1;
-}
-
-static int same_places(const struct rotor *a, const struct rotor *b)
-{
-    int same = 1;
-    for (int i = 0; i < a->ndisk; i++)
-        same &= a->disk[i].position == b->disk[i].position && a->disk[i].hub_length == b->disk[i].hub_length &&
-                a->disk[i].hub_outer == b->disk[i].hub_outer;
-    for (int i = 0; i < a->nspring; i++)
-        same &= a->spring[i].position == b->spring[i].position;
-    for (int i = 0; i < a->nsensor; i++)
-        same &= a->sensor[i].position == b->sensor[i].position;
-    return same;
-}
-
-static int same_effects(const struct rotor *a, const struct rotor *b)
-{
-    int same = 1;
-    for (int i = 0; i < a->neffect; i++)
-        same &= a->effect[i].kind == b->effect[i].kind && a->effect[i].target == b->effect[i].target &&
-                a->effect[i].variant == b->effect[i].variant;
-    return same;
 }
 
 int rotor_same_shape(const struct rotor *a, const struct rotor *b)
 {
-    return a->ngroup == b->ngroup && a->nsegment == b->nsegment && a->nring == b->nring && a->ntierod == b->ntierod &&
-           a->nbars == b->nbars && a->ndisk == b->ndisk && a->nspring == b->nspring && a->nsensor == b->nsensor &&
-           a->neffect == b->neffect && a->sling == b->sling && same_segments(a, b) && same_rings(a, b) && same_groups(a, b) &&
-           same_tierods(a, b) && same_bars(a, b) && same_places(a, b) && same_effects(a, b);
+    int same = a->sling == b->sling;
+    for (size_t i = 0; i < LISTS && same; i++)
+        same = count_of(a, &lists[i]) == count_of(b, &lists[i]) && same_items(a, b, &lists[i], 4, lists[i].shape);
+    return same;
 }
 
 int rotor_same_values(const struct rotor *a, const struct rotor *b)
 {
     int same = a->count_all == b->count_all;
-    for (int i = 0; i < a->ngroup; i++)
-        same &= same_material(&a->group[i].material, &b->group[i].material);
-    for (int i = 0; i < a->ntierod; i++)
-        same &= same_material(&a->tierod[i].material, &b->tierod[i].material) && a->tierod[i].tension == b->tierod[i].tension;
-    for (int i = 0; i < a->ndisk; i++)
-        same &= a->disk[i].mass == b->disk[i].mass && a->disk[i].diametral == b->disk[i].diametral;
-    for (int i = 0; i < a->nspring; i++)
-        same &= a->spring[i].lateral == b->spring[i].lateral && a->spring[i].rotational == b->spring[i].rotational;
-    for (int i = 0; i < a->neffect; i++)
-        for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
-            same &= a->effect[i].value[p] == b->effect[i].value[p];
+    for (size_t i = 0; i < LISTS && same; i++)
+        same = same_items(a, b, &lists[i], 2, lists[i].values);
     return same;
 }
