@@ -459,7 +459,6 @@ struct deck_edit {
     struct pool *pool;
     const struct deck_origin *origin;
     int npart, nstate, running, status; /* running: of the part at hand, *RUNNING has been met */
-    size_t room;
     struct deck_part *part;
 };
 

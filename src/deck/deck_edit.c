@@ -140,13 +140,10 @@ const char *deck_edit_option(const struct deck_part *part, const char *name, siz
 
 static struct deck_part *add_part(struct deck_edit *e)
 {
-    struct deck_part *grown = pool_grow(e->pool, e->part, (size_t)e->npart, &e->room, sizeof *grown);
-    if (!grown) {
-        e->status = ROTID_ERROR_MEMORY;
-        return NULL;
-    }
-    e->part = grown;
-    return memset(&e->part[e->npart++], 0, sizeof *e->part);
+    static const struct deck_part none;
+    int failed = POOL_ADD(e->pool, e->part, e->npart, &none);
+    e->status = failed ? ROTID_ERROR_MEMORY : e->status;
+    return failed ? NULL : &e->part[e->npart - 1];
 }
 
 /* A path as an option of a part names it, as the reader saw it. */

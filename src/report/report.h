@@ -335,7 +335,6 @@ struct table {
     int failed;                 /* memory was out */
     const char *caption, *note; /* note: what a reader has to know of it, under the table; NULL: nothing */
     int ncolumns, nrows, ncells;
-    size_t column_room, cell_room;
     struct table_column *column;
     struct table_cell *cell; /* by rows */
     double row_factor;       /* of the unit of the row */

@@ -39,17 +39,11 @@ static struct table_column *next_column(struct table *table, const char *name, c
         return NULL;
     if (table->nrows > 1)
         return &table->column[table->ncells % table->ncolumns];
-    struct table_column *column =
-        pool_grow(table->pool, table->column, (size_t)table->ncolumns, &table->column_room, sizeof *table->column);
-    if (!column || !name) {
-        table->failed = 1;
-        return NULL;
-    }
-    table->column = column;
-    column[table->ncolumns] = (struct table_column){name, unit, unit, show, 1};
+    struct table_column column = {name, unit, unit, show, 1};
     if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))
-        take_unit(table->pool, &column[table->ncolumns], human_unit(1, unit));
-    return &column[table->ncolumns++];
+        take_unit(table->pool, &column, human_unit(1, unit));
+    table->failed |= !name || POOL_ADD(table->pool, table->column, table->ncolumns, &column);
+    return table->failed ? NULL : &table->column[table->ncolumns - 1];
 }
 
 void row_note(struct table *table, const char *text)
@@ -63,13 +57,7 @@ void row_note(struct table *table, const char *text)
 
 static void add_cell(struct table *table, struct table_cell is)
 {
-    struct table_cell *cell = pool_grow(table->pool, table->cell, (size_t)table->ncells, &table->cell_room, sizeof *table->cell);
-    if (!cell || !is.text) {
-        table->failed = 1;
-        return;
-    }
-    table->cell = cell;
-    cell[table->ncells++] = is;
+    table->failed |= !is.text || POOL_ADD(table->pool, table->cell, table->ncells, &is);
 }
 
 void table_row(struct table *table)

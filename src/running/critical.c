@@ -194,7 +194,6 @@ static int is_taken(const struct system *s, int count, const struct critical *al
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical,
                    double *missed)
 {
-    size_t room = 0;
     struct pair near = {.u = NULL};
     *count = 0;
     *critical = NULL;
@@ -205,25 +204,23 @@ int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, 
             double from = t->speed[i], to = t->speed[i + 1];
             if (!is_there(a) || !is_there(b) || (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0)
                 continue;
-            struct critical *grown = pool_grow(pool, *critical, (size_t)*count, &room, sizeof *grown);
             struct critical c = {.mode = m};
-            if (!grown || pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
+            if (pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
                 return ROTID_ERROR_MEMORY;
-            *critical = grown;
             /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
             int lost = 1, taken = 0;
             for (int least = 1; least <= FINEST && lost; least *= 16)
                 for (int back = 0; back < 2 && lost; back++) {
                     pair_copy(s->size, back ? b : a, &c.pair);
                     lost = cross(s, back ? to : from, back ? from : to, h, least, &c, near);
-                    taken = !lost && (back || least > 1) && is_taken(s, *count, grown, &c);
+                    taken = !lost && (back || least > 1) && is_taken(s, *count, *critical, &c);
                 }
             if (taken)
                 continue;
             if (lost)
                 *missed = fmin(*missed, from);
-            else if (!is_known(*count, grown, &c))
-                grown[(*count)++] = c;
+            else if (!is_known(*count, *critical, &c) && POOL_ADD(pool, *critical, *count, &c))
+                return ROTID_ERROR_MEMORY;
         }
     if (*count)
         qsort(*critical, (size_t)*count, sizeof **critical, by_speed);

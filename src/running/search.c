@@ -83,7 +83,6 @@ static double row_between(const struct coefficients *all, double from, double le
  * mode may fall below the speed on one side and rise above it on the other. */
 static int between_speeds(struct pool *pool, const struct search *s, double to, int *count, double **speed)
 {
-    size_t room = 0;
     *count = 0;
     for (int i = 0; i < s->count; i++)
         for (double at = i ? s->speed[i - 1] : s->speed[0], end = s->speed[i], next = at; next < end || (!i && !*count);
@@ -94,11 +93,8 @@ static int between_speeds(struct pool *pool, const struct search *s, double to, 
                 next = row_between(&s->machine->bearing[b].film, at, ROWS * to, next);
                 next = row_between(&s->machine->bearing[b].pedestal, at, ROWS * to, next);
             }
-            double *grown = pool_grow(pool, *speed, (size_t)*count, &room, sizeof *grown);
-            if (!grown)
+            if (POOL_ADD(pool, *speed, *count, &next))
                 return ROTID_ERROR_MEMORY;
-            *speed = grown;
-            grown[(*count)++] = next;
         }
     return ROTID_OK;
 }

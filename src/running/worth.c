@@ -25,7 +25,6 @@ struct worth {
     double *gradient;          /* [n] */
     double *known;             /* [n^2] C^-1 as measured */
     double *information, *work;
-    size_t room;
     rotid_suggestion *out;
 };
 
@@ -114,10 +113,8 @@ static void add_test(struct worth *w, const char *text, int count, const int *nu
                      double finer)
 {
     rotid_suggestion *out = w->out;
-    rotid_speed_test *grown = pool_grow(w->pool, out->speed_tests, (size_t)out->nspeed_tests, &w->room, sizeof *grown);
-    if (!grown || !text)
+    if (!text)
         return;
-    out->speed_tests = grown;
     memcpy(w->information, w->known, (size_t)w->n * (size_t)w->n * sizeof *w->information);
     for (int i = 0; i < count; i++)
         for (int q = 0; q < w->at_rest; q++)
@@ -126,8 +123,9 @@ static void add_test(struct worth *w, const char *text, int count, const int *nu
                                                            rows[number[i] - 1 + (ptrdiff_t)highest * q] * finer * finer /
                                                            w->noise / w->noise;
     double std = deviation(w, w->information) * w->speed / RPM;
-    grown[out->nspeed_tests++] =
-        (rotid_speed_test){.test = text, .modes = count, .std_rpm = std, .narrowed_percent = 100 * (1 - std / out->speed_std)};
+    const rotid_speed_test test = {
+        .test = text, .modes = count, .std_rpm = std, .narrowed_percent = 100 * (1 - std / out->speed_std)};
+    (void)POOL_ADD(w->pool, out->speed_tests, out->nspeed_tests, &test); /* memory: the pool tells */
 }
 
 static int add_masses(struct worth *w, int count, const int *number, int highest)

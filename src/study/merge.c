@@ -24,7 +24,7 @@ struct merger {
     char *const *path;
     struct study_header header; /* of the first part */
     int nentry;
-    size_t entry_room, most; /* most: bytes of the longest line */
+    size_t most; /* most: bytes of the longest line */
     struct part_line *entry;
     struct result_place *place; /* [runs] of the line that is taken */
 };
@@ -61,11 +61,9 @@ static int add_part(struct merger *m, int part, int *descriptor)
     for (long run = 0; !status && run < file.header.runs; run++) {
         if (!file.place[run].length)
             continue;
-        struct part_line *grown = pool_grow(m->pool, m->entry, (size_t)m->nentry, &m->entry_room, sizeof *grown);
-        if (!grown)
+        const struct part_line entry = {run, part, file.place[run]};
+        if (POOL_ADD(m->pool, m->entry, m->nentry, &entry))
             return ROTID_ERROR_MEMORY;
-        m->entry = grown;
-        grown[m->nentry++] = (struct part_line){run, part, file.place[run]};
     }
     m->most = !status && file.most > m->most ? file.most : m->most;
     return status;

@@ -175,11 +175,9 @@ static int keep_files(struct checker *c, const struct states *states)
             known++;
         if (known < study->nfile)
             continue;
-        const char **grown = pool_grow(c->pool, study->file, (size_t)study->nfile, &study->file_room, sizeof *grown);
-        if (!grown || !(grown[study->nfile] = pool_copy_text(c->pool, job->file[i])))
+        const char *file = pool_copy_text(c->pool, job->file[i]);
+        if (!file || POOL_ADD(c->pool, study->file, study->nfile, &file))
             return ROTID_ERROR_MEMORY;
-        study->file = grown;
-        study->nfile++;
     }
     return ROTID_OK;
 }

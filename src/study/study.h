@@ -171,7 +171,6 @@ struct study {
     const char **input;      /* [runs] digests of the decks of a study of decks, which may change between two starts; else NULL */
     long runs;
     int nfile;
-    size_t file_room;
     const char **file; /* what the decks are read from, where they can be read */
     char plan_digest[DIGEST_LETTERS + 1], decks_digest[DIGEST_LETTERS + 1], data_digest[DIGEST_LETTERS + 1],
         options_digest[DIGEST_LETTERS + 1];

@@ -31,7 +31,6 @@ struct cell_sums {
     struct study_cell_result said; /* numbers of runs and seconds grow with the runs, the rest follows at the end */
     struct cell_diagnoses diagnoses;
     int last_start, nparameter, nobjective, scored;
-    size_t parameter_room, objective_room, named_room;
     struct parameter_sums *parameter;
     struct objective *objective;
     int fitted, held_out;                  /* frequencies */
@@ -44,7 +43,6 @@ struct sums {
     struct pool *pool;
     struct study_result *out;
     int ncell;
-    size_t cell_room, error_room;
     struct cell_sums *cell;
     int failed; /* memory was out */
 };
@@ -62,33 +60,22 @@ static const char *keep(struct sums *s, const char *text)
     return copy;
 }
 
-/* The array with room for one more element; NULL: memory is out. */
-static void *grow(struct sums *s, void *list, int count, size_t *room, size_t size)
-{
-    void *grown = pool_grow(s->pool, list, (size_t)count, room, size);
-    s->failed |= !grown;
-    return grown;
-}
-
 static struct cell_sums *find_cell(struct sums *s, const struct study_run *run)
 {
     const struct study_axes *axes = &run->cell;
     for (int i = s->ncell - 1; i >= 0; i--) /* runs of a cell follow each other */
         if (summary_same_cell(&s->cell[i].said.cell, axes))
             return &s->cell[i];
-    struct cell_sums *grown = grow(s, s->cell, s->ncell, &s->cell_room, sizeof *grown);
-    if (!grown)
-        return NULL;
-    s->cell = grown;
-    grown[s->ncell] = (struct cell_sums){.said = {.cell = {.deck = keep(s, axes->deck),
-                                                           .variant = keep(s, axes->variant),
-                                                           .modes = keep(s, axes->modes),
-                                                           .sensors = keep(s, axes->sensors),
-                                                           .noise_frequency = axes->noise_frequency,
-                                                           .noise_shape = axes->noise_shape,
-                                                           .hide = keep(s, axes->hide)},
-                                                  .first_run = run->run}};
-    return &s->cell[s->ncell++];
+    const struct cell_sums cell = {.said = {.cell = {.deck = keep(s, axes->deck),
+                                                     .variant = keep(s, axes->variant),
+                                                     .modes = keep(s, axes->modes),
+                                                     .sensors = keep(s, axes->sensors),
+                                                     .noise_frequency = axes->noise_frequency,
+                                                     .noise_shape = axes->noise_shape,
+                                                     .hide = keep(s, axes->hide)},
+                                            .first_run = run->run}};
+    s->failed |= POOL_ADD(s->pool, s->cell, s->ncell, &cell);
+    return s->failed ? NULL : &s->cell[s->ncell - 1];
 }
 
 static void add_error(struct sums *s, const struct study_run *run)
@@ -100,11 +87,8 @@ static void add_error(struct sums *s, const struct study_run *run)
             out->errors[i].runs++;
             return;
         }
-    struct study_error *grown = grow(s, out->errors, out->nerrors, &s->error_room, sizeof *grown);
-    if (!grown)
-        return;
-    out->errors = grown;
-    out->errors[out->nerrors++] = (struct study_error){keep(s, text), 1, run->run};
+    const struct study_error error = {keep(s, text), 1, run->run};
+    s->failed |= POOL_ADD(s->pool, out->errors, out->nerrors, &error);
 }
 
 static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter)
@@ -112,13 +96,10 @@ static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *c
     for (int p = 0; p < cell->nparameter; p++)
         if (!strcmp(cell->parameter[p].said.name, parameter->name))
             return &cell->parameter[p];
-    struct parameter_sums *grown = grow(s, cell->parameter, cell->nparameter, &cell->parameter_room, sizeof *grown);
-    if (!grown)
-        return NULL;
-    cell->parameter = grown;
-    grown[cell->nparameter] = (struct parameter_sums){
+    const struct parameter_sums sums = {
         .said = {.name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY}};
-    return s->failed ? NULL : &cell->parameter[cell->nparameter++];
+    s->failed |= POOL_ADD(s->pool, cell->parameter, cell->nparameter, &sums);
+    return s->failed ? NULL : &cell->parameter[cell->nparameter - 1];
 }
 
 static void add_value(struct parameter_sums *p, const rotid_fitted_parameter *parameter, double truth)
@@ -193,11 +174,8 @@ static void add_modes(struct cell_sums *cell, const rotid_identification *fit)
 
 static void add_objective(struct sums *s, struct cell_sums *cell, const struct study_run *run, int usable)
 {
-    struct objective *grown = grow(s, cell->objective, cell->nobjective, &cell->objective_room, sizeof *grown);
-    if (!grown)
-        return;
-    cell->objective = grown;
-    grown[cell->nobjective++] = (struct objective){run->replicate, usable ? run->fit->objective : NAN};
+    const struct objective objective = {run->replicate, usable ? run->fit->objective : NAN};
+    s->failed |= POOL_ADD(s->pool, cell->objective, cell->nobjective, &objective);
 }
 
 static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
@@ -208,11 +186,8 @@ static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
             d->named[i].value++;
             return;
         }
-    rotid_component *grown = grow(s, d->named, d->nnamed, &cell->named_room, sizeof *grown);
-    if (!grown)
-        return;
-    d->named = grown;
-    grown[d->nnamed++] = (rotid_component){.name = keep(s, id), .value = 1};
+    const rotid_component named = {.name = keep(s, id), .value = 1};
+    s->failed |= POOL_ADD(s->pool, d->named, d->nnamed, &named);
 }
 
 static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct study_run *run)
