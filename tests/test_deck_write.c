@@ -590,6 +590,21 @@ POOL_TEST(what_no_deck_can_say_is_refused)
     assert_status(status_of(&given, &meant, &said), ROTID_ERROR_ARGUMENT);
 }
 
+/* The text is edited by the lists that the reader finds: measured critical speeds come first in HOLDOUT. */
+POOL_TEST(a_list_behind_the_run_up_is_one_option)
+{
+    struct deck_edit e;
+    struct deck_writer w = {.pool = &test_pool};
+    size_t length = 0;
+    assert_status(deck_edit_open_flat(&e, &test_pool, "bar.inp", "*FIT, HOLDOUT=RUNUP, 1, STATE:free, MODES=2,3\n"), ROTID_OK);
+    const char *value = deck_edit_option(&e.part[0], "HOLDOUT", &length), expected[] = "RUNUP, 1, STATE:free";
+    assert_int_equal(length, sizeof expected - 1);
+    assert_memory_equal(value, expected, length);
+    deck_edit_set(&e, 0, "HOLDOUT", "RUNUP");
+    deck_edit_text(&e, &w, NULL, 0);
+    assert_string_equal(w.text, "*FIT, HOLDOUT=RUNUP, MODES=2,3\n");
+}
+
 POOL_TEST(without_memory_nothing_is_written)
 {
     const struct states given = read_states(BAR UNKNOWN FREE HELD), meant = changed(&given, 1);

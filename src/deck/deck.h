@@ -139,6 +139,10 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
 /* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
 int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text);
 
+/* Whether the piece [begin, end) between two commas goes on with a list, which is the value of the option before it or begins
+ * with that: of numbers, or of states. */
+int deck_text_is_next_item(const char *list, const char *begin, const char *end);
+
 /* The option of that name, or NULL. */
 const struct card_option *card_option(const struct card *card, const char *name);
 

@@ -72,15 +72,6 @@ static struct span piece_of(const char *begin, const char *last)
     return s;
 }
 
-/* Whether a piece goes on with the list of the option before it, as the reader has it. */
-static int goes_on(const struct span *list, const struct span *piece)
-{
-    if (!list->value || piece->value)
-        return 0;
-    return (isdigit((unsigned char)*piece->name) && isdigit((unsigned char)*list->value)) ||
-           (piece->end - piece->name > 6 && !strncasecmp(piece->name, "STATE:", 6) && !strncasecmp(list->value, "STATE:", 6));
-}
-
 static int is_called(const struct span *s, const char *name)
 {
     return (size_t)(s->name_end - s->name) == strlen(name) && !strncasecmp(s->name, name, strlen(name));
@@ -106,7 +97,7 @@ static int find_option(const struct deck_part *part, const char *name, struct sp
             if (first) {
                 *last = piece.end;
             } else if (piece.end > piece.name) {
-                if (goes_on(&before, &piece)) {
+                if (before.value && deck_text_is_next_item(before.value, piece.name, piece.end)) {
                     before.end = piece.end;
                 } else {
                     before = piece;

@@ -148,8 +148,7 @@ static struct place at(const struct reader *reader, const char *line_begin, cons
     return (struct place){reader->open_file[reader->depth], line, (int)(here - line_begin) + 1};
 }
 
-/* Whether a piece goes on with a list: of numbers, or of states. */
-static int is_next_item(const char *list, const char *begin, const char *end)
+int deck_text_is_next_item(const char *list, const char *begin, const char *end)
 {
     int runup = !strncasecmp(list, "RUNUP", 5); /* which comes first in a HOLDOUT */
     int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && (runup || !strncasecmp(list, "STATE:", 6));
@@ -167,7 +166,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
         return;
     const char *equals = memchr(begin, '=', (size_t)(end - begin));
     struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
-    if (list && is_next_item(list->value, begin, end)) {
+    if (list && deck_text_is_next_item(list->value, begin, end)) {
         char *item = copy_span(reader, begin, end), *longer = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
         if (longer)
             list->value = longer;
