@@ -359,26 +359,10 @@ static int is_blank(char c)
     return c == ' ' || c == '\t';
 }
 
-/* Blank-separated fields, at most `limit` of them. */
-static int uff_split_blanks(const struct uff_lines *lines, struct uff_field *field, int limit)
-{
-    int count = 0;
-    for (size_t i = 0; i < lines->length && count < limit;) {
-        if (is_blank(lines->text[i])) {
-            ++i;
-            continue;
-        }
-        size_t start = i;
-        while (i < lines->length && !is_blank(lines->text[i]))
-            ++i;
-        field[count++] = (struct uff_field){start, i - start};
-    }
-    return count;
-}
-
-/* As uff_split_blanks, but a field also ends where a sign cannot belong to it any more, as in -1.00000e+00-2.00000e+00: behind an
- * exponent, or where the number has no point (a sign behind digits with a point is an exponent without its letter). */
-static int uff_split_signs(const struct uff_lines *lines, struct uff_field *field, int limit)
+/* Blank-separated fields, at most `limit` of them. signs: a field also ends where a sign cannot belong to it any more, as in
+ * -1.00000e+00-2.00000e+00: behind an exponent, or where the number has no point (a sign behind digits with a point is an
+ * exponent without its letter). */
+static int split(const struct uff_lines *lines, int signs, struct uff_field *field, int limit)
 {
     int count = 0;
     for (size_t i = 0; i < lines->length && count < limit;) {
@@ -391,7 +375,7 @@ static int uff_split_signs(const struct uff_lines *lines, struct uff_field *fiel
         for (; i < lines->length && !is_blank(lines->text[i]); ++i) {
             char c = lines->text[i];
             int letter_before = i > start && memchr("eEdDqQ", lines->text[i - 1], 6) != NULL;
-            if ((c == '-' || c == '+') && i > start && !letter_before) {
+            if (signs && (c == '-' || c == '+') && i > start && !letter_before) {
                 if (exponent || !point)
                     break;
                 exponent = 1;
@@ -492,7 +476,7 @@ int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const c
     int total = form->integers + form->reals;
 
     int bad = 0;
-    int found = uff_split_blanks(lines, blank, total + 1);
+    int found = split(lines, 0, blank, total + 1);
     enum uff_fault fault = UFF_FAULT_COUNT;
     if (found == total)
         fault = parse_fields(lines, form, blank, 0, &bad, integer, real);
@@ -517,7 +501,7 @@ int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const c
         return ROTID_OK;
 
     int bad_sign = 0;
-    if (uff_split_signs(lines, sign, total + 1) == total &&
+    if (split(lines, 1, sign, total + 1) == total &&
         parse_fields(lines, form, sign, 1, &bad_sign, integer, real) == UFF_FAULT_NONE)
         return ROTID_OK;
 
@@ -568,7 +552,7 @@ int uff_parse_values(struct uff_lines *lines, int columns, const int *width, lon
 {
     struct uff_field blank[UFF_VALUE_LIMIT + 1], column[UFF_VALUE_LIMIT], sign[UFF_VALUE_LIMIT + 1];
     int bad = 0, bad_column = 0, bad_sign = 0, due = left < columns ? (int)left : columns;
-    int found = uff_split_blanks(lines, blank, UFF_VALUE_LIMIT + 1);
+    int found = split(lines, 0, blank, UFF_VALUE_LIMIT + 1);
     /* more than are left only as filling of the last line */
     int fits = found > 0 && found <= UFF_VALUE_LIMIT && (found <= left || found <= columns) &&
                (found >= due || !has_hole(columns, width, found, blank));
@@ -587,7 +571,7 @@ int uff_parse_values(struct uff_lines *lines, int columns, const int *width, lon
     if (column_fault == UFF_FAULT_NONE)
         return ROTID_OK;
     *taken = due;
-    if (uff_split_signs(lines, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
+    if (split(lines, 1, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
         return ROTID_OK;
     if (column_fault == UFF_FAULT_NOT_FINITE)
         return uff_fail_field(lines, what, column_fault, column[bad_column], 0, expected);
@@ -602,7 +586,7 @@ int uff_parse_values(struct uff_lines *lines, int columns, const int *width, lon
 static int on_this_line(const struct uff_lines *lines, int left, int columns)
 {
     struct uff_field field[UFF_VALUE_LIMIT + 3];
-    return left <= columns || uff_split_blanks(lines, field, left + 1) == left ? left : columns;
+    return left <= columns || split(lines, 0, field, left + 1) == left ? left : columns;
 }
 
 int uff_read_reals(struct uff_lines *lines, int count, int columns, int width, const char *what, double *real)
@@ -647,7 +631,7 @@ int uff_find_integers(const struct uff_lines *lines, int count, const int *start
         return 1;
 
     struct uff_field token[UFF_VALUE_LIMIT];
-    int tokens = uff_split_blanks(lines, token, UFF_VALUE_LIMIT);
+    int tokens = split(lines, 0, token, UFF_VALUE_LIMIT);
     for (int i = 0; i < count; ++i) {
         if (field[i] >= tokens)
             return 0;
@@ -678,7 +662,7 @@ int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_colu
             bad = i;
     }
     struct uff_field token[UFF_CELL_LIMIT + 1];
-    if (bad < 0 || uff_split_blanks(lines, token, count + 1) != count)
+    if (bad < 0 || split(lines, 0, token, count + 1) != count)
         return bad;
     struct uff_cell other[UFF_CELL_LIMIT];
     for (int i = 0; i < count; ++i)
