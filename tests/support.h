@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -63,12 +64,8 @@ int test_main(int argc, char **argv);
 void set_blas_threads(int threads);
 int blas_threads(void);
 
-/* Sweeps of whole diagnoses go in steps so many times as large where each is ten times as slow. */
-#ifdef __SANITIZE_ADDRESS__
-#define SPARSE 3
-#else
-#define SPARSE 1
-#endif
+/* Sweeps of whole diagnoses go in steps so many times as large, unless make test-long has them whole. */
+#define SPARSE (getenv("ROTID_LONG") ? 1 : 3)
 
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)

@@ -483,8 +483,8 @@ UNIT_TEST(out_of_memory_at_any_point)
     failing_allocator_open(&failing, 0);
     assert_status(run_in(&r.job, &failing, &host, NULL), ROTID_OK);
     long served = failing.served;
-    for (int i = 0; i < 16; i++) {
-        long n = i < 4 ? i + 1 : i == 15 ? served : 1 + (long)((double)served * random_uniform(&stream));
+    for (int i = 0, last = 24 / SPARSE - 1; i <= last; i++) {
+        long n = i < 4 ? i + 1 : i == last ? served : 1 + (long)((double)served * random_uniform(&stream));
         host = (struct host){.stop_at_stage = -1};
         failing_allocator_open(&failing, n);
         int status = run_in(&r.job, &failing, &host, NULL);
