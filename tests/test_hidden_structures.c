@@ -110,3 +110,37 @@ UNIT_TEST(causes_of_small_structures_are_found)
     rmdir(directory);
     assert_int_equal(bad, 0);
 }
+
+static void look_for_shared_noise(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                                  const struct hidden_score *score)
+{
+    (void)c, (void)truth, (void)score;
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        *(int *)context |= strstr(d->result.data_findings[i].text, "is correlated") != NULL;
+}
+
+/* Of 15 sensors and four modes the correlation of white noise scatters by 0.23: seed 12 has one of 0.5. */
+UNIT_TEST(noise_that_sensors_share_is_told_from_chance)
+{
+    static const struct {
+        int modes, sensors;
+        uint64_t seed;
+        double correlation;
+    } noise[] = {{4, 15, 12, 0}, {4, 15, 71, 0}, {5, 40, 1, 0.7}};
+    strcpy(directory, "/tmp/structures.XXXXXX");
+    assert_non_null(mkdtemp(directory));
+    for (size_t i = 0; i < sizeof noise / sizeof *noise; i++) {
+        struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = (int)i};
+        struct hidden_score score = {0};
+        int told = 0;
+        c.request.deck = strip;
+        c.request.name = "structure.inp";
+        c.request.seed = noise[i].seed;
+        c.request.modes = noise[i].modes;
+        c.request.sensors = noise[i].sensors;
+        c.request.correlation = noise[i].correlation;
+        assert_int_equal(hidden_run(&c, NULL, look_for_shared_noise, &told, &score), 0);
+        assert_int_equal(told, noise[i].correlation > 0);
+    }
+    rmdir(directory);
+}

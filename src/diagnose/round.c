@@ -17,7 +17,8 @@
 #define NOISIER    3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define MISJUDGED  1.15 /* times the stated noise: less is no finding */
 #define CERTAIN    3.29 /* standard deviations, two-sided 0.001 */
-#define SHARED     0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
+#define SMOOTH     0.2  /* what a smooth misfit adds to the correlation of neighbours */
+#define SCATTER    1.6  /* of that of white noise, times the root of the number of second differences */
 #define LITTLE     2.0  /* chi2 a residual: with more, it is not noise that is left */
 #define SLIGHT     0.05 /* excess of the smooth part of the noise that changes no verdict */
 
@@ -47,8 +48,8 @@ static int is_misstated(const struct engine *engine, double factor, int rows)
 }
 
 /* Correlation between neighbours and level of the noise from differences, which a smooth misfit hardly touches: first differences
- * have the variance 2 sigma^2 (1 - rho), second ones (3 - rho) times that. rho NaN where there are too few. */
-static void neighbours(const struct engine *engine, const double *r, double *rho, double *sigma)
+ * have the variance 2 sigma^2 (1 - rho), second ones (3 - rho) times that. scatter: of rho by chance. NaN: too few. */
+static void neighbours(const struct engine *engine, const double *r, double *rho, double *sigma, double *scatter)
 {
     const struct job *job = engine->job;
     double first = 0, second = 0;
@@ -71,11 +72,12 @@ static void neighbours(const struct engine *engine, const double *r, double *rho
             row++;
         }
     }
-    *rho = *sigma = NAN;
+    *rho = *sigma = *scatter = NAN;
     if (nsecond < 50 || !(first > 0))
         return;
     first /= nfirst;
     *rho = fmin(3 - second / nsecond / first, 0.9);
+    *scatter = SCATTER / sqrt(nsecond);
     *sigma = sqrt(first / (2 * (1 - *rho)));
 }
 
@@ -83,9 +85,9 @@ static void neighbours(const struct engine *engine, const double *r, double *rho
  * (1 + rho)/(1 - rho) towards long waves. Only where the fit has left little else. */
 static double shared_noise(const struct engine *engine, const double *r, double chi2)
 {
-    double rho, sigma;
-    neighbours(engine, r, &rho, &sigma);
-    if (!(rho > SHARED) || chi2 > LITTLE)
+    double rho, sigma, scatter;
+    neighbours(engine, r, &rho, &sigma, &scatter);
+    if (!(rho > SMOOTH + 3 * scatter) || chi2 > LITTLE)
         return 1;
     return fmin(fmax(1, sigma * sqrt((1 + rho) / (1 - rho))), NOISIER);
 }
