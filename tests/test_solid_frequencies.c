@@ -42,6 +42,30 @@ POOL_TEST(stepped_rotors_have_the_limit_of_an_independent_program)
     assert_hz(5, hz, expected, 4e-4);
 }
 
+/* A slender shaft bends in short waves and a thin flange as a plate, however large the body beside them. References: nine-node
+ * quadrilaterals of a program of its own in numpy, meshes of 14,000 and 32,000, 10,000 and 23,000 unknowns, which differ by 4e-4
+ * at most. */
+POOL_TEST(slender_and_thin_parts_of_a_large_body_have_their_own_mesh)
+{
+    static const double overhung[6] = {160.939, 781.177, 2061.040, 2568.390, 4042.013, 6221.020},
+                        between[6] = {326.928, 363.462, 1725.753, 2132.883, 2495.532, 5019.222};
+    struct rig b;
+    double hz[6];
+    rig_begin(&b, 1);
+    b.group[0].material.e = 2.06e11;
+    rig_section(&b, 0, 0.4, 0.03);
+    rig_section(&b, 0, 0.02, 0.4);
+    rig_solid(&b.rotor, NULL, 1, 2, 6, hz);
+    assert_hz(6, hz, overhung, 6e-4);
+    rig_begin(&b, 1);
+    b.group[0].material.e = 2.06e11;
+    rig_section(&b, 0, 0.2, 0.02);
+    rig_section(&b, 0, 0.01, 0.3);
+    rig_section(&b, 0, 0.2, 0.02);
+    rig_solid(&b.rotor, NULL, 1, 2, 6, hz);
+    assert_hz(6, hz, between, 6e-4);
+}
+
 /* ---- orders of convergence */
 
 POOL_TEST(errors_at_a_corner_fall_as_its_singularity_says)
@@ -140,8 +164,8 @@ POOL_TEST(a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes)
     assert_close(hz[1][1] - (hz[0][1] - hz[1][1]) / 15, 59.812 * plate, 1e-3, 0);
 }
 
-/* A thin wheel on a shaft, whose spokes the elements of a quarter of the radius do not resolve: their modes have 9 to 26 % of
- * mesh error, and those of two meshes lie in another order. */
+/* A cup on a shaft: the waves of its thin wall, of the length of the root of radius times thickness, are not resolved by elements
+ * of a quarter of the radius. */
 POOL_TEST(meshes_that_are_apart_are_refined)
 {
     struct rig b;
@@ -150,12 +174,13 @@ POOL_TEST(meshes_that_are_apart_are_refined)
     rig_begin(&b, 1);
     rig_section(&b, 0, 0.4, 0.08);
     rig_section(&b, 0, 0.004, 1);
-    rig_section(&b, 0, 0.4, 0.08);
+    rig_section(&b, 0, 0.2, 1);
+    b.segment[2].inner = 0.992;
     assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 6,
                                          SPECTRUM_MESH, &s),
                   ROTID_OK);
-    rig_solid(&b.rotor, NULL, 64, 2, 6, hz);
-    assert_true(s.nrigid == 2 && s.mesh_error_percent[5] > 10);
+    rig_solid(&b.rotor, NULL, 8, 2, 6, hz);
+    assert_true(s.nrigid == 2 && s.mesh_error_percent[1] > 2);
     assert_hz(6, s.full_hz, hz, 6e-3);
 }
 

@@ -84,6 +84,7 @@ static int lines_graded(struct pool *pool, int nstop, const struct stop *stop, i
 #define LARGEST   4    /* a quarter of the radius, or of the length of a disc */
 #define COARSE    6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
 #define SLICES    50   /* or the longer of length and radius over this */
+#define THINNEST  200  /* radius over the thickness of a flange, or length over the radius of a shaft, whose waves are resolved */
 #define LONGEST   2    /* times the shorter one: elements that are longer lock in bending */
 #define AT_LINE   0.01 /* of a slice: a sensor is taken to be at the line */
 #define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
@@ -189,12 +190,13 @@ int outline_has_corners(const struct rotor *rotor)
     return 0;
 }
 
-/* A quarter of the shorter of length and radius, and a fiftieth of the longer one, in both directions; across the shorter one of
- * a body that is much longer than wide, or wider than long, up to a quarter of the elements along the other: thinner ones add
- * nothing to the accuracy and rounding to K. */
-static double largest_size(const struct rotor *rotor, const struct solid_rule *rule, int refine, int along)
+/* Of a body of this radius and length: a quarter of the shorter of length and radius, and a fiftieth of the longer one, in both
+ * directions; across the shorter one of a body that is much longer than wide, or wider than long, up to a quarter of the elements
+ * along the other: thinner ones add nothing to the accuracy and rounding to K. */
+static double largest_size(const struct rotor *rotor, const struct solid_rule *rule, int refine, int along, double radius,
+                           double length)
 {
-    double extent[2] = {largest_radius(rotor), rotor_length(rotor)}, size[2];
+    double extent[2] = {radius, length}, size[2];
     for (int i = 0; i < 2; i++)
         size[i] = fmax(fmin(extent[0], extent[1]) / LARGEST, fmin(extent[i] / SLICES, LONGEST * fmin(extent[0], extent[1])));
     double largest = rule->largest > 0 ? rule->largest : fmax(size[along], fmin(extent[along], size[!along] / LARGEST));
@@ -208,9 +210,22 @@ static int multiple_of(const struct rotor *rotor, int refine)
     return refine && !outline_has_corners(rotor) ? 2 : 1;
 }
 
+/* Length of the shortest part of the body at this radius, that of the rotor where there is none. */
+static double shortest_part(const struct rotor *rotor, double r)
+{
+    double shortest = rotor_length(rotor), length = 0;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        int is_in = outline_inner(rotor, s) < r && r < outline_outer(rotor, s);
+        length = is_in ? length + rotor->segment[s].length : 0;
+        if (is_in && (s + 1 == rotor->nsegment || !(outline_inner(rotor, s + 1) < r && r < outline_outer(rotor, s + 1))))
+            shortest = fmin(shortest, length);
+    }
+    return shortest;
+}
+
 static int radial(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r)
 {
-    double largest = largest_size(rotor, rule, refine, 0), from, to;
+    double largest = largest_size(rotor, rule, refine, 0, largest_radius(rotor), rotor_length(rotor)), from, to;
     int most = 4 * rotor->nsegment + 2 * rotor->nring + 2 * rotor->ngroup * rotor->nsegment, n = 0;
     struct stop *stop = POOL_ARRAY(pool, struct stop, most);
     if (!stop)
@@ -239,13 +254,19 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
         stop[n++] = (struct stop){rotor->ring[i].inner / 2, 0, largest};
         stop[n++] = (struct stop){rotor->ring[i].outer / 2, 0, largest};
     }
-    return lines_graded(pool, stops_merge(n, stop, SAME * largest), stop, multiple_of(rotor, refine), nr, r);
+    n = stops_merge(n, stop, SAME * largest);
+    for (int i = 0; i + 1 < n; i++) { /* a thin flange bends as a plate */
+        double length = fmax(shortest_part(rotor, (stop[i].at + stop[i + 1].at) / 2), largest_radius(rotor) / THINNEST);
+        stop[i].upto = fmin(stop[i].upto, largest_size(rotor, rule, refine, 0, largest_radius(rotor), length));
+    }
+    return lines_graded(pool, n, stop, multiple_of(rotor, refine), nr, r);
 }
 
 static int axial_stops(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nstop,
                        struct stop **stops)
 {
-    double largest = largest_size(rotor, rule, refine, 1), end = 0, smallest = largest;
+    double largest = largest_size(rotor, rule, refine, 1, largest_radius(rotor), rotor_length(rotor)), end = 0,
+           smallest = largest;
     int n = 0, most = rotor->nsegment + 1 + rotor->nspring + 3 * rotor->ndisk + 2 * rotor->ntierod + 3 * rotor->nbars;
     struct stop *stop = POOL_ARRAY(pool, struct stop, most);
     if (!stop)
@@ -284,6 +305,13 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
     }
     *stops = stop;
     *nstop = stops_merge(n, stop, fmin(1e-6 * end, 0.01 * smallest));
+    end = rotor->segment[0].length;
+    for (int i = 0, s = 0; i + 1 < *nstop; i++) { /* a slender part bends in shorter waves than the body beside it */
+        while (s + 1 < rotor->nsegment && (stop[i].at + stop[i + 1].at) / 2 > end)
+            end += rotor->segment[++s].length;
+        double radius = fmax(outline_outer(rotor, s), rotor_length(rotor) / THINNEST);
+        stop[i].upto = fmin(stop[i].upto, largest_size(rotor, rule, refine, 1, radius, rotor_length(rotor)));
+    }
     return ROTID_OK;
 }
 
