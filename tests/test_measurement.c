@@ -167,6 +167,14 @@ POOL_TEST(units_that_contradict_each_other_are_told)
     assert_status(finish(&options, &messages, &m), ROTID_ERROR_ARGUMENT);
     assert_int_equal(messages.errors, 1);
     assert_non_null(strstr(messages.item[0].text, "a second set 164 has other factors"));
+    begin();
+    for (int node = 1; node <= 2; node++) { /* the same units twice are one system */
+        f = transfer_of(node, 1);
+        assert_status(uff_write_units(file, &si), ROTID_OK);
+        write_transfer(&f, 1);
+    }
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    assert_int_equal(m.set.nfrf, 2);
 }
 
 POOL_TEST(what_cannot_stand_beside_the_others_is_left_out)

@@ -172,14 +172,14 @@ POOL_TEST(meshes_that_are_apart_are_refined)
     struct spectrum s;
     double hz[6];
     rig_begin(&b, 1);
-    rig_section(&b, 0, 0.4, 0.08);
-    rig_section(&b, 0, 0.004, 1);
-    rig_section(&b, 0, 0.2, 1);
-    b.segment[2].inner = 0.992;
+    rig_section(&b, 0, 0.1, 0.08);
+    rig_section(&b, 0, 0.004, 0.4);
+    rig_section(&b, 0, 0.05, 0.4);
+    b.segment[2].inner = 0.392;
     assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 6,
                                          SPECTRUM_MESH, &s),
                   ROTID_OK);
-    rig_solid(&b.rotor, NULL, 8, 2, 6, hz);
+    rig_solid(&b.rotor, NULL, 4, 2, 6, hz);
     assert_true(s.nrigid == 2 && s.mesh_error_percent[1] > 2);
     assert_hz(6, s.full_hz, hz, 6e-3);
 }
