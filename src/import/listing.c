@@ -438,7 +438,7 @@ static int read_units(struct listing_work *job, const struct uff_set *set)
     const struct uff_units *before = job->listing->units;
     struct uff_units *units = POOL_NEW(job->pool, struct uff_units);
     int status = units ? uff_read_units(job->reader, units) : ROTID_ERROR_MEMORY;
-    if (!status && before && (before->length != units->length || before->force != units->force))
+    if (!status && before && !uff_same_units(before, units))
         job->listing->units_line = set->line;
     job->listing->units = status ? job->listing->units : units;
     return status;

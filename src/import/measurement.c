@@ -205,7 +205,7 @@ static int read_units(struct growing *g, struct uff_reader *reader, const struct
     struct contents *c = g->contents;
     struct uff_units units;
     int status = uff_read_units(reader, &units);
-    if (!status && c->has_units && (units.length != c->units.length || units.force != c->units.force)) {
+    if (!status && c->has_units && !uff_same_units(&units, &c->units)) {
         message_add(g->messages, SEVERITY_ERROR, g->path, set->line, 1,
                     "a second set 164 has other factors than the first, expected one system of units in a file");
         return ROTID_ERROR_ARGUMENT;

@@ -214,11 +214,11 @@ static int multiple_of(const struct rotor *rotor, int refine)
 static double shortest_part(const struct rotor *rotor, double r)
 {
     double shortest = rotor_length(rotor), length = 0;
-    for (int s = 0; s < rotor->nsegment; s++) {
-        int is_in = outline_inner(rotor, s) < r && r < outline_outer(rotor, s);
-        length = is_in ? length + rotor->segment[s].length : 0;
-        if (is_in && (s + 1 == rotor->nsegment || !(outline_inner(rotor, s + 1) < r && r < outline_outer(rotor, s + 1))))
+    for (int s = 0; s <= rotor->nsegment; s++) {
+        int is_in = s < rotor->nsegment && outline_inner(rotor, s) < r && r < outline_outer(rotor, s);
+        if (!is_in && length > 0) /* it ended with the section before */
             shortest = fmin(shortest, length);
+        length = is_in ? length + rotor->segment[s].length : 0;
     }
     return shortest;
 }

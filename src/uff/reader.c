@@ -26,6 +26,11 @@ static void find_exponents(const struct uff_axis *axis, int exponent[3])
         }
 }
 
+int uff_same_units(const struct uff_units *a, const struct uff_units *b)
+{
+    return a->length == b->length && a->force == b->force;
+}
+
 double uff_si_factor(const struct uff_units *units, const struct uff_axis *axis)
 {
     static const double standard_gravity = 9.80665; /* m/s2, by definition */

@@ -172,6 +172,9 @@ int uff_read_values(struct uff_reader *reader, long long most, double *x, double
  * or factors of 0: 1). A unit text "g" or "gn" of an acceleration is 9.80665 m/s2, whatever set 164 says. */
 double uff_si_factor(const struct uff_units *units, const struct uff_axis *axis);
 
+/* Whether lengths and forces have the same factors; temperatures stand in no quantity of a modal test. */
+int uff_same_units(const struct uff_units *a, const struct uff_units *b);
+
 /* ---- the nodes and shapes of a file */
 
 struct uff_file {
