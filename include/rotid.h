@@ -1160,7 +1160,7 @@ typedef struct rotid_campbell_speed {
 
 typedef struct rotid_stability {
     double onset_rpm;          /* lowest speed from which a mode grows [rpm]; NaN: none up to the highest one computed */
-    int mode;                  /* which, of the Campbell diagram */
+    int mode;                  /* which, of the Campbell diagram; ROTID_NONE: none, or a motion without whirl */
     double probability_stable; /* that no mode grows at the highest running speed [1]; NaN without bands or range */
 } rotid_stability;
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "folder.h"
 #include "running_case.h"
 #include "support.h"
 
@@ -261,6 +262,57 @@ POOL_TEST(a_jump_at_a_critical_speed_hides_none)
         assert_close(coarse.speeds.critical_speeds[i].speed_rpm, fine.speeds.critical_speeds[i].speed_rpm, 1e-8, 0);
     running_case_close(&fine);
     running_case_close(&coarse);
+}
+
+/* The onset does not depend on the range: within the lower one the mode that grows, at 420 Hz, lies above those that are
+ * followed, in the higher one it is followed from standstill. */
+POOL_TEST(a_mode_above_those_that_are_followed_grows)
+{
+    const char *table = folder_write(
+        "growing.csv",
+        "speed_rpm,kxx,kxy,kyx,kyy,cxx,cxy,cyx,cyy\n4000,1.26e8,2.1e6,-3.2e7,3.76e8,2460,425,279,2450\n5000,1.5e8,2.4e6,"
+        "-9e7,2.33e8,2070,236,435,2310\n");
+    const char *deck = pool_format(
+        &test_pool,
+        "*MATERIAL, NAME=s\n*ELASTIC, TYPE=SHEAR\n1.81e11, 1.18e10, 0.23\n*DENSITY\n6187\n*SHAFT, NAME=a, MATERIAL=s\n0.546, "
+        "0.0667, 0, 6\n0.365, 0.0761, 0, 3\n0.211, 0.141, 0, 8\n0.349, 0.0539, 0, 5\n*SPRING\n1.4, 2.8e7\n*RUNNING\n*DISK\n1.19, "
+        "11.4, 0.3, 0.475\n*DISK\n1.04, 55.7, 0.688, 1.17\n*BEARING, NAME=b1\n0.79, 2e8, 1e5\n*PEDESTAL, BEARING=b1\n62, 194, "
+        "1.73e7, 3.89e8, 9683, 12330\n*BEARING, NAME=b2\n0.94, 5.24e6, 1.77e6, -1.69e6, 1.72e8, 37000, 740, 550, 1.58e5\n"
+        "*PEDESTAL, BEARING=b2\n59, 290, 2.87e8, 7.26e7, 0, 4740\n*BEARING, FILE=%s\n1.19\n",
+        table);
+    struct running_case low, high;
+    assert_int_equal(running_case_open(deck, 4760, 41, 0, &low), ROTID_OK);
+    assert_int_equal(running_case_open(deck, 25000, 41, 0, &high), ROTID_OK);
+    assert_true(low.speeds.stability.mode > 6 && high.speeds.stability.mode > 6);
+    assert_in_range(high.speeds.stability.onset_rpm, 4300, 4500);
+    assert_close(low.speeds.stability.onset_rpm, high.speeds.stability.onset_rpm, 1e-7, 0);
+    running_case_close(&low);
+    running_case_close(&high);
+}
+
+/* Two springs of stiffness k(W) that fall with the speed hold a stiff rotor while 2 k is above the pull; coefficients whose
+ * symmetric part is indefinite never hold one. */
+POOL_TEST(what_moves_away_without_whirl_is_unstable)
+{
+    const char
+        *table = folder_write("falling.csv", "speed_rpm,kxx,kyy,cxx,cyy\n0,2e6,2e6,1e2,1e2\n10000,1e6,1e6,1e2,1e2\n"),
+        *rotor = "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.5, 0.2, 0, 8\n*RUNNING\n";
+    struct running_case c;
+    const char *deck = pool_format(
+        &test_pool, "%s*BEARING, FILE=%s\nstart\n*BEARING, FILE=%s\nend\n*PULL, GROUP=a\n3e6\n*OPERATION\n1000, 7000\n", rotor,
+        table, table);
+    assert_int_equal(running_case_open(deck, 9000, 41, 0, &c), ROTID_OK);
+    assert_close(c.speeds.stability.onset_rpm, 5000, 1e-4, 0);
+    assert_int_equal(c.speeds.stability.mode, ROTID_NONE);
+    running_case_close(&c);
+    deck = pool_format(&test_pool,
+                       "%s*BEARING\nstart, 1e6, 2e6, 2e6, 1e6, 1e3, 0, 0, 1e3\n*BEARING\nend, 1e6, 2e6, 2e6, 1e6, 1e3, 0, 0, "
+                       "1e3\n",
+                       rotor);
+    assert_int_equal(running_case_open(deck, 9000, 41, 0, &c), ROTID_OK);
+    assert_true(c.speeds.stability.onset_rpm < 1);
+    assert_int_equal(c.speeds.stability.mode, ROTID_NONE);
+    running_case_close(&c);
 }
 
 POOL_TEST(kxy_above_kyx_drives_forward_whirl)
@@ -578,3 +630,5 @@ POOL_TEST(couplings_twist_the_machine_as_a_free_shaft_with_two_inertias)
         running_case_close(&c);
     }
 }
+
+TEST_GROUP(folder_make, folder_remove);

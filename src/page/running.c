@@ -35,12 +35,8 @@ void section_speeds(struct document *document, const struct result *result)
     const rotid_speeds *s = result->speeds;
     struct pool *pool = document->pool;
     document_section(document, "operation", "The machine in operation");
-    if (isfinite(s->stability.onset_rpm))
-        document_paragraph(document, "Mode %d is unstable from %s\xc2\xa0rpm on.", s->stability.mode,
-                           human_trimmed(pool, s->stability.onset_rpm, 5));
-    else
-        document_paragraph(document, "No mode is unstable up to %s\xc2\xa0rpm.",
-                           human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
+    const char *stability = speeds_stability(pool, s);
+    document_paragraph(document, "%s.", stability ? stability : "");
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
     document_table(document, table_of_stability(pool, s));

@@ -413,6 +413,9 @@ struct table *table_of_response(struct pool *pool, const rotid_speeds *speeds);
 /* A sentence on the margin of a critical speed that has one. NULL where memory is out. */
 const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *critical, const rotid_speeds *speeds);
 
+/* From which speed on the machine is unstable, or that it is stable; NULL without memory. */
+const char *speeds_stability(struct pool *pool, const rotid_speeds *speeds);
+
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 
 /* Results on the screen of a person: lines and tables. Where memory is out the pool says so, and what was written is cut. */

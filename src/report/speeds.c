@@ -209,6 +209,17 @@ const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, c
                                                   : NULL;
 }
 
+const char *speeds_stability(struct pool *pool, const rotid_speeds *s)
+{
+    if (!isfinite(s->stability.onset_rpm))
+        return pool_format(pool, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
+    return s->stability.mode == ROTID_NONE
+               ? pool_format(pool,
+                             "Unstable from %.1f rpm on: the bearings do not hold the rotor, which moves away without whirl",
+                             s->stability.onset_rpm)
+               : pool_format(pool, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
+}
+
 void screen_speeds(const struct screen *to, const struct result *result)
 {
     const rotid_speeds *s = result->speeds;
@@ -219,10 +230,9 @@ void screen_speeds(const struct screen *to, const struct result *result)
         if (text)
             screen_say(to, "%s", text);
     }
-    if (isfinite(s->stability.onset_rpm))
-        screen_say(to, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
-    else if (s->ncampbell)
-        screen_say(to, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
+    const char *stability = s->ncampbell ? speeds_stability(to->pool, s) : NULL;
+    if (stability)
+        screen_say(to, "%s", stability);
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));

@@ -8,8 +8,9 @@
 #define REDRAWS     1000 /* until a draw lies within the bounds */
 #define FARTHEST    0.5  /* change of a critical speed in one step of a prediction */
 #define LEAST_DRAWS 20
-#define RESPONSES   400 /* draws of which the response is computed */
-#define FEWER       8   /* modes of the basis of these */
+#define RESPONSES   400  /* draws of which the response is computed */
+#define FEWER       8    /* modes of the basis of these */
+#define WEAK        0.02 /* damping ratio up to which modes above twice the running range are watched for growth */
 #define pi          3.14159265358979323846
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
@@ -597,9 +598,11 @@ static int find_watched(struct bands *b, struct system *nominal)
             return ROTID_ERROR_MEMORY;
     if (!b->watched)
         return ROTID_ERROR_MEMORY;
-    status = pairs_all(b->pool, nominal, b->machine->high, &count, b->watched);
-    for (int i = 0; i < count && !status && cimag(b->watched[i].lambda) < 2 * b->machine->high; i++) {
+    status = pairs_all(b->pool, nominal, b->machine->high, &count, b->watched, NULL);
+    for (int i = 0; i < count && !status && cimag(b->watched[i].lambda) < nominal->highest; i++) {
         struct pair *own = &b->watched[i];
+        if (cimag(own->lambda) > 2 * b->machine->high && creal(own->lambda) < -WEAK * cabs(own->lambda))
+            continue;
         if (!pair_refine(nominal, b->machine->high, NULL, own))
             pair_copy(nominal->size, own, &b->watched[b->nwatched++]);
     }
@@ -695,7 +698,8 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
         return status;
     spread_response(&b, out, work);
     out->draws = options->draws;
-    if (b.nwatched) {
+    int moves_away = out->stability.mode == ROTID_NONE && out->stability.onset_rpm * RPM <= b.machine->high;
+    if (b.nwatched && !moves_away) { /* modes of whirl say nothing of that */
         int stable = 0;
         for (int k = 0; k < options->draws; k++)
             stable += b.growth[k] <= GROWS;

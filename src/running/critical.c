@@ -1,19 +1,27 @@
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "running/running.h"
 
 #define HALVINGS 60
-#define SLOW     1e-3 /* of the highest speed */
-#define SAME     0.3  /* |u'v|^2 of a critical speed's mode in another machine */
-#define CROSSED  1e-6 /* of the speed: what is left behind bisection */
-#define JUMP     0.05 /* and with the jump of Im lambda there by loss factors */
-#define ONE_MODE 0.8  /* and of one mode at two speeds of a bracket */
-#define FINEST   256  /* steps at least through half a bracket, in the last attempt */
+#define SLOW     1e-3  /* of the highest speed */
+#define SAME     0.3   /* |u'v|^2 of a critical speed's mode in another machine */
+#define CROSSED  1e-6  /* of the speed: what is left behind bisection */
+#define JUMP     0.05  /* and with the jump of Im lambda there by loss factors */
+#define ONE_MODE 0.8   /* and of one mode at two speeds of a bracket */
+#define DIVERGED 24    /* halves of a step of speed */
+#define ROUNDING 1e-12 /* of the largest entry of a matrix */
+#define FINEST   256   /* steps at least through half a bracket, in the last attempt */
 
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {
     return &t->pair[(ptrdiff_t)mode * t->nspeed + speed];
+}
+
+static int grows(const struct pair *pair)
+{
+    return creal(pair->lambda) > GROWS * cabs(pair->lambda);
 }
 
 static int is_there(const struct pair *pair)
@@ -89,6 +97,74 @@ static int settle(struct system *s, double speed, struct pair *pair)
     return pair_refine(s, speed, NULL, pair);
 }
 
+/* Whether a mode may grow: none does where stiffness and damping are positive (semi)definite and the stiffness is symmetric,
+ * whatever the gyroscopic moments (Thomson, Tait). work [size^2]; loss factors act below w = W alone, where all modes are
+ * followed. */
+static int may_grow(struct system *s, double speed, double *work)
+{
+    int n = s->size;
+    double largest = 0, skew = 0, most = 0;
+    system_at(s, speed);
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)n * n; i++) {
+        largest = fmax(largest, fabs(s->stiff[i]));
+        most = fmax(most, fabs(s->c[i]));
+    }
+    for (ptrdiff_t j = 0; j < n; j++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            skew = fmax(skew, fabs(s->stiff[i + n * j] - s->stiff[j + n * i]));
+    if (skew > ROUNDING * largest)
+        return 1;
+    memcpy(work, s->stiff, (size_t)n * (size_t)n * sizeof *work);
+    if (cholesky_factor(n, work))
+        return 1;
+    for (ptrdiff_t j = 0; j < n; j++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            work[i + n * j] = (s->c[i + n * j] + s->c[j + n * i]) / 2 + (i == j ? ROUNDING * most : 0);
+    return most > 0 && cholesky_factor(n, work);
+}
+
+/* The speed from which a motion grows without whirl, which is there at `above` and not at `below`. */
+static int find_divergence(struct pool *pool, struct system *s, struct pair *all, double below, double above, double *speed)
+{
+    int count, status = ROTID_OK;
+    double real;
+    for (int half = 0; half < DIVERGED && !status; half++) {
+        double middle = (below + above) / 2;
+        status = pairs_all(pool, s, middle, &count, all, &real);
+        *(real > 0 ? &above : &below) = middle;
+    }
+    *speed = above;
+    return status;
+}
+
+/* Modes above those that are followed and that grow at one of the speeds, and what grows without whirl. */
+static int add_growing(struct pool *pool, struct system *s, struct pair *all, struct tracks *t)
+{
+    double *work = POOL_ARRAY(pool, double, (size_t)s->size *(size_t)s->size), real;
+    int count, status = work ? ROTID_OK : ROTID_ERROR_MEMORY;
+    t->diverges = NAN;
+    for (int i = (t->nspeed - 1) % 2; i < t->nspeed && !status; i += 2) { /* every second one, and the highest */
+        int first = t->nmode;
+        if (!may_grow(s, t->speed[i], work))
+            continue;
+        status = pairs_all(pool, s, t->speed[i], &count, all, &real);
+        if (!status && real > 0 && isnan(t->diverges))
+            status = find_divergence(pool, s, all, t->speed[i > 1 ? i - 2 : 0], t->speed[i], &t->diverges);
+        for (int j = 0; j < count && !status && t->nmode < t->room; j++) {
+            int known =
+                !grows(&all[j]) || cimag(all[j].lambda) > s->highest / 2 || settle(s, t->speed[i], &all[j]) || !grows(&all[j]);
+            for (int m = 0; m < t->nmode && !known; m++)
+                known = are_same(s, track_at(t, m, i), &all[j]);
+            status = known ? ROTID_OK : add_mode(pool, s, t, &all[j], i);
+        }
+        for (int k = i; first < t->nmode && k > 0 && !status; k--)
+            step_all(s, t, first, k, k - 1);
+        for (int k = i; first < t->nmode && k + 1 < t->nspeed && !status; k++)
+            step_all(s, t, first, k, k + 1);
+    }
+    return status;
+}
+
 int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *speed, double limit, struct tracks *t)
 {
     int count, last = nspeed - 1;
@@ -101,7 +177,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     for (int i = 0; i < s->size; i++)
         if (pair_new(pool, s->size, &all[i]))
             return ROTID_ERROR_MEMORY;
-    int status = pairs_all(pool, s, speed[0], &count, all);
+    int status = pairs_all(pool, s, speed[0], &count, all, NULL);
     for (int i = 0; i < count && !status; i++) {
         if (cimag(all[i].lambda) > limit && t->nmode >= 6)
             break;
@@ -114,7 +190,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
         step_all(s, t, 0, i, i + 1);
     int followed = t->nmode;
     if (!status)
-        status = pairs_all(pool, s, speed[last], &count, all);
+        status = pairs_all(pool, s, speed[last], &count, all, NULL);
     for (int i = 0; i < count && !status && cimag(all[i].lambda) < speed[last] && t->nmode < t->room; i++) {
         int known = settle(s, speed[last], &all[i]);
         for (int m = 0; m < t->nmode && !known; m++)
@@ -125,7 +201,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     }
     for (int i = last; i > 0 && followed < t->nmode && !status; i--)
         step_all(s, t, followed, i, i - 1);
-    return status;
+    return status ? status : add_growing(pool, s, all, t);
 }
 
 static int by_speed(const void *a, const void *b)
@@ -251,16 +327,11 @@ int critical_carry(const struct system *from, const struct critical *near, doubl
     return lost;
 }
 
-static int grows(const struct pair *pair)
-{
-    return creal(pair->lambda) > GROWS * cabs(pair->lambda);
-}
-
 /* The step from decay to growth may be a jump where w = W: by halves. */
 double onset_find(struct system *s, const struct tracks *t, int *mode)
 {
     struct pair now = s->spare[1]; /* pair_follow has the other one */
-    double lowest = NAN;
+    double lowest = t->diverges;
     *mode = -1;
     for (int m = 0; m < t->nmode; m++) {
         int i = 0;

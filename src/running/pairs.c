@@ -4,14 +4,15 @@
 
 #include "running/running.h"
 
-#define STEPS     40    /* of an inverse iteration: six are enough from near */
-#define WITHIN    1e-13 /* relative change of lambda at which it ends */
-#define ALIKE     0.8   /* |u'v|^2 of the vectors of one mode before and behind a step of speed */
-#define TURNED    0.75  /* biorthogonal product of a mode with itself before a step, at least */
-#define HALVINGS  30
-#define FARTHEST  0.2  /* of the speed: a step of Newton */
-#define ONE       1e-7 /* relative distance of two eigenvalues below which they are one */
-#define IS_A_WAVE 1e-6 /* Im lambda over |lambda|: below, the mode is overdamped */
+#define STEPS          40    /* of an inverse iteration: six are enough from near */
+#define WITHIN         1e-13 /* relative change of lambda at which it ends */
+#define ALIKE          0.8   /* |u'v|^2 of the vectors of one mode before and behind a step of speed */
+#define TURNED         0.75  /* biorthogonal product of a mode with itself before a step, at least */
+#define HALVINGS       30
+#define FARTHEST       0.2  /* of the speed: a step of Newton */
+#define ONE            1e-7 /* relative distance of two eigenvalues below which they are one */
+#define GROWS_STRAIGHT 1e-7 /* of the highest mode: below, a real eigenvalue is rounding of 0 */
+#define IS_A_WAVE      1e-6 /* Im lambda over |lambda|: below, the mode is overdamped */
 
 int pair_new(struct pool *pool, int size, struct pair *pair)
 {
@@ -104,7 +105,7 @@ static void part(const struct system *s, struct pair *a, struct pair *b)
     }
 }
 
-int pairs_all(struct pool *pool, struct system *s, double speed, int *count, struct pair *pair)
+int pairs_all(struct pool *pool, struct system *s, double speed, int *count, struct pair *pair, double *real)
 {
     struct pool scratch;
     int two = 2 * s->size;
@@ -120,6 +121,12 @@ int pairs_all(struct pool *pool, struct system *s, double speed, int *count, str
         memcpy(mass, s->mass, (size_t)s->size * (size_t)s->size * sizeof *mass);
         status = quadratic_pairs(s->size, s->highest / 4, mass, s->c, s->stiff, lambda, u, work, s->pivot) ? ROTID_ERROR_EIGEN
                                                                                                            : ROTID_OK;
+    }
+    for (int j = 0; j < two && !status && real; j++) {
+        double grown = fabs(cimag(lambda[j])) <= IS_A_WAVE * cabs(lambda[j]) && creal(lambda[j]) > GROWS_STRAIGHT * s->highest
+                           ? creal(lambda[j])
+                           : 0;
+        *real = j ? fmax(*real, grown) : grown;
     }
     for (int j = 0; j < two && !status; j++) {
         if (!(cimag(lambda[j]) > IS_A_WAVE * cabs(lambda[j])) || *count == s->size)

@@ -243,8 +243,9 @@ int pair_new(struct pool *pool, int size, struct pair *pair);
 void pair_copy(int size, const struct pair *from, struct pair *to);
 
 /* All pairs with Im lambda > 0 and not overdamped at a speed, by rising Im lambda: *count of them into pair [size], which are
- * there; without loss factors. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_ERROR_EIGEN. */
-int pairs_all(struct pool *pool, struct system *system, double speed, int *count, struct pair *pair);
+ * there; without loss factors. real: NULL, or the largest eigenvalue above zero without whirl, 0: none. ROTID_OK,
+ * ROTID_ERROR_MEMORY or ROTID_ERROR_EIGEN. */
+int pairs_all(struct pool *pool, struct system *system, double speed, int *count, struct pair *pair, double *real);
 
 /* The pair near `pair` at the speed of system_at, by inverse iteration with the nonlinear D: quadratic. side: NULL, chosen by Im
  * lambda against `at`, or a pointer to the side to take. Returns 0, or 1 without convergence. */
@@ -303,9 +304,11 @@ struct tracks {
     int nspeed, nmode, room;
     double *speed;     /* [nspeed] rad/s */
     struct pair *pair; /* [nspeed * room], those of a mode one behind the other; lambda NaN where the mode is not there */
+    double diverges;   /* lowest speed from which a motion grows without whirl, NaN: none */
 };
 
-/* Follows the modes up to Im lambda = limit at the first speed, and those below at the last one that are not among them. Statuses
+/* Follows the modes up to Im lambda = limit at the first speed, those below at the last one that are not among them, and those of
+ * the lower half of the basis that grow at any of the speeds. Statuses
  * of pairs_all. */
 int tracks_make(struct pool *pool, struct system *system, int nspeed, const double *speed, double limit, struct tracks *tracks);
 
@@ -364,7 +367,7 @@ const struct critical *search_find(const struct search *search, int number, int 
 /* How many of the critical speeds are of backward whirl, or are not. */
 int search_count(const struct search *search, int backward);
 
-/* The lowest speed from which a mode grows, NaN: none; *mode of the tracks. */
+/* The lowest speed from which a mode grows, NaN: none; *mode of the tracks, -1 where it grows without whirl. */
 double onset_find(struct system *system, const struct tracks *tracks, int *mode);
 
 /* What of |lambda| counts as growth: below is rounding. */

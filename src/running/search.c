@@ -163,7 +163,7 @@ int search_until(struct pool *pool, double least, int forward, int backward, str
             return ROTID_ERROR_MEMORY;
     if (status || !all)
         return status ? status : ROTID_ERROR_MEMORY;
-    status = pairs_all(pool, &s->system, STANDSTILL * s->system.highest, &count, all);
+    status = pairs_all(pool, &s->system, STANDSTILL * s->system.highest, &count, all, NULL);
     if (!status && !count)
         return ROTID_ERROR_EIGEN;
     double to = status ? 0 : fmax(least, BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / s->harmonic);
