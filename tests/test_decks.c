@@ -163,6 +163,36 @@ UNIT_TEST(complex_shapes_are_turned_real_and_conjugates_dropped)
     pool_close(&r.pool);
 }
 
+/* Of modes at 0 Hz, of conjugates with numbers of their own and with those of their partners; 4 is missing. */
+UNIT_TEST(numbers_of_a_file_do_not_count_modes_that_are_left_out)
+{
+    struct reading r;
+    read_measured(&r, "",
+                  ALONG_Z REAL("1", "0.", "0.", "1. 0. 0.", "1. 0. 0.", "1. 0. 0.")
+                      REAL("2", "0.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
+                          REAL("3", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
+                              REAL("5", "900.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0."));
+    assert_int_equal(r.job.measurement.nmode, 2);
+    assert_int_equal(r.job.measurement.number[0], 1);
+    assert_int_equal(r.job.measurement.number[1], 3);
+    pool_close(&r.pool);
+    for (int own = 0; own < 2; own++) {
+        read_measured(&r, ", DIRECTION=Y",
+                      own ? ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
+                                COMPLEX("2", "-30. -3000.", "3. -4.", "-3. 4.", "6. -8.")
+                                    COMPLEX("3", "-30. 5000.", "3. 4.", "3. 4.", "6. 8.")
+                                        COMPLEX("4", "-30. -5000.", "3. -4.", "3. -4.", "6. -8.")
+                          : ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
+                                COMPLEX("1", "-30. -3000.", "3. -4.", "-3. 4.", "6. -8.")
+                                    COMPLEX("2", "-30. 5000.", "3. 4.", "3. 4.", "6. 8.")
+                                        COMPLEX("2", "-30. -5000.", "3. -4.", "3. -4.", "6. -8."));
+        assert_int_equal(r.job.measurement.nmode, 2);
+        assert_int_equal(r.job.measurement.number[0], 1);
+        assert_int_equal(r.job.measurement.number[1], 2);
+        pool_close(&r.pool);
+    }
+}
+
 UNIT_TEST(motion_out_of_phase_is_left_out_and_said)
 {
     struct reading r;

@@ -783,7 +783,7 @@ static int import_modes(struct import *import)
         return 1;
     }
     size_t components = (size_t)job->rotor.nsensor * (size_t)count;
-    job->measurement.number = POOL_ARRAY(reader->pool, int, count);
+    job->measurement.number = POOL_ARRAY(reader->pool, int, import->file.shape_count);
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, count);
     job->measurement.damping = POOL_ARRAY(reader->pool, double, count);
     job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, count);
@@ -794,9 +794,9 @@ static int import_modes(struct import *import)
         reader->out_of_memory = 1;
         return 1;
     }
-    int bad = 0, numbered = uff_modes_are_numbered(count, chosen);
+    int bad = 0;
+    uff_mode_numbers(&import->file, count, chosen, job->measurement.number);
     for (int k = 0; k < count; k++) {
-        job->measurement.number[k] = numbered ? chosen[k]->number : k + 1;
         if (job->measurement.number[k] > DECK_MOST_MODES && !bad++)
             deck_error(reader, in_file(import, chosen[k]->line), "the number of a mode is %d, expected 1 to %d",
                        job->measurement.number[k], DECK_MOST_MODES);

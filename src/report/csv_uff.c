@@ -146,11 +146,9 @@ int csv_universal_read(struct pool *pool, const char *path, struct message_list 
                     "the file has no mode shapes, expected sets 55 of normal or complex modes for --csv");
         return ROTID_ERROR_SYNTAX;
     }
-    int numbered = uff_modes_are_numbered(u->count, u->mode);
-    for (int k = 0; k < u->count; k++) {
-        u->number[k] = numbered ? u->mode[k]->number : k + 1;
+    uff_mode_numbers(&file, u->count, u->mode, u->number);
+    for (int k = 0; k < u->count; k++)
         u->frequency_std[k] = NAN;
-    }
     u->direction = largest_direction(u);
     status = take_nodes(pool, &file, u);
     return status ? status : take_shapes(pool, u, &file);

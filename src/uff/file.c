@@ -483,12 +483,30 @@ int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chose
     return kept;
 }
 
-int uff_modes_are_numbered(int count, const struct uff_shape *const *chosen)
+static int compare_numbers(const void *left, const void *right)
 {
+    int a = *(const int *)left, b = *(const int *)right;
+    return (a > b) - (a < b);
+}
+
+void uff_mode_numbers(const struct uff_file *file, int count, const struct uff_shape *const *chosen, int *number)
+{
+    int all = 0, distinct = 0, numbered = 1;
     for (int k = 0; k < count; k++)
-        if (chosen[k]->number <= 0 || (k && chosen[k]->number <= chosen[k - 1]->number))
-            return 0;
-    return 1;
+        numbered = numbered && chosen[k]->number > (k ? chosen[k - 1]->number : 0);
+    for (int k = 0; k < file->shape_count && numbered; k++) /* also of those that are left out */
+        if (uff_is_mode(&file->shape[k]) && file->shape[k].number > 0)
+            number[all++] = file->shape[k].number;
+    if (all)
+        qsort(number, (size_t)all, sizeof *number, compare_numbers);
+    for (int i = 0; i < all; i++)
+        if (!distinct || number[i] != number[distinct - 1])
+            number[distinct++] = number[i];
+    for (int k = 0, below = 0; k < count; k++, below++) { /* what is written lies behind what is read, k <= below */
+        while (numbered && number[below] < chosen[k]->number)
+            below++;
+        number[k] = numbered ? chosen[k]->number - (below - k) : k + 1;
+    }
 }
 
 double uff_mode_frequency(const struct uff_shape *mode)

@@ -202,8 +202,9 @@ int uff_is_mode(const struct uff_shape *shape);
  * *rigid, *conjugates: how many are left out so. Returns their number. */
 int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chosen, int *rigid, int *conjugates);
 
-/* Whether the numbers of the file are above zero and rise with the frequency; else modes are numbered from 1. */
-int uff_modes_are_numbered(int count, const struct uff_shape *const *chosen);
+/* number[shape_count] gets those of the chosen modes: of the file, less those of modes that were left out, where they are above
+ * zero and rise with the frequency; else 1, 2, 3, ... */
+void uff_mode_numbers(const struct uff_file *file, int count, const struct uff_shape *const *chosen, int *number);
 
 /* Record 8 has six digits, which a good test knows better: `rotid ema` writes all of them in a line of text. [Hz] */
 double uff_mode_frequency(const struct uff_shape *mode);
