@@ -153,6 +153,26 @@ static int given(void *user, int m, int n, const double *x, double *r, double *j
     return 0;
 }
 
+/* 1e10 + 1e-300 x: the step of Gauss and Newton has no double */
+static int far_away(void *user, int m, int n, const double *x, double *r, double *j)
+{
+    int *beyond = user;
+    (void)m, (void)n;
+    *beyond += !isfinite(x[0]);
+    *(r ? r : j) = r ? 1e10 + 1e-300 * x[0] : 1e-300;
+    return 0;
+}
+
+UNIT_TEST(test_no_point_beyond_the_doubles_is_asked_for)
+{
+    int beyond = 0;
+    double x = 0, r;
+    rotid_lm_result result;
+    (void)rotid_lm(1, 1, far_away, &beyond, NULL, NULL, &x, &r, jacobian, work, &result);
+    assert_int_equal(beyond, 0);
+    assert_true(isfinite(x) && r == 1e10 + 1e-300 * x && result.evaluations > 1);
+}
+
 UNIT_TEST(test_start_without_a_finite_residual_is_an_error)
 {
     static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}};

@@ -224,6 +224,10 @@ static int try_step(struct lm *lm, int failed, double *predicted, int *refused)
     }
     for (int j = 0; j < lm->n; j++)
         lm->trial[j] = lm->x[j] + lm->step[j] / lm->unit;
+    if (!all_finite(lm->n, lm->trial)) { /* a column so small that the step overflows */
+        *refused = 1;
+        return ROTID_OK;
+    }
     lm->result->evaluations++;
     *refused = lm->residual(lm->user, lm->m, lm->n, lm->trial, lm->trial_r, NULL) || !all_finite(lm->m, lm->trial_r);
     return ROTID_OK;
