@@ -1,4 +1,5 @@
 /* What `rotid report` makes of files that are no result, or a broken one: the place and what was expected, and no folder. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 
 #include "page/page.h"
 #include "page_bench.h"
+#include "result/result.h"
 #include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -330,6 +332,47 @@ UNIT_TEST(memory_that_runs_out_is_survived)
                                         "diagnose.json", "study.json",       "states.json", "states_modes.json"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         assert_true(page_composed_without_memory(names[i]) > 50);
+}
+
+static long refuse_at, asked;
+
+static void *failing_malloc(size_t size)
+{
+    if (++asked == refuse_at) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    return malloc(size);
+}
+
+/* Memory of the parser: the file is not called wrong, and no line of it is left out. */
+UNIT_TEST(a_sound_file_is_not_accused_where_memory_runs_out)
+{
+    static const char *const texts[] = {"{\"a\": [1, 2, {\"b\": \"text\"}]}", "{\"a\": 1}\n{\"b\": [2]}\n{\"c\": 3}"};
+    cJSON_Hooks hooks = {failing_malloc, free};
+    for (int i = 0; i < 2; i++) {
+        int status = ROTID_ERROR_MEMORY;
+        FILE *stream = fopen(page_path("memory.json"), "w");
+        assert_non_null(stream);
+        assert_true(fputs(texts[i], stream) >= 0 && !fclose(stream));
+        for (refuse_at = 1; status; refuse_at++) {
+            struct message_list messages;
+            struct pool pool;
+            cJSON *json;
+            int is_lines;
+            pool_open(&pool, NULL);
+            message_open(&messages, &pool);
+            asked = 0;
+            cJSON_InitHooks(&hooks);
+            status = json_file_read(&pool, page_path("memory.json"), &messages, &json, &is_lines);
+            cJSON_InitHooks(NULL);
+            assert_true(status == ROTID_ERROR_MEMORY || (!status && refuse_at > asked));
+            assert_int_equal(messages.count, 0);
+            cJSON_Delete(json);
+            pool_close(&pool);
+        }
+        assert_true(refuse_at > 8);
+    }
 }
 
 TEST_GROUP(page_bench_open, page_bench_close);

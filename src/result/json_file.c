@@ -58,6 +58,14 @@ const char *json_text_too_dense(const char *text, size_t length)
     return NULL;
 }
 
+int json_parse(const char *text, size_t length, const char **rest, cJSON **json)
+{
+    const char *ignored;
+    errno = 0;
+    *json = cJSON_ParseWithLengthOpts(text, length, rest ? rest : &ignored, 0);
+    return *json ? ROTID_OK : errno == ENOMEM ? ROTID_ERROR_MEMORY : ROTID_ERROR_SYNTAX; /* malloc sets it */
+}
+
 static const char *skip_blanks(const char *c, const char *end)
 {
     while (c < end && (*c == ' ' || *c == '\t' || *c == '\n' || *c == '\r'))
@@ -113,7 +121,10 @@ static int read_lines(const char *file, struct message_list *messages, const cha
         return ROTID_ERROR_MEMORY;
     }
     while ((at = skip_blanks(at, end)) < end) {
-        cJSON *value = cJSON_ParseWithLengthOpts(at, (size_t)(end - at), &next, 0);
+        cJSON *value;
+        int status = json_parse(at, (size_t)(end - at), &next, &value);
+        if (status == ROTID_ERROR_MEMORY)
+            return status;
         if (value && cJSON_AddItemToArray(list, value)) {
             at = next;
             continue;
@@ -148,8 +159,10 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
         say_where(file, messages, text, dense, TOO_DENSE);
         return ROTID_ERROR_SYNTAX;
     }
-    *json = cJSON_ParseWithLengthOpts(text, length, &rest, 0);
-    if (!*json) {
+    status = json_parse(text, length, &rest, json);
+    if (status == ROTID_ERROR_MEMORY)
+        return status;
+    if (status) {
         rest = rest ? rest : text;
         say_where(file, messages, text, rest, is_cut_off(text, rest, end));
         return ROTID_ERROR_SYNTAX;

@@ -136,6 +136,10 @@ double reference_value(const rotid_reference *reference, int k);
  * than is allowed, NULL where they do not; results of rotid take 4 to 7 times their size. */
 const char *json_text_too_dense(const char *text, size_t length);
 
+/* *json (to be freed with cJSON_Delete) is the first value of text [length], *rest where it ends or where it is wrong (NULL: not
+ * asked for). ROTID_OK, ROTID_ERROR_SYNTAX, or ROTID_ERROR_MEMORY, which is not to be told as a fault of the text. */
+int json_parse(const char *text, size_t length, const char **rest, cJSON **json);
+
 /* *json (to be freed with cJSON_Delete) is the value, or an array of the values where the file has one a line; is_lines tells. Of
  * such a file a last line that no line feed ends is left out, with a note: a program died while it wrote. ROTID_OK,
  * ROTID_ERROR_IO, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY, with the mistake in the messages, at file:line:column. */

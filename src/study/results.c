@@ -301,8 +301,10 @@ static int read_header(struct reading *r, struct pool *pool, struct results *res
     int status = take_line(r, &text, &length);
     if (status)
         return status > 0 ? malformed(r, 1, expected) : status;
-    cJSON *json = json_text_too_dense(text, length) ? NULL : cJSON_ParseWithLength(text, length);
-    status = results_header_read(pool, json, &results->header);
+    cJSON *json = NULL;
+    status = json_text_too_dense(text, length) ? ROTID_ERROR_SYNTAX : json_parse(text, length, NULL, &json);
+    if (!status)
+        status = results_header_read(pool, json, &results->header);
     cJSON_Delete(json);
     if (status)
         return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
@@ -335,10 +337,13 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
 {
     struct message_list messages;
     struct reader reader = {.pool = pool, .messages = &messages, .file = "this line is no result"};
-    cJSON *json = json_text_too_dense(text, length) ? NULL : cJSON_ParseWithLength(text, length);
+    cJSON *json = NULL;
+    int status = json_text_too_dense(text, length) ? ROTID_ERROR_SYNTAX : json_parse(text, length, NULL, &json);
     const struct json_place place = {.reader = &reader, .json = json};
     message_open(&messages, pool);
     *run = (struct study_run){.status = -1};
+    if (status == ROTID_ERROR_MEMORY)
+        return "";
     if (!cJSON_IsObject(json))
         place_wrong(&place, "it is no JSON, expected an object");
     else
