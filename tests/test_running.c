@@ -1,4 +1,5 @@
 /* The machine in operation beside closed forms and beside the first-order form of the full model. */
+#include <complex.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
@@ -110,6 +111,35 @@ POOL_TEST(a_harmonic_is_critical_at_its_share_of_the_speed)
     }
     assert_close(first[1], first[0] / 2, 1e-4, 0); /* the light shaft has gyroscopic moments of its own */
     running_case_close(&c);
+}
+
+/* A loss factor acts by w - W: m lambda^2 + c lambda + k (1 + i eta sgn(h - 1)) = 0 of forward whirl at w = h W, sgn 1 of
+ * backward. */
+POOL_TEST(a_loss_factor_damps_a_critical_speed_of_a_harmonic_by_its_side)
+{
+    const double harmonic[] = {0.5, 1, 2}, eta = 0.02, damping = 100;
+    for (int i = 0; i < 3; i++) {
+        struct running_case c;
+        struct message_list notes;
+        const struct speeds_options options = {.to = 6000 * RPM, .count = 9, .harmonic = harmonic[i], .seed = 1, .threads = 1};
+        message_open(&notes, &test_pool);
+        assert_int_equal(running_case_open(LIGHT, 4000, 9, 0, &c), ROTID_OK);
+        double w = natural(&c);
+        running_case_close(&c);
+        assert_int_equal(running_case_open(LIGHT "*BEARING\n0.5, 0, 100\n*LOSS\nshaft, 0.02\n", 4000, 9, 0, &c), ROTID_OK);
+        assert_int_equal(speeds_run(&test_pool, c.machine, c.job, c.x, NULL, &options, NULL, &notes, &c.speeds), ROTID_OK);
+        assert_int_equal(c.speeds.ncritical_speeds, 2);
+        for (int j = 0; j < 2; j++) {
+            const rotid_critical_speed *critical = &c.speeds.critical_speeds[j];
+            int forward = !strcmp(critical->whirl, "forward"), side = forward ? (i > 1) - (i < 1) : 1;
+            double complex root =
+                (-damping + csqrt(damping * damping - 4 * MASS * MASS * w * w * (1 + I * eta * side))) / (2 * MASS);
+            root = cimag(root) < 0 ? -damping / MASS - root : root;
+            assert_true(forward || !strcmp(critical->whirl, "backward"));
+            assert_close(critical->log_decrement, -2 * PI * creal(root) / cimag(root), 2e-3, 0);
+        }
+        running_case_close(&c);
+    }
 }
 
 /* A rigid rotor on two like springs: bounce at 2 k/m, cones at Id w^2 -+ W Ip w - k L^2/2 = 0. */

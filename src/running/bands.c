@@ -205,7 +205,7 @@ static void differentiate_one(struct bands *b, int j, struct system side[2], dou
             probe++;
         /* delta = -2 pi Re/Im along the critical speed, which moves: d lambda = lambda,p + lambda,W dW/dp */
         to->speed = b->derivative[j + (ptrdiff_t)b->nsource * i];
-        double complex rate = pair_difference(&nominal, side, apart, c->speed, 0, &c->pair, work);
+        double complex rate = pair_difference(&nominal, side, apart, c->speed, critical_side(h), &c->pair, work);
         rate += pair_rate(&nominal, &c->pair) * to->speed * c->speed;
         double w = cimag(c->pair.lambda);
         to->parameter = b->source[j].own;

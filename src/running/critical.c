@@ -14,6 +14,11 @@
 #define ROUNDING 1e-12 /* of the largest entry of a matrix */
 #define FINEST   256   /* steps at least through half a bracket, in the last attempt */
 
+int critical_side(double h)
+{
+    return (h > 1) - (h < 1);
+}
+
 struct pair *track_at(const struct tracks *t, int mode, int speed)
 {
     return &t->pair[(ptrdiff_t)mode * t->nspeed + speed];
@@ -244,7 +249,7 @@ static int cross(struct system *s, double from, double to, double h, int least, 
                         s->hysteretic ? high * (1 + JUMP) : fmax(below, above), &c->pair, &c->speed, &near)) {
                 pair_copy(s->size, &near, &c->pair);
                 system_at(s, c->speed);
-                return pair_left(s, 0, &c->pair);
+                return pair_left(s, critical_side(h), &c->pair);
             }
         }
     }
@@ -306,7 +311,7 @@ int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, 
 double critical_rate(struct system *nominal, struct system side[2], double apart, double h, const struct critical *c,
                      double complex *work)
 {
-    double complex rate = pair_difference(nominal, side, apart, c->speed, 0, &c->pair, work);
+    double complex rate = pair_difference(nominal, side, apart, c->speed, critical_side(h), &c->pair, work);
     return cimag(rate) / (h - cimag(pair_rate(nominal, &c->pair)));
 }
 

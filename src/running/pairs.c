@@ -173,7 +173,7 @@ int pair_synchronise(struct system *s, double h, double *speed, struct pair *pai
     for (int step = 0; step < STEPS; step++) {
         double complex lambda = growth + I * h * w;
         system_at(s, w);
-        system_dynamic(s, lambda, 0, s->d);
+        system_dynamic(s, lambda, critical_side(h), s->d);
         by_lambda(s, lambda, pair->u, x);
         by_speed(s, lambda, pair->u, y);
         if (complex_factor(n, s->d, s->pivot)) {

@@ -255,8 +255,11 @@ int pair_refine(struct system *system, double at, const int *side, struct pair *
  */
 int pair_left(struct system *system, int side, struct pair *pair);
 
-/* The speed near *speed where Im lambda = h W of a mode, and its pair there, by Newton on both together, quadratic; side 0. The
- * left vector is workspace. Returns 0, or 1 without convergence. */
+/* Side of the loss factors where Im lambda = h W: 0 for h = 1, where they jump. */
+int critical_side(double h);
+
+/* The speed near *speed where Im lambda = h W of a mode, and its pair there, by Newton on both together, quadratic; side of h.
+ * The left vector is workspace. Returns 0, or 1 without convergence. */
 int pair_synchronise(struct system *system, double h, double *speed, struct pair *pair);
 
 /* The same mode at another speed in `least` steps or more: they are halved until the vector of one is that of the other. Returns
