@@ -143,10 +143,13 @@ static struct change sheared(const struct rotor *rotor, const double *value, int
 
 static struct change cone(const struct rotor *rotor, const double *value, int segment, double z)
 {
-    double area, inertia, own_area, own_inertia;
-    bench_section(rotor, segment, rotor->segment[segment].stiff_outer, &own_area, &own_inertia);
-    bench_section(rotor, segment, bench_cone_diameter(rotor, segment, z, value[0]), &area, &inertia);
-    return (struct change){inertia / own_inertia, area / own_area, 1};
+    const struct segment *own = &rotor->segment[segment];
+    double area, inertia, own_area, own_inertia, diameter = bench_cone_diameter(rotor, segment, z, value[0]);
+    bench_section(rotor, segment, own->stiff_outer, &own_area, &own_inertia);
+    bench_section(rotor, segment, diameter, &area, &inertia);
+    double coefficient = rotid_shear_coefficient_annulus(0.3, own->inner / diameter) /
+                         rotid_shear_coefficient_annulus(0.3, own->inner / own->stiff_outer);
+    return (struct change){inertia / own_inertia, coefficient * area / own_area, 1};
 }
 
 static struct change turned(const struct rotor *rotor, const double *value, int segment, double z)

@@ -33,6 +33,24 @@ static const char hung[] = HUBS("0.1, 500", "0.8, 500"), held[] = HUBS("0.05, 2e
                                  "*SHAFT, NAME=right, MATERIAL=steel\n0.116, 0.1, 0, 5\n0.207, 0.0735, 0, 8\n"
                                  "*SLING, LENGTH=1.7\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.0012, SHAPE=0.026\n"
                                  "*IDENTIFY\ncore.E, 6e9, 1.3e11, 3e10\ncore.G, 7.6e8, 6e10, 6e9\n*FIT, FUNCTIONAL=LIKELIHOOD\n",
+                  /* elements as the sections need them; cones need shorter ones */
+    waisted[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.005e11, 0.3\n*DENSITY\n7850\n*MATERIAL, NAME=own\n"
+                "*ELASTIC, TYPE=SHEAR\n1.2432e11, 3.5e10, 0.3\n*DENSITY\n6862\n"
+                "*SHAFT, NAME=core, MATERIAL=own\n0.155737, 0.02201, 0, 15\n"
+                "*SHAFT, NAME=right, MATERIAL=steel\n0.051173, 0.012296, 0, 5\n"
+                "0.110584, 0.021639, 0, 11\n0.105158, 0.016874, 0, 10\n*SLING, LENGTH=1.756\n*SENSORS\n"
+                "1, 0\n2, 0.0366\n3, 0.0913\n4, 0.1212\n5, 0.1709\n6, 0.2197\n7, 0.2624\n8, 0.3012\n"
+                "9, 0.3309\n10, 0.3906\n11, 0.41\n"
+                "*MODES\n1, 1\n*NOISE, FREQUENCY=0.0002, SHAPE=0.006\n*IDENTIFY\n"
+                "core.E, 2.486e10, 4.973e11, 1.334e11\ncore.G, 3.5e9, 2.8e11, 4.276e10\n"
+                "*FIT, FUNCTIONAL=LIKELIHOOD\n",
+                  bored[] = STEEL "*MATERIAL, NAME=own\n*ELASTIC, TYPE=SHEAR\n1.8e11, 3.2e10, 0.3\n*DENSITY\n7850\n"
+                                  "*SHAFT, NAME=left, MATERIAL=steel\n0.73, 0.28, 0, 10\n0.6, 0.35, 0, 8\n"
+                                  "*SHAFT, NAME=core, MATERIAL=own\n1.1, 0.55, 0.14, 14\n"
+                                  "*SHAFT, NAME=right, MATERIAL=steel\n0.42, 0.48, 0, 5\n0.52, 0.38, 0, 8\n"
+                                  "*SLING, LENGTH=0.93\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.001, SHAPE=0.01\n"
+                                  "*IDENTIFY\ncore.E, 3.5e10, 7e11, 1.8e11\ncore.G, 3.2e9, 2.5e11, 4e10\n"
+                                  "*FIT, FUNCTIONAL=LIKELIHOOD\n",
                   noisy[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n1, 0.08, 0, 60\n*MODES\n1, 1\n*NOISE, FREQUENCY=0.004, "
                                   "SHAPE=0.045\n*IDENTIFY\nshaft.E, 1e11, 3e11, 2e11\n*FIT, FUNCTIONAL=LIKELIHOOD\n";
 
@@ -59,6 +77,8 @@ static const struct {
     {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1},              /* modes change their order: no straight line leads there */
     {wheel, "added_inertia:at=wheel,inertia=0.3", 1, 1, 0.1},
     {wheel, "added_mass:mass=5,z=0.88", 1, 1, 0.1},
+    {waisted, "step_stiffness:angle=33", 1, 1, 0.05},
+    {bored, "step_stiffness:angle=28", 1, 1, 0.05},
 };
 
 static char directory[] = "/tmp/structures.XXXXXX";
@@ -95,6 +115,12 @@ UNIT_TEST(causes_of_small_structures_are_found)
         c.request.modes = table[i].shapes ? 5 : 4;
         c.request.sensors = table[i].shapes ? 15 : 0;
         c.request.no_shapes = !table[i].shapes;
+        if (table[i].deck == waisted || table[i].deck == bored) {
+            c.request.modes = table[i].deck == waisted ? 4 : 8;
+            c.request.sensors = table[i].deck == waisted ? 0 : 15; /* a sensor is a node: between nodes it makes the mesh finer */
+            c.request.frequency_noise = 2e-4;
+            c.request.shape_noise = 0.006;
+        }
         c.request.effect = &table[i].effect;
         c.request.effects = 1;
         assert_int_equal(hidden_run(&c, NULL, look, &seen, &score), 0);

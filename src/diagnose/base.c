@@ -30,21 +30,21 @@ static int failed(int status)
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the modes are others there: nothing is known */
 }
 
-/* worth = ||(I - Q Q') (r' - r)||^2: r the residual of the base at its fitted values, r' that of `finer`, the same job with more
+/* worth = ||(I - Q Q') (r' - r)||^2: r the residual of a job at its fitted values x, r' that of `finer`, the same job with more
  * elements, Q an orthonormal basis of the sensitivities of the fitted parameters, which take up the rest. It is the chi2 that a
  * cause could gain from the mesh alone. Frequencies do not tell it: of two modes close to each other a mesh that moves both by
  * little turns the shapes. 0 where the finer mesh has no such modes. ROTID_OK, ROTID_ERROR_MEMORY. */
-static int mesh_worth(const struct engine *engine, const struct job *finer, double *worth)
+static int mesh_worth(struct pool *pool, const struct engine *engine, const struct job *job, const struct job *finer,
+                      const double *x, double *worth)
 {
-    struct pool *pool = engine->pool;
     struct columns here, there;
-    int parameters = engine->job->unknowns.nparameter, count = 0;
+    int parameters = job->unknowns.nparameter, count = 0;
     *worth = 0;
-    int status = columns_open(pool, engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &here);
+    int status = columns_open(pool, job, engine->number, engine->holdout, NULL, x, &here);
     if (!status)
         status = columns_prepare(&here);
     if (!status)
-        status = columns_open(pool, finer, engine->number, engine->holdout, NULL, engine->fit->x, &there);
+        status = columns_open(pool, finer, engine->number, engine->holdout, NULL, x, &there);
     if (status)
         return failed(status);
     int n = here.nrow;
@@ -315,7 +315,7 @@ int base_prepare(struct engine *engine)
         struct job finer = *engine->job;
         status = refine_mesh(engine->pool, &finer.rotor);
         if (!status && !(ratio > 1))
-            status = mesh_worth(engine, &finer, &worth);
+            status = mesh_worth(engine->pool, engine, engine->job, &finer, engine->fit->x, &worth);
         if (status || (!(ratio > 1) && !(worth > MESH_WORTH)))
             break;
         if (!pass)
@@ -394,6 +394,36 @@ int base_again(struct engine *engine)
 {
     int status = fit_base(engine, 0);
     return status ? status : base_residuals(engine);
+}
+
+int base_refine_beside(struct engine *engine, const struct job *job, const double *x, int *changed)
+{
+    struct rotid_diagnosis *out = &engine->out->result;
+    struct job finer = *job;
+    double worth = 0, raised;
+    int told = 0, status;
+    *changed = 0;
+    if (engine->states.nstate > 1 || job->options.solid || !can_be_refined(&job->rotor))
+        return ROTID_OK;
+    struct pool scratch;
+    pool_open(&scratch, engine->pool->allocator);
+    status = refine_mesh(&scratch, &finer.rotor);
+    if (!status)
+        status = mesh_worth(&scratch, engine, job, &finer, x, &worth);
+    pool_close(&scratch);
+    raised = worth;
+    for (int pass = 0; pass < MOST_REFINED && worth > MESH_WORTH && !status && can_be_refined(&engine->job->rotor);
+         pass++, worth /= 16) {
+        status = refine_mesh(engine->pool, &engine->job->rotor);
+        *changed = 1;
+    }
+    for (int i = 0; i < out->nnumerical_findings; i++)
+        told |= strcmp(out->numerical_findings[i].id, "mesh") == 0;
+    if (!*changed || told || status)
+        return status;
+    const struct spectrum *s = &engine->out->base.spectrum;
+    return add_numerical(engine, "mesh", s->count, s->mesh_error_percent,
+                         pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", raised));
 }
 
 int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)

@@ -552,6 +552,9 @@ int base_again(struct engine *engine);
 /* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
  * be a cause still moves a modulus by part of its interval. */
 int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum);
+/* Elements of the base as many as a job with causes at x needs, which may vary faster along the rotor than any of its sections:
+ * where twice as many would change its chi2 by more than the noise does. *changed: more are there. */
+int base_refine_beside(struct engine *engine, const struct job *job, const double *x, int *changed);
 /* "lower" or "upper": the bound at which parameter p of the base ends. */
 const char *base_bound_side(const struct engine *engine, int p);
 /* What the condensation of the user's own fit costs. */

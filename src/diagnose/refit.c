@@ -8,6 +8,7 @@
 #define STARTS     3    /* places a candidate is fitted from */
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
+#define STRAYED    3    /* times as large or small as in the deck */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
 
 static double inside(const rotid_parameter *bounds, double value)
@@ -335,6 +336,16 @@ static int fit_at_bound(const rotid_fit_result *fit, int nown)
     return any;
 }
 
+/* Whether the base model has drawn an own parameter far away from the deck to make up for what it lacks: fits from there may end
+ * in a minimum beside the one of the cause. */
+static int strayed(int n, const double *x, const double *deck)
+{
+    int far = 0;
+    for (int p = 0; p < n; p++)
+        far |= fabs(x[p]) > STRAYED * fabs(deck[p]) || STRAYED * fabs(x[p]) < fabs(deck[p]);
+    return far;
+}
+
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)
 {
     struct states started;
@@ -390,7 +401,8 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
     if (!status && deck &&
-        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter)))
+        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter) ||
+         strayed(states->nparameter, x, deck)))
         status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;

@@ -201,8 +201,8 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
     return status;
 }
 
-/* Pairing, faults of channels and, of the only state, noise as the explanations have them; the search is to be repeated where
- * something was at fault. */
+/* Pairing, faults of channels, of the only state noise, as the explanations have them, and the mesh as the leading one needs it;
+ * the search is to be repeated where something was at fault. */
 static int settle_data(struct engine *engine, struct round_result *result, const struct posterior *posterior, int noise,
                        int *changed)
 {
@@ -211,6 +211,12 @@ static int settle_data(struct engine *engine, struct round_result *result, const
         status = posterior_take_faults(engine, posterior, changed);
     if (!status && !*changed && noise)
         status = noise_settle(engine, posterior, changed);
+    for (int i = 0; i < posterior->count && !status && !*changed; i++)
+        if (posterior->item[i].nmember && posterior->item[i].refit && posterior->item[i].refit->fit) {
+            const struct refit *leading = posterior->item[i].refit;
+            status = base_refine_beside(engine, &leading->states.state->job, leading->fit->x, changed);
+            break;
+        }
     if (!status && *changed)
         status = base_again(engine);
     return status || !*changed ? status : pairing_note_again(engine);

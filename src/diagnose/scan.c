@@ -306,16 +306,12 @@ static int fill(struct pool *pool, const struct states *states, struct part *par
     return status;
 }
 
-int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
-             enum scan_extent extent, struct scan *scan)
+/* The matrices of the models and their adjoints are large beside what is left of a scan: they stand in `matrices`. */
+static int run(struct pool *pool, struct pool *matrices, const struct states *states, const int *number, const int *holdout,
+               const double *x, struct scan *scan)
 {
-    struct part *part = POOL_ARRAY(pool, struct part, states->nstate);
-    int items = 0, n, status = part ? scan_list(pool, states, scan) : ROTID_ERROR_MEMORY;
-    scan->extent = extent;
-    if (!status && extent == SCAN_FIELDS)
-        keep_fields(scan);
-    if (!status)
-        status = open_parts(pool, states, number, holdout, x, part, scan);
+    struct part *part = POOL_ARRAY(matrices, struct part, states->nstate);
+    int items = 0, n, status = part ? open_parts(matrices, states, number, holdout, x, part, scan) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     n = scan->nrow;
@@ -351,6 +347,22 @@ int scan_run(struct pool *pool, const struct states *states, const int *number, 
         scan->largest = fmax(scan->largest, item->drop);
     }
     return ROTID_OK;
+}
+
+int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+             enum scan_extent extent, struct scan *scan)
+{
+    struct pool matrices;
+    int status = scan_list(pool, states, scan);
+    scan->extent = extent;
+    if (status)
+        return status;
+    if (extent == SCAN_FIELDS)
+        keep_fields(scan);
+    pool_open(&matrices, pool->allocator);
+    status = run(pool, &matrices, states, number, holdout, x, scan);
+    pool_close(&matrices);
+    return status;
 }
 
 double scan_best_drop(const struct scan *scan, int candidate)

@@ -17,7 +17,7 @@ const struct cause_kind cause_support = {
     .class = CAUSE_PHYSICAL,
     .target = TARGET_SPRING,
     .effect = &kind,
-    .parameter = {{.neutral = 1, .typical = 2, PRIOR_LOGNORMAL(1)}},
+    .parameter = {{.neutral = 1, .typical = 2, PRIOR_LOGNORMAL(1.6)}}, /* slings and blocks are guessed to a factor of five */
     NO_PLACE,
     .limit_of = "support_extra",
     .applies = applies_to_felt_spring,
