@@ -301,6 +301,34 @@ UNIT_TEST(wrong_usage_is_refused)
     assert_non_null(strstr(uff_output, "--per-point is an option of ema alone"));
 }
 
+/* One mode at 100 Hz of four points, two over each of two references. */
+static void put_two_parts(const char *name, int tied)
+{
+    const double phi[] = {1, 0.5, -0.4, -0.9};
+    FILE *out = create(name);
+    (void)fputs("frequency [Hz];1/1 real;1/1 imaginary;2/1 real;2/1 imaginary;3/4 real;3/4 imaginary;4/4 real;4/4 imaginary",
+                out);
+    (void)fputs(tied ? ";2/4 real;2/4 imaginary\n" : "\n", out);
+    for (int i = 0; i < 400; i++) {
+        double f = 50 + 0.25 * i, re = 1 - f * f / 1e4, im = 0.02 * f / 100, square = re * re + im * im;
+        const double product[] = {phi[0] * phi[0], phi[1] * phi[0], phi[2] * phi[3], phi[3] * phi[3], phi[1] * phi[3]};
+        (void)fprintf(out, "%g", f);
+        for (int c = 0; c < 4 + tied; c++)
+            (void)fprintf(out, ";%.12g;%.12g", -f * f * product[c] * re / square, f * f * product[c] * im / square);
+        (void)fputc('\n', out);
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
+UNIT_TEST(points_that_nothing_ties_to_the_others_are_told)
+{
+    put_two_parts("apart.csv", 0);
+    put_two_parts("tied.csv", 1);
+    ema_says("apart.csv -o apart.unv", 0, "2 of 4 are left out: nothing ties their functions to the others");
+    ema_says("tied.csv -o tied.unv", 0, "5 transfer functions (accelerance), 4 points");
+    assert_null(strstr(uff_output, "left out"));
+}
+
 UNIT_TEST(output_is_whole_or_not_there)
 {
     make_excerpt("bar.uff");

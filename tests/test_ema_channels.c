@@ -65,6 +65,29 @@ POOL_TEST(a_hammer_that_roves_gives_the_same)
     assert_close(ema.mode[0].modal_mass, 1, 1e-4, 0);
 }
 
+/* Two fixed transducers: the shapes have the points of the hammer, not two. */
+POOL_TEST(a_hammer_that_roves_beside_two_transducers_gives_the_same)
+{
+    struct frf_set a, b;
+    struct ema ema;
+    measure(9, 4, 0, &b);
+    measure(9, 0, 0, &a);
+    struct frf_set set = a;
+    set.nfrf = 18;
+    set.frf = POOL_ARRAY(&test_pool, struct frf, 18);
+    memcpy(set.frf, a.frf, 9 * sizeof *a.frf);
+    memcpy(set.frf + 9, b.frf, 9 * sizeof *b.frf);
+    for (int c = 0; c < 18; c++) {
+        int point = set.frf[c].response_node;
+        set.frf[c].response_node = set.frf[c].reference_node;
+        set.frf[c].reference_node = point;
+    }
+    compute(&set, &ema);
+    assert_int_equal(ema.roving_force, 1);
+    assert_shapes(&ema, 9, 1e-4);
+    assert_close(ema.mode[0].modal_mass, 1, 1e-3, 0);
+}
+
 /* Eight points over two references, one of which sees no middle mode at its node. */
 POOL_TEST(two_references_make_one_shape)
 {

@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include <complex.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "base/base.h"
@@ -46,6 +48,32 @@ static int is_doubtful(const struct ema *ema)
     return doubtful;
 }
 
+/* Points of a mode that were measured and have no value: no chain of common points ties their functions to the others. */
+static int untied(const struct ema *ema, const struct ema_mode *mode)
+{
+    int count = 0;
+    for (int i = 0; i < ema->npoint; i++) {
+        int measured = 0;
+        for (int c = 0; c < ema->nfrf && isnan(mode->shape[i]); c++)
+            measured |= ema->channel_point[c] == i && !isnan(creal(mode->residue[c]));
+        count += measured;
+    }
+    return count;
+}
+
+static void note_untied(struct command *command, const struct ema *ema)
+{
+    int most = 0;
+    for (int k = 0; k < ema->nmode; k++)
+        most = untied(ema, &ema->mode[k]) > most ? untied(ema, &ema->mode[k]) : most;
+    if (most)
+        message_add(
+            &command->messages, SEVERITY_WARNING, command->deck, 1, 1,
+            "the shapes are of one part of the points, %d of %d are left out: nothing ties their functions to the others, "
+            "expected a point that both parts have",
+            most, ema->npoint);
+}
+
 #define LEAST_POINTS 5 /* fewer do not tell how a frequency follows the shape (point_mean) */
 
 /* Whether the response went from point to point, and a mode's frequency with it: its accelerometer is felt. */
@@ -90,6 +118,8 @@ static int extract_modes(struct command *command, struct ema_options *options, s
                     "frequencies differ from point to point, as with one accelerometer that goes round: they are taken at each "
                     "point as well (--per-point), and identify and diagnose allow for its mass");
     }
+    if (!status)
+        note_untied(command, ema);
     if (environment.progress)
         terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {

@@ -146,7 +146,7 @@ struct ema { /* everything on the pool */
     int nfrf, npoint;
     int *point_node,
         *point_direction; /* [npoint] distinct pairs, in the order of the transfer functions: where the shapes live */
-    int roving_force;     /* nonzero: one response and many references: shapes live at the references (reciprocity) */
+    int roving_force;     /* nonzero: more references than responses: shapes live at the references (reciprocity) */
     int *channel_point;   /* [nfrf] index of the point */
     int order;            /* used */
     int npole;
@@ -465,8 +465,8 @@ struct ema_points {
     int *is_drive;  /* [nfrf] response and reference are the same point */
 };
 
-/* Points where the shapes live, channel_point and roving_force of out: the responses, or the references where these are many and
- * the response is one (reciprocity: H_ij = H_ji). A direction counts without its sign, which goes into the shape: a transducer
+/* Points where the shapes live, channel_point and roving_force of out: the responses, or the references where these are more
+ * (reciprocity: H_ij = H_ji). A direction counts without its sign, which goes into the shape: a transducer
  * mounted in -x measures -x. ROTID_OK or ROTID_ERROR_MEMORY. */
 int shapes_points(struct pool *pool, const struct frf_set *set, struct ema_points *points, struct ema *out);
 

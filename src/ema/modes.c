@@ -83,7 +83,7 @@ int shapes_points(struct pool *pool, const struct frf_set *set, struct ema_point
         points->sign[c] = (f->response_direction < 0 ? -1 : 1) * (f->reference_direction < 0 ? -1 : 1);
         points->is_drive[c] = f->response_node == f->reference_node && abs(f->response_direction) == abs(f->reference_direction);
     }
-    out->roving_force = nresponse == 1 && nreference > 1;
+    out->roving_force = nreference > nresponse; /* the side with more points: the other one tells one mode from another */
     const struct place *place = out->roving_force ? reference : response;
     out->channel_point = out->roving_force ? of_reference : of_response;
     out->npoint = out->roving_force ? nreference : nresponse;
