@@ -199,6 +199,7 @@ static const struct mistake {
     {"*MODES", "mode,frequency,f\n1,500,500\n", 1, 3, "'f' is a second column of the frequency"},
     {"*MODES", "1,500,,,7\n", 1, 5, "'7' is one value too many"},
     {"*MODES", "mode;frequency;damping\n1;500,5;0.1\n", 2, 2, "'500,5' has a decimal comma and '0.1' in cell C2 a decimal point"},
+    {"*MODES", "mode,frequency\n1,500\n2,1300,5\n", 3, 3, "'5' stands behind the 2 columns that have a name"},
     {"*MODES", "mode,frequency\n1,\"1,300\"\n", 2, 2, "'1,300' is not a number"},
     {"*MODES", "mode,frequency\n1,\"500\n", 2, 2, "the quote is not closed"},
     {"*MODES", "mode,frequency\n1,\"500\"0\n", 2, 2, "text stands behind a quote"},

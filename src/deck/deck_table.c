@@ -266,6 +266,24 @@ struct taking {
     double asked;                 /* MODE of the card, NaN where all modes of the table are taken */
 };
 
+/* A number without a name above it: 0,25 between commas is two cells, and what stands behind it moves by a column. */
+static int has_nameless_number(struct deck_reader *reader, const struct table_text *table)
+{
+    int names = table->row[0].count;
+    while (names && !*table->row[0].field[names - 1].text)
+        names--;
+    for (int r = 1; r < table->nrow && table_has_header(table); r++)
+        for (int i = names; i < table->row[r].count; i++)
+            if (table_is_number(table->row[r].field[i].text)) {
+                deck_error(reader, table->row[r].field[i].place,
+                           "'%s' stands behind the %d columns that have a name, expected none there: a decimal comma between "
+                           "cells separated by commas?",
+                           table->row[r].field[i].text, names);
+                return 1;
+            }
+    return 0;
+}
+
 struct table_text *deck_open_table(struct deck_reader *reader, const struct card *card)
 {
     struct deck_text *text = &reader->text;
@@ -288,7 +306,7 @@ struct table_text *deck_open_table(struct deck_reader *reader, const struct card
     }
     int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
     reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
-    table->bad = status != ROTID_OK;
+    table->bad = status != ROTID_OK || has_nameless_number(reader, table);
     return DECK_ADD(reader, text->table, text->ntable, &table) ? NULL : table;
 }
 
