@@ -49,7 +49,7 @@ int command_fail(struct command *command, int status)
         message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", rotid_status_text(status));
     command_print_messages(command);
     if (!command->messages.errors)
-        terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));
+        terminal_say("rotid: %s: %s\n", command->deck ? command->deck : command->file[0], rotid_status_text(status));
     switch (status) { /* what the input causes, and what it does not */
     case ROTID_ERROR_SYNTAX:
     case ROTID_ERROR_SECTION:
