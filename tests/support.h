@@ -64,13 +64,8 @@ int test_main(int argc, char **argv);
 void set_blas_threads(int threads);
 int blas_threads(void);
 
-/* Sweeps of whole diagnoses go in steps so many times as large, more under a sanitizer, unless make test-long has them
- * whole. */
-#ifdef __SANITIZE_ADDRESS__
+/* Sweeps of whole diagnoses go in steps so many times as large, unless make test-long has them whole. */
 #define SPARSE (getenv("ROTID_LONG") ? 1 : 5)
-#else
-#define SPARSE (getenv("ROTID_LONG") ? 1 : 3)
-#endif
 
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)
