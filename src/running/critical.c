@@ -132,7 +132,7 @@ static int may_grow(struct system *s, double speed, double *work)
 static int find_divergence(struct pool *pool, struct system *s, struct pair *all, double below, double above, double *speed)
 {
     int count, status = ROTID_OK;
-    double real;
+    double real = 0;
     for (int half = 0; half < DIVERGED && !status; half++) {
         double middle = (below + above) / 2;
         status = pairs_all(pool, s, middle, &count, all, &real);
