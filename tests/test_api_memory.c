@@ -184,12 +184,12 @@ UNIT_TEST(every_allocation_may_fail)
     sweep("rotid_identify with a run-up", deck, try_identify, free_identification, 40, 2.5);
     sweep("rotid_speeds_compute", deck, try_speeds, free_speeds, 60, 1.7);
     long all = run_once(deck, try_speeds, free_speeds, 0);
-    for (long n = all / 2; n < all; n += all / 40) /* in torsion and its deviations */
+    for (long n = all / 2; n < all; n += SPARSE * (all / 40)) /* in torsion and its deviations */
         (void)run_once(deck, try_speeds, free_speeds, n);
     rotid_deck_free(deck);
     deck = bench_deck(ROTID_SOURCE_DIR "/input/motor_running.inp");
     all = run_once(deck, try_speeds, free_speeds, 0);
-    for (long n = all / 2; n < all; n += all / 5) /* in the draws of the bands, one of which may have no result */
+    for (long n = all / 2; n < all; n += SPARSE * (all / 5)) /* in the draws of the bands, one of which may have no result */
         (void)run_once(deck, try_speeds, free_speeds, n);
     rotid_deck_free(deck);
 }

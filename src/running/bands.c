@@ -8,9 +8,9 @@
 #define REDRAWS     1000 /* until a draw lies within the bounds */
 #define FARTHEST    0.5  /* change of a critical speed in one step of a prediction */
 #define LEAST_DRAWS 20
-#define RESPONSES   400  /* draws of which the response is computed */
-#define FEWER       8    /* modes of the basis of these */
-#define WEAK        0.02 /* damping ratio up to which modes above twice the running range are watched for growth */
+#define RESPONSES   400   /* draws of which the response is computed */
+#define FEWER       8     /* modes of the basis of these */
+#define WEAK        0.002 /* damping ratio up to which modes above twice the running range are watched for growth */
 #define pi          3.14159265358979323846
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
