@@ -236,7 +236,7 @@ EXTRA_test_modal_fit = -O2
 TEST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 $(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(call tell,LD,$@)
-	$(QUIET)$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
+	$(QUIET)$(CC) $(TEST_LINKER) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 # These go from records of a hammer test on, which that program makes.
 $(BUILD)/tests/test_page $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer

@@ -64,8 +64,10 @@ static int untied(const struct ema *ema, const struct ema_mode *mode)
 static void note_untied(struct command *command, const struct ema *ema)
 {
     int most = 0;
-    for (int k = 0; k < ema->nmode; k++)
-        most = untied(ema, &ema->mode[k]) > most ? untied(ema, &ema->mode[k]) : most;
+    for (int k = 0; k < ema->nmode; k++) {
+        int count = untied(ema, &ema->mode[k]);
+        most = count > most ? count : most;
+    }
     if (most)
         message_add(
             &command->messages, SEVERITY_WARNING, command->deck, 1, 1,

@@ -34,8 +34,8 @@ static int failed(int status)
  * elements, Q an orthonormal basis of the sensitivities of the fitted parameters, which take up the rest. It is the chi2 that a
  * cause could gain from the mesh alone. Frequencies do not tell it: of two modes close to each other a mesh that moves both by
  * little turns the shapes. 0 where the finer mesh has no such modes. ROTID_OK, ROTID_ERROR_MEMORY. */
-static int mesh_worth(struct pool *pool, const struct engine *engine, const struct job *job, const struct job *finer,
-                      const double *x, double *worth)
+static int compare_meshes(struct pool *pool, const struct engine *engine, const struct job *job, const struct job *finer,
+                          const double *x, double *worth)
 {
     struct columns here, there;
     int parameters = job->unknowns.nparameter, count = 0;
@@ -129,6 +129,34 @@ static int refine_mesh(struct pool *pool, struct rotor *rotor)
     }
     rotor->segment = segment;
     return ROTID_OK;
+}
+
+/* The same of a job and its fitted values, beside twice as many elements. */
+static int mesh_worth(const struct engine *engine, const struct job *job, const double *x, double *worth)
+{
+    struct pool scratch;
+    struct job finer = *job;
+    pool_open(&scratch, engine->pool->allocator);
+    int status = refine_mesh(&scratch, &finer.rotor);
+    if (!status)
+        status = compare_meshes(&scratch, engine, job, &finer, x, worth);
+    pool_close(&scratch);
+    return status;
+}
+
+/* That the mesh is made finer, once: by the error `ratio` of mode `at` against its noise, or where that is small by its worth. */
+static int note_mesh(struct engine *engine, double ratio, int at, double worth)
+{
+    const rotid_diagnosis *out = &engine->out->result;
+    const struct spectrum *s = &engine->out->base.spectrum;
+    for (int i = 0; i < out->nnumerical_findings; i++)
+        if (!strcmp(out->numerical_findings[i].id, "mesh"))
+            return ROTID_OK;
+    return add_numerical(
+        engine, "mesh", s->count, s->mesh_error_percent,
+        ratio > 1 ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer mesh is used",
+                                at + 1, s->mesh_error_percent[at], ratio)
+                  : pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", worth));
 }
 
 int base_note_reduction(struct engine *engine)
@@ -312,20 +340,13 @@ int base_prepare(struct engine *engine)
          pass < MOST_REFINED && !status && one && !engine->job->options.solid && can_be_refined(&engine->job->rotor); pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at), worth = 0;
-        struct job finer = *engine->job;
-        status = refine_mesh(engine->pool, &finer.rotor);
-        if (!status && !(ratio > 1))
-            status = mesh_worth(engine->pool, engine, engine->job, &finer, engine->fit->x, &worth);
+        if (!(ratio > 1))
+            status = mesh_worth(engine, engine->job, engine->fit->x, &worth);
         if (status || (!(ratio > 1) && !(worth > MESH_WORTH)))
             break;
-        if (!pass)
-            status = add_numerical(
-                engine, "mesh", s->count, s->mesh_error_percent,
-                ratio > 1
-                    ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer mesh is used",
-                                  at + 1, s->mesh_error_percent[at], ratio)
-                    : pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", worth));
-        engine->job->rotor = finer.rotor;
+        status = note_mesh(engine, ratio, at, worth);
+        if (!status)
+            status = refine_mesh(engine->pool, &engine->job->rotor);
         if (!status)
             status = fit_base(engine, 0);
     }
@@ -398,32 +419,18 @@ int base_again(struct engine *engine)
 
 int base_refine_beside(struct engine *engine, const struct job *job, const double *x, int *changed)
 {
-    struct rotid_diagnosis *out = &engine->out->result;
-    struct job finer = *job;
     double worth = 0, raised;
-    int told = 0, status;
     *changed = 0;
     if (engine->states.nstate > 1 || job->options.solid || !can_be_refined(&job->rotor))
         return ROTID_OK;
-    struct pool scratch;
-    pool_open(&scratch, engine->pool->allocator);
-    status = refine_mesh(&scratch, &finer.rotor);
-    if (!status)
-        status = mesh_worth(&scratch, engine, job, &finer, x, &worth);
-    pool_close(&scratch);
+    int status = mesh_worth(engine, job, x, &worth);
     raised = worth;
     for (int pass = 0; pass < MOST_REFINED && worth > MESH_WORTH && !status && can_be_refined(&engine->job->rotor);
          pass++, worth /= 16) {
         status = refine_mesh(engine->pool, &engine->job->rotor);
         *changed = 1;
     }
-    for (int i = 0; i < out->nnumerical_findings; i++)
-        told |= strcmp(out->numerical_findings[i].id, "mesh") == 0;
-    if (!*changed || told || status)
-        return status;
-    const struct spectrum *s = &engine->out->base.spectrum;
-    return add_numerical(engine, "mesh", s->count, s->mesh_error_percent,
-                         pool_format(engine->pool, "the error of the mesh raises chi2 by %.2g; a finer mesh is used", raised));
+    return *changed && !status ? note_mesh(engine, 0, 0, raised) : status;
 }
 
 int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)
