@@ -12,7 +12,7 @@
  *   messages         message.c   message_add: note, warning or error with file, line and column, kept until somebody prints it
  *   threads          parallel.c  parallel_for: tasks 0 ... count - 1; the status returned is independent of the number of threads
  *   random numbers   random.c    splitmix64; uniform in (0, 1), normal by random_normal; the state is the caller's
- *   order            order.c     sorting, rank and median of doubles
+ *   order            order.c     sorting of doubles and ints, rank and median of doubles
  *   text             text.c      comparison without case, edit distance, UTF-8, control characters
  *   other            clock.c, version.c
  *
@@ -191,6 +191,9 @@ const char **message_warnings(const struct message_list *list, struct pool *pool
 
 /* value [count], increasing; none is NaN. */
 void sort_doubles(size_t count, double *value);
+
+/* value [count], increasing; value may be NULL where count is 0. */
+void sort_ints(size_t count, int *value);
 
 /* value[rank] as it would be behind sort_doubles, rank < count; value is left in another order. */
 double double_of_rank(size_t count, size_t rank, double *value);

@@ -14,6 +14,18 @@ void sort_doubles(size_t count, double *value)
     qsort(value, count, sizeof *value, compare);
 }
 
+static int compare_ints(const void *left, const void *right)
+{
+    int a = *(const int *)left, b = *(const int *)right;
+    return (a > b) - (a < b);
+}
+
+void sort_ints(size_t count, int *value)
+{
+    if (count)
+        qsort(value, count, sizeof *value, compare_ints);
+}
+
 double double_of_rank(size_t count, size_t rank, double *value)
 {
     /* Hoare's selection: all up to j are no more than the pivot, all from i on no less, and what is between is the pivot */

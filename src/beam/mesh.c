@@ -15,12 +15,6 @@ struct builder {
     int *segment; /* of the element that begins at the node */
 };
 
-static int compare_ints(const void *left, const void *right)
-{
-    int a = *(const int *)left, b = *(const int *)right;
-    return (a > b) - (a < b);
-}
-
 static void lay_segments(const struct rotor *rotor, struct builder *b)
 {
     double z = 0;
@@ -154,7 +148,7 @@ static void number_chain(struct mesh *mesh, struct chain *chain, int first_end, 
 static void sort_far(struct mesh *mesh)
 {
     int unique = 0;
-    qsort(mesh->far, (size_t)mesh->nfar, sizeof *mesh->far, compare_ints);
+    sort_ints((size_t)mesh->nfar, mesh->far);
     for (int i = 0; i < mesh->nfar; i++)
         if (!unique || mesh->far[unique - 1] != mesh->far[i])
             mesh->far[unique++] = mesh->far[i];

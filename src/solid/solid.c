@@ -485,12 +485,6 @@ static void attached_moments(const struct solid *solid, double moment[3])
 
 #define WASHER 2 /* diameters of a rod: what its nut and washer press on */
 
-static int compare_ints(const void *a, const void *b)
-{
-    int x = *(const int *)a, y = *(const int *)b;
-    return (x > y) - (x < y);
-}
-
 /* All sections, since a cause may put a spring anywhere, and the ends of tie rods. */
 static int build_lines(struct pool *pool, struct solid *solid, int *failed)
 {
@@ -521,7 +515,7 @@ static int gather_far(struct pool *pool, struct solid *solid)
     for (int i = 0; i < 2 * solid->rotor.ntierod; i++)
         for (int j = 0; j < solid->stretch[i].count; j++)
             solid->far[n++] = solid->stretch[i].dof[j];
-    qsort(solid->far, (size_t)n, sizeof *solid->far, compare_ints);
+    sort_ints((size_t)n, solid->far);
     for (int i = 0; i < n; i++)
         if (!solid->nfar || solid->far[solid->nfar - 1] != solid->far[i])
             solid->far[solid->nfar++] = solid->far[i];

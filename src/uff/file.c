@@ -483,12 +483,6 @@ int uff_choose_modes(const struct uff_file *file, const struct uff_shape **chose
     return kept;
 }
 
-static int compare_numbers(const void *left, const void *right)
-{
-    int a = *(const int *)left, b = *(const int *)right;
-    return (a > b) - (a < b);
-}
-
 void uff_mode_numbers(const struct uff_file *file, int count, const struct uff_shape *const *chosen, int *number)
 {
     int all = 0, distinct = 0, numbered = 1;
@@ -497,8 +491,7 @@ void uff_mode_numbers(const struct uff_file *file, int count, const struct uff_s
     for (int k = 0; k < file->shape_count && numbered; k++) /* also of those that are left out */
         if (uff_is_mode(&file->shape[k]) && file->shape[k].number > 0)
             number[all++] = file->shape[k].number;
-    if (all)
-        qsort(number, (size_t)all, sizeof *number, compare_numbers);
+    sort_ints((size_t)all, number);
     for (int i = 0; i < all; i++)
         if (!distinct || number[i] != number[distinct - 1])
             number[distinct++] = number[i];
