@@ -61,6 +61,28 @@ POOL_TEST(one_draw_for_both_bearings_is_log_normal)
     running_case_close(&c);
 }
 
+/* Bounce in bearings with a cross-coupled stiffness q: Re lambda = -(c - q/w)/m, so a draw is stable where c w > q. With the draw
+ * of k the left side goes as its root and the right one as k itself. */
+POOL_TEST(the_probability_of_a_stable_machine_is_that_of_damping_above_cross_coupling)
+{
+    static const struct {
+        double k_std, c_std, q;
+    } table[] = {{0, 0.3, 1.03e4}, {0, 0.3, 1.9e4}, {1.2, 0, 5e3}};
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        struct running_case c;
+        double w = sqrt(2 * 1e6 / 50), far = log(70 * w / table[i].q),
+               chance = 1 - tail(table[i].c_std > 0 ? far / table[i].c_std : 2 * far / table[i].k_std);
+        const char *deck = pool_format(&test_pool,
+                                       RIGID "*BEARING, NAME=p, STD=%g, %g\nstart, 1e6, %g, -%g, 1e6, 70, 0, 0, 70\n"
+                                             "*BEARING, LIKE=p\nend, 1e6, %g, -%g, 1e6, 70, 0, 0, 70\n*OPERATION\n2500, 3000\n",
+                                       table[i].k_std, table[i].c_std, table[i].q, table[i].q, table[i].q, table[i].q);
+        assert_int_equal(running_case_open(deck, 4000, 9, DRAWS, &c), ROTID_OK);
+        print_message("stable in %.4f of the draws, of all %.4f\n", c.speeds.stability.probability_stable, chance);
+        assert_close(c.speeds.stability.probability_stable, chance, 0, 3 * sqrt(chance * (1 - chance) / DRAWS) + 2e-3);
+        running_case_close(&c);
+    }
+}
+
 POOL_TEST(draws_of_their_own_share_the_variance)
 {
     struct running_case c;

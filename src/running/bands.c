@@ -11,6 +11,7 @@
 #define RESPONSES   400   /* draws of which the response is computed */
 #define FEWER       8     /* modes of the basis of these */
 #define WEAK        0.002 /* damping ratio up to which modes above twice the running range are watched for growth */
+#define MOST        0.5   /* of the decay of a mode lost by the prediction: until then the draw does not solve for that mode */
 #define pi          3.14159265358979323846
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
@@ -51,8 +52,9 @@ struct bands {
     int responses;   /* draws of which there is a response */
     float *response; /* [responses * nspeed * nprobe] amplitude */
     int nwatched;
-    struct pair *watched; /* at the highest running speed */
-    double *growth;       /* [draws] largest real part over |lambda| */
+    struct pair *watched;  /* at the highest running speed */
+    double complex *drift; /* [nsource * nwatched] d lambda of these */
+    double *growth;        /* [draws] largest real part over |lambda| */
 };
 
 /* ---- what is uncertain */
@@ -194,6 +196,12 @@ static void differentiate_one(struct bands *b, int j, struct system side[2], dou
                 b->campbell[j + (ptrdiff_t)b->nsource * (i + (ptrdiff_t)t->nspeed * m)] =
                     pair_difference(&nominal, side, apart, t->speed[i], w > t->speed[i] ? 1 : -1, pair, work);
         }
+    for (int i = 0; i < b->nwatched; i++) {
+        const struct pair *pair = &b->watched[i];
+        double high = b->machine->high;
+        b->drift[j + (ptrdiff_t)b->nsource * i] =
+            pair_difference(&nominal, side, apart, high, cimag(pair->lambda) > high ? 1 : -1, pair, work);
+    }
     if (!b->out)
         return;
     for (int i = 0; i < b->ncritical; i++) {
@@ -225,7 +233,8 @@ static int differentiate(struct bands *b)
     b->derivative = POOL_ARRAY(b->pool, double, n *(size_t)b->ncritical);
     b->campbell = POOL_ARRAY(b->pool, double complex, n *tracks);
     b->map = POOL_ARRAY(b->pool, double, n *map);
-    int status = b->derivative && b->campbell && b->map ? ROTID_OK : ROTID_ERROR_MEMORY;
+    b->drift = POOL_ARRAY(b->pool, double complex, n *(size_t)b->nwatched);
+    int status = b->derivative && b->campbell && b->map && b->drift ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int i = 0; b->out && i < b->ncritical && !status; i++) {
         rotid_critical_speed *to = &b->out->critical_speeds[i];
         to->nsensitivities = POOL_LIST(b->pool, to->sensitivities, b->nsource);
@@ -339,12 +348,20 @@ static double ratio(double complex lambda)
     return -creal(lambda) / cabs(lambda);
 }
 
-static void watch(struct pool *pool, const struct bands *b, struct system *s, double *growth)
+/* Solved are the modes that have lost much of their decay at the deviations d [nsource] by the prediction. */
+static void watch(struct pool *pool, const struct bands *b, const double *d, struct system *s, double *growth)
 {
     *growth = -INFINITY;
     struct pair pair;
+    system_at(s, b->machine->high);
     for (int i = 0; i < b->nwatched && !pair_new(pool, s->size, &pair); i++) {
-        system_at(s, b->machine->high);
+        double rate = creal(b->watched[i].lambda), predicted = rate;
+        for (int j = 0; j < b->nsource; j++) { /* linear in what is drawn or in its power, whichever destabilises more */
+            double by = creal(b->drift[j + (ptrdiff_t)b->nsource * i]);
+            predicted += fmax(by * d[j], by * (b->source[j].is_logarithm ? expm1(d[j]) : d[j]));
+        }
+        if (rate < 0 && predicted < (1 - MOST) * rate)
+            continue;
         if (system_transfer(b->nominal, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
             continue;
         *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
@@ -430,7 +447,7 @@ static int one_draw(void *context, int index, int worker)
             status = respond(&pool, b, &values, index);
         }
         if (!status && from != b->nominal)
-            watch(&pool, b, (struct system *)from, &b->growth[index]);
+            watch(&pool, b, d, (struct system *)from, &b->growth[index]);
         done = !lost;
         status = !status && pool.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&pool);
@@ -667,6 +684,8 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
         return status;
     status = factor_covariance(&b);
     if (!status)
+        status = find_watched(&b, &search->system);
+    if (!status)
         status = differentiate(&b);
     b.responses = out->nunbalance ? options->draws < RESPONSES ? options->draws : RESPONSES : 0;
     size_t curve = out->nunbalance ? (size_t)out->nunbalance * (size_t)out->unbalance->nspeed_rpm : 0;
@@ -678,8 +697,6 @@ int bands_make(struct pool *pool, struct search *search, const rotid_fit_result 
         spread(&b, out, work);
     if (!status)
         status = draw_all(&b);
-    if (!status)
-        status = find_watched(&b, &search->system);
     b.speed = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
     b.ratio = POOL_ARRAY(pool, double, (size_t)options->draws *(size_t)ncritical);
     b.growth = POOL_ARRAY(pool, double, options->draws);

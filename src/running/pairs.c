@@ -145,6 +145,16 @@ int pairs_all(struct pool *pool, struct system *s, double speed, int *count, str
     return status;
 }
 
+/* By inverse iteration from u, with the factors of D next to the eigenvalue in s->d. */
+static void left_by_factor(struct system *s, struct pair *pair)
+{
+    memcpy(pair->left, pair->u, (size_t)s->size * sizeof *pair->left);
+    for (int i = 0; i < 3; i++) {
+        complex_solve(s->size, 1, s->d, s->pivot, pair->left);
+        normalise(s->size, pair->left);
+    }
+}
+
 int pair_left(struct system *s, int side, struct pair *pair)
 {
     int n = s->size;
@@ -153,11 +163,7 @@ int pair_left(struct system *s, int side, struct pair *pair)
         s->d[i + i * n] *= 1 + 1e-15;
     if (complex_factor(n, s->d, s->pivot))
         return 1;
-    memcpy(pair->left, pair->u, (size_t)n * sizeof *pair->left);
-    for (int i = 0; i < 3; i++) {
-        complex_solve(n, 1, s->d, s->pivot, pair->left);
-        normalise(n, pair->left);
-    }
+    left_by_factor(s, pair);
     return 0;
 }
 
@@ -228,8 +234,7 @@ static int refine(struct system *s, int side, struct pair *pair)
         double change = 1 / cabs(scale) / cabs(lambda);
         if (change < WITHIN || (change < 1e-10 && change >= before / 2)) { /* the last digits come and go */
             pair->lambda = lambda;
-            if (pair_left(s, side, pair))
-                return 1;
+            left_by_factor(s, pair); /* those of the last step are as near as that went */
             normalise(n, pair->u);
             return !(cimag(lambda) > IS_A_WAVE * cabs(lambda));
         }
