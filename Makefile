@@ -281,7 +281,7 @@ LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagn
            running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of LONGER.
-LONGER := hidden_effects chain diagnose_cases diagnose api_cancel api_memory
+LONGER := hidden_effects hidden_faults chain diagnose_cases diagnose api_cancel api_memory solid_frequencies held_mesh worked
 LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: test-programs

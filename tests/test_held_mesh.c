@@ -112,7 +112,7 @@ POOL_TEST(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts)
 /* Errors at a corner fall with the power 1.089 of the size of its elements: test_solid_frequencies. */
 POOL_TEST(the_limit_is_that_of_refined_meshes_within_the_mesh_column)
 {
-    for (int which = 0; which < 2; which++) {
+    for (int which = 0; which < 2; which += SPARSE) {
         struct rig b;
         struct spectrum s;
         double two[MODES], four[MODES];

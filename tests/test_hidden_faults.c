@@ -66,11 +66,19 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
     }
 }
 
+/* Whether the row is looked at in this run: the first of its kind, unless ROTID_LONG is set. */
+static int is_run(int i)
+{
+    return getenv("ROTID_LONG") || !i || strcmp(table[i].id, table[i - 1].id) != 0;
+}
+
 static int run_one(void *deck, int i, int worker)
 {
     struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i};
     struct hidden_score score;
     (void)worker;
+    if (!is_run(i))
+        return 0;
     c.request.deck = deck;
     c.request.name = "input/paper_rotor.inp";
     c.request.seed = 1;
@@ -94,6 +102,8 @@ static int run_all(void **state)
 UNIT_TEST(faults_are_found_by_number_and_not_taken_for_physics)
 {
     for (int i = 0; i < COUNT; i++) {
+        if (!is_run(i))
+            continue;
         const int *expected = table[i].sensor, *sensor = seen[i].sensor;
         print_message("%s: %s\n", table[i].effect, seen[i].text);
         assert_int_equal(seen[i].kind, ROTID_ADEQUATE);
@@ -112,7 +122,7 @@ UNIT_TEST(faults_are_found_by_number_and_not_taken_for_physics)
 UNIT_TEST(the_sentence_says_what_was_found)
 {
     for (int i = 0; i < COUNT; i++)
-        if (!strstr(seen[i].text, table[i].text))
+        if (is_run(i) && !strstr(seen[i].text, table[i].text))
             fail_msg("%s: '%s' lacks '%s'", table[i].effect, seen[i].text, table[i].text);
 }
 
