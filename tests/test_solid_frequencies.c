@@ -66,6 +66,27 @@ POOL_TEST(slender_and_thin_parts_of_a_large_body_have_their_own_mesh)
     assert_hz(6, hz, between, 6e-4);
 }
 
+/* A disk without mass close behind a shoulder changes nothing: the elements there go on to double from the corner. */
+POOL_TEST(what_stands_close_to_a_step_leaves_the_mesh_of_the_corner)
+{
+    static const double behind[] = {0.00025, 0.0015, -0.00075};
+    struct rig b;
+    struct spectrum bare, s;
+    rig_begin(&b, 1);
+    rig_section(&b, 0, 0.25, 0.05);
+    rig_section(&b, 0, 0.3, 0.15);
+    rig_section(&b, 0, 0.25, 0.06);
+    for (int i = -1; i < 3; i++) {
+        b.disk[0] = (struct disk){.position = 0.25 + (i < 0 ? 0 : behind[i]), .mass = 1e-9};
+        b.rotor.ndisk = i >= 0;
+        assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 6,
+                                             SPECTRUM_MESH, i < 0 ? &bare : &s),
+                      ROTID_OK);
+        for (int j = 0; j < 6 && i >= 0; j++)
+            assert_true(fabs(s.full_hz[j] / bare.full_hz[j] - 1) < 1e-2 * fabs(s.mesh_error_percent[j]));
+    }
+}
+
 /* ---- orders of convergence */
 
 POOL_TEST(errors_at_a_corner_fall_as_its_singularity_says)
@@ -182,6 +203,30 @@ POOL_TEST(meshes_that_are_apart_are_refined)
     rig_solid(&b.rotor, NULL, 4, 2, 6, hz);
     assert_true(s.nrigid == 2 && s.mesh_error_percent[1] > 2);
     assert_hz(6, s.full_hz, hz, 6e-3);
+}
+
+/* Exact: a disc twists in half a wave across its thickness t, u = r cos(pi z/t), at c/(2 t), c the speed of shear waves along the
+ * axis; a stub of a fifteenth of its diameter hardly changes that. The elements along the axis are those of the coarse mesh. */
+POOL_TEST(waves_that_are_short_beside_the_elements_refine_the_mesh)
+{
+    struct rig b;
+    struct spectrum s;
+    double nearest = INFINITY, error = INFINITY, exact = sqrt(1.2e10 / 4000) / (2 * 0.037);
+    rig_begin(&b, 1);
+    b.group[0].material = (struct material){.name = "soft", .e = 1.25e11, .g = 1.2e10, .nu = 0.4, .rho = 4000};
+    rig_section(&b, 0, 0.06, 0.025);
+    rig_section(&b, 0, 0.0165, 0.375);
+    rig_section(&b, 0, 0.0205, 0.375);
+    assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID_TORSION), &b.rotor, 0, NULL, NULL,
+                                         ROTID_GUYAN, 6, SPECTRUM_MESH, &s),
+                  ROTID_OK);
+    for (int j = 0; j < 6; j++)
+        if (fabs(s.full_hz[j] - exact) < fabs(nearest - exact)) {
+            nearest = s.full_hz[j];
+            error = fabs(s.mesh_error_percent[j]);
+        }
+    assert_close(nearest, exact, 1e-3, 0);
+    assert_true(fabs(nearest / exact - 1) < 1e-2 * error);
 }
 
 /* Exact: Euler's rod, whose shear and rotary inertia are 1e-6 of the frequency and less; and a beam of 9000 elements. */

@@ -352,6 +352,11 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
     return (struct mesh_limit){COARSE_MESH, twist ? OF_TWIST : OF_CORNER, 1, 4, twist ? OF_FINER_TWIST : OF_FINER};
 }
 
+double discrete_passage(const struct discrete *discrete)
+{
+    return is_solid(discrete) && solid_has_corners(&discrete->solid.rotor) ? solid_longest_passage(&discrete->solid) : 0;
+}
+
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)
 {
     if (from->as != to->as || from->as == AS_SOLID_TORSION || from->as == AS_SOLID_AXIAL)

@@ -110,6 +110,10 @@ struct mesh_limit {
 };
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 
+/* Time [s] in which a wave passes the longest element of those that the coarse mesh has as well (solid_longest_passage): 0 where
+ * all elements of that are longer. */
+double discrete_passage(const struct discrete *discrete);
+
 /* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements
  * are those of the first one cut into equal parts, values of parameters being those of its last assembly. Returns 0 where there
  * is no such way: to a beam's coarser mesh. */

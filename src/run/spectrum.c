@@ -10,6 +10,7 @@
 #define ROUGH        1e-4  /* the same of a trial */
 #define APART        0.02  /* of a frequency: two meshes that differ by more lead nowhere */
 #define ALIKE        0.8   /* MAC of a mode on two meshes, weighted by the mass: of those of a crossing each has 0.5 */
+#define OF_A_WAVE    0.2   /* that an element may be long: a quadratic one raises its frequency by 0.1 % */
 #define MOST_FINE    50000 /* unknowns of a mesh that may be refined once more */
 #define MOST_ENTRIES 2e7   /* of its K, which has eight times as many then */
 #define MOST_MASTERS 1000  /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
@@ -232,39 +233,62 @@ static int lead(double hz, const struct solution *other, int partner, double sha
     return 1;
 }
 
+/* How many modes, followed to where at [count] says, finer meshes than this one have to lead: those that none led, and those
+ * whose waves are short beside elements of it. Such elements may be in the mesh before as well, so that the two agree says
+ * nothing: what they led to is taken back, its mesh error into led [count]. */
+static int modes_to_lead(const struct solution *finest, const int *at, struct spectrum *s, double *led)
+{
+    double passage = discrete_passage(&finest->model->discrete);
+    int count = 0;
+    for (int j = 0; j < s->count; j++) {
+        if (!isnan(s->mesh_error_percent[j]) && passage * s->full_hz[j] > OF_A_WAVE) {
+            led[j] = s->mesh_error_percent[j];
+            s->mesh_error_percent[j] = NAN;
+        }
+        count += isnan(s->mesh_error_percent[j]) && at[j] >= 0;
+    }
+    return count;
+}
+
 static int can_be_refined(const struct solution *solution)
 {
     return solution->size <= MOST_FINE && (double)solution->size * (solution->model->equations.kd + 1) <= MOST_ENTRIES;
 }
 
-/* Leads the modes whose meshes are apart by finer and finer ones, until two of these agree or the unknowns are too many. */
+/* Leads the modes whose meshes are apart, or both too coarse for their waves, by finer and finer ones, until two of these agree
+ * or the unknowns are too many. */
 static int refine_apart(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                         const struct parameter *parameter, const double *x, struct manner manner, const struct mesh_limit *limit,
                         const struct solution *own, struct spectrum *s)
 {
     struct solution before = *own;
-    int status = ROTID_OK, apart = 1, *at = POOL_ARRAY(pool, int, s->count);
-    if (!at)
+    int status = ROTID_OK, *at = POOL_ARRAY(pool, int, s->count);
+    double *led = POOL_ARRAY(pool, double, s->count);
+    if (!at || !led)
         return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < s->count; j++)
+    for (int j = 0; j < s->count; j++) {
         at[j] = j;
-    for (int refine = limit->finer; apart && !status && can_be_refined(&before); refine *= limit->finer) {
+        led[j] = NAN;
+    }
+    for (int refine = limit->finer; !status && modes_to_lead(&before, at, s, led) && can_be_refined(&before);
+         refine *= limit->finer) {
         struct solution finer = {0};
         int count = s->count;
         status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, &before, &count, &finer);
-        apart = 0;
         for (int j = 0; j < s->count && !status; j++) {
             int partner = at[j] < 0 ? -1 : partner_from(&finer, count, at[j]);
             if (isnan(s->mesh_error_percent[j]) && at[j] >= 0) {
+                led[j] = partner < 0 ? led[j] : NAN;
                 if (lead(before.hz[s->nrigid + at[j]], &finer, partner, -1 - limit->finer_share, 1, s, j))
                     s->mesh_error_percent[j] = 100 * (own->hz[s->nrigid + j] / s->full_hz[j] - 1);
-                else
-                    apart++;
             }
             at[j] = partner;
         }
         before = finer;
     }
+    for (int j = 0; j < s->count; j++)
+        if (isnan(s->mesh_error_percent[j]))
+            s->mesh_error_percent[j] = led[j];
     return status;
 }
 
@@ -304,7 +328,6 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < s->nmaster; i++)
         s->master_z[i] = model_master_z(own.model, i);
-    int apart = 0;
     for (int j = 0; j < count; j++) {
         double hz = own.hz[s->nrigid + j];
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
@@ -313,9 +336,9 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
             continue;
         int partner = coarse_first ? partner_of(&own, j) : partner_from(&other, count, j);
         s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
-        apart += !lead(hz, &other, partner, limit.share, limit.counts, s, j);
+        lead(hz, &other, partner, limit.share, limit.counts, s, j);
     }
-    if (apart && limit.counts && coarse_first)
+    if (limit.counts && coarse_first)
         status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s);
     if (status)
         return status;

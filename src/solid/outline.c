@@ -29,6 +29,19 @@ static int stops_merge(int nstop, struct stop *stop, double tolerance)
     return count;
 }
 
+/* Elements that double from a graded stop are as long, at a distance, as that and their first one: other stops go on with them.
+ */
+static void stops_go_on(int nstop, struct stop *stop)
+{
+    for (int i = 0; i < nstop; i++) {
+        double size = INFINITY;
+        for (int j = 0; j < nstop && stop[i].fine == 0; j++)
+            if (stop[j].fine > 0)
+                size = fmin(size, stop[j].fine + fabs(stop[i].at - stop[j].at));
+        stop[i].fine = isfinite(size) ? size : stop[i].fine;
+    }
+}
+
 /* Lines between two stops, both excluded, into x, or counted only where x is NULL: from each graded end elements that double as
  * long as both sides leave room for them, and even ones between. */
 static int between(const struct stop *a, const struct stop *b, int multiple, double *x)
@@ -259,6 +272,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
         double length = fmax(shortest_part(rotor, (stop[i].at + stop[i + 1].at) / 2), largest_radius(rotor) / THINNEST);
         stop[i].upto = fmin(stop[i].upto, largest_size(rotor, rule, refine, 0, largest_radius(rotor), length));
     }
+    stops_go_on(n, stop);
     return lines_graded(pool, n, stop, multiple_of(rotor, refine), nr, r);
 }
 
@@ -312,6 +326,7 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
         double radius = fmax(outline_outer(rotor, s), rotor_length(rotor) / THINNEST);
         stop[i].upto = fmin(stop[i].upto, largest_size(rotor, rule, refine, 1, radius, rotor_length(rotor)));
     }
+    stops_go_on(*nstop, stop);
     return ROTID_OK;
 }
 

@@ -567,6 +567,19 @@ int solid_has_corners(const struct rotor *rotor)
     return outline_has_corners(rotor);
 }
 
+double solid_longest_passage(const struct solid *solid)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double longest = 0;
+    for (int i = 0; i < mesh->nelement; i++) {
+        const struct solid_element *e = &mesh->element[i];
+        const struct material *m = &solid->rotor.group[e->group].material;
+        double length = mesh->z[e->slice + 1] - mesh->z[e->slice];
+        longest = fmax(longest, length * sqrt(m->rho / material_shear_modulus(m)));
+    }
+    return longest;
+}
+
 static void hang(struct solid *solid)
 {
     struct mass_properties own;

@@ -230,6 +230,10 @@ const char *solid_refusal(const struct rotor *rotor, int failed);
 /* Whether the outline has a re-entrant corner, where errors fall slower than elsewhere. */
 int solid_has_corners(const struct rotor *rotor);
 
+/* The longest time [s] in which a shear wave along the axis, of G and the density of its group, passes an element: times a
+ * frequency, the share of a wave that the element has to follow. Values of parameters are those of the last assembly. */
+double solid_longest_passage(const struct solid *solid);
+
 /* The same for a rotor of the same shape (rotor_same_shape) as that of `built`, whose mesh it shares. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
 int solid_of_shape(struct pool *pool, const struct solid *built, const struct rotor *rotor, int nparameter,
