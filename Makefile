@@ -281,7 +281,7 @@ LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagn
            running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of LONGER.
-LONGER := hidden_effects hidden_faults chain diagnose_cases diagnose api_cancel api_memory solid_frequencies held_mesh worked
+LONGER := hidden_effects hidden_faults chain diagnose_cases diagnose api_cancel api_memory solid_frequencies held_mesh worked run deck_write
 LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: test-programs
@@ -311,19 +311,19 @@ bench-check: all $(BUILD)/hide
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, grids, fine meshes or
 # figures, wait for terminals and clocks, run the commands of documents or build hosts: what they call is in the others.
-# ASAN=all: with them, an hour. Of what `undefined` looks for, null and object sizes are seen by `address` too; those and alignment,
-# which `make fuzz` looks for, take a seventh of the time.
+# ASAN=all: with them, an hour. Of what `undefined` looks for, null, object sizes and pointers out of range are seen by `address` too,
+# where they are used; those and alignment, which `make fuzz` looks for, take a quarter of the time.
 DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds diagnose_states \
-                 diagnose_solid diagnose_model held_mesh suggest chain posterior weighed runup page_diagnose
+                 diagnose_solid diagnose_model api_diagnosis held_mesh suggest chain posterior weighed runup page_diagnose
 COUNT_MANY := worked tutorial manual evidence ema_statistics accelerometer roving_accelerometer hide solid_frequencies page_browser report_sweep \
               embedding fortran install host running_bands running running_cases solid_attached study_program study_run study_states study_data \
               page_input page_study effect_derivative causes_exact worth torsion shared_unknowns traps terminal limits modal_fit signal_noise \
-              fit_bounds fit_truth paper_fit states_held_out
+              fit_bounds fit_truth paper_fit states_held_out threads
 ASAN := $(DIAGNOSE_MANY) $(COUNT_MANY)
 .PHONY: asan-programs
 asan-programs check-asan:
 	@FC=none $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize=null,object-size,alignment -fno-sanitize-recover=all' \
+	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize=null,object-size,alignment,pointer-overflow -fno-sanitize-recover=all' \
 	    WITHOUT='$(filter-out all,$(ASAN))' $(if $(filter check-asan,$@),test,test-programs)
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
@@ -336,7 +336,7 @@ check-tsan:
 # without those and other long ones
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) $(LONG) api_cancel host threads study_run),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) $(LONG) api_cancel host study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \

@@ -67,6 +67,13 @@ int blas_threads(void);
 /* Sweeps of whole diagnoses go in steps so many times as large, unless make test-long has them whole. */
 #define SPARSE (getenv("ROTID_LONG") ? 1 : 5)
 
+/* Processes by the hundred: under a sanitizer, which makes the start of one ten times as long, every third. */
+#ifdef __SANITIZE_ADDRESS__
+#define SLOW_START (getenv("ROTID_LONG") ? 1 : 3)
+#else
+#define SLOW_START 1
+#endif
+
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)
 
