@@ -201,6 +201,20 @@ POOL_TEST(what_is_wrong_has_its_place)
 }
 
 /* Each is read with all that is common: a file of nothing but states must not take for ever. */
+/* `rotid test` of a deck of two states gave both the modes of the test: counted twice, intervals a root of two too short. */
+POOL_TEST(one_file_is_not_set_for_two_states)
+{
+    const char *file = folder_write("b.csv", "mode,frequency\n1,226\n"), *set = pool_format(&test_pool, "MODES.FILE=%s", file);
+    (void)folder_write("a.csv", "mode,frequency\n1,225\n");
+    struct reading r =
+        read_text(BAR UNKNOWN "*STATE, NAME=free\n*MODES, FILE=a.csv\n*STATE, NAME=again\n*MODES, FILE=a.csv\n", set);
+    assert_status(r.status, ROTID_ERROR_SYNTAX);
+    assert_string_equal(r.messages.item[0].text,
+                        "the states free and again would both have what is measured in one file, expected FIT.STATE as well");
+    struct states s = good(BAR UNKNOWN "*STATE, NAME=free\n*MODES, FILE=a.csv\n", set);
+    assert_close(s.state[0].job.measurement.frequency_hz[0], 226, 1e-12, 0);
+}
+
 POOL_TEST(states_have_a_limit)
 {
     char *text = pool_copy_text(&test_pool, BAR UNKNOWN);

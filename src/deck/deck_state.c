@@ -95,6 +95,30 @@ static void check_places(struct deck_reader *reader, const struct division *d)
     }
 }
 
+/* One override gives all cards of a kind the same file, but what is measured in a state is of that state. */
+static void check_overridden_files(struct deck_reader *reader, const struct division *d)
+{
+    const struct card_option *overridden = NULL;
+    const char *name = NULL;
+    for (int s = 0; s < d->nstate; s++) {
+        const struct card *card = d->state[s] + 1, *end = s + 1 < d->nstate ? d->state[s + 1] : reader->text.card + d->nread;
+        for (; card < end; card++) {
+            const struct deck_card *kind = deck_card_find(card->name);
+            const struct card_option *file = card_option(card, "FILE");
+            if (!kind || kind->states != CARD_OF_STATE || !file || !file->overridden)
+                continue;
+            if (overridden && name != name_of(d->state[s])) {
+                deck_error(reader, file->place,
+                           "the states %s and %s would both have what is measured in one file, expected FIT.STATE as well", name,
+                           name_of(d->state[s]));
+                return;
+            }
+            overridden = file;
+            name = name_of(d->state[s]);
+        }
+    }
+}
+
 /* The text of one state: common cards, but for those in whose place it has its own, then its own. */
 static void text_of_state(struct deck_reader *reader, const struct division *d, int s, struct deck_reader *own)
 {
@@ -255,6 +279,8 @@ void deck_read_all_states(struct deck_reader *reader, int nread, struct states *
     if (d.nstate && (reader->messages->errors || reader->out_of_memory))
         return;
     int several = d.nstate > 1 && !d.chosen, count = several ? d.nstate : 1, s = 0;
+    if (several)
+        check_overridden_files(reader, &d);
     while (d.chosen && d.nstate && d.state[s] != find_state(&d, d.chosen))
         s++;
     struct message_list *of = POOL_ARRAY(reader->pool, struct message_list, count);
