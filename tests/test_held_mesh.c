@@ -109,6 +109,34 @@ POOL_TEST(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts)
     }
 }
 
+/* A disc of soft sheets, whose meshes are apart by another share of a frequency at other moduli: its own modes lead back to its
+ * moduli, from a start a third away. */
+POOL_TEST(a_fit_goes_on_until_what_the_meshes_lead_to_stays)
+{
+    char text[2048] = "*MATERIAL, NAME=soft\n*ELASTIC, TYPE=LAMINATED\n1.1e10, 1.8e9, 2.1e11, 0.3\n*DENSITY\n6000\n"
+                      "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                      "*SHAFT, NAME=core, MATERIAL=soft\n0.03, 0.14\n*SHAFT, NAME=hub, MATERIAL=steel\n0.03, 0.05\n"
+                      "*FIT, MODEL=SOLID\n";
+    struct message_list messages;
+    struct identification found;
+    struct spectrum s;
+    struct job job;
+    read_job(text, &messages, &job);
+    compute(&job, NULL, SPECTRUM_MESH, &s);
+    strcat(text, "*NOISE, FREQUENCY=1e-4\n*MODES\n");
+    for (int k = 0; k < MODES; k++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s.full_hz[k]);
+    strcat(text, "*IDENTIFY\ncore.E, 3e9, 3e10, 1.5e10\ncore.G, 5e8, 5e9, 1.4e9\n");
+    read_job(text, &messages, &job);
+    message_open(&messages, &test_pool);
+    assert_status(identify_run(&test_pool, &job, 0, NULL, &messages, &found), ROTID_OK);
+    assert_int_equal(messages.count, 0);
+    print_message("E %.8g, G %.8g\n", found.fit->x[0], found.fit->x[1]);
+    assert_close(found.fit->x[0], 1.1e10, 1e-4, 0);
+    assert_close(found.fit->x[1], 1.8e9, 1e-4, 0);
+    rotid_fit_free(found.fit);
+}
+
 /* Errors at a corner fall with the power 1.089 of the size of its elements: test_solid_frequencies. */
 POOL_TEST(the_limit_is_that_of_refined_meshes_within_the_mesh_column)
 {

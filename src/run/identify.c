@@ -98,8 +98,9 @@ int mesh_of_fit(struct pool *pool, const struct job *job, const int *number, int
     return ROTID_OK;
 }
 
-#define ROUNDS 3    /* of fitting and pairing, should the pairs change with the model */
-#define HELD   1e-5 /* of a frequency: a hundredth of the noise of a good measurement */
+#define ROUNDS      3    /* of fitting and pairing, should the pairs change with the model */
+#define MESH_ROUNDS 12   /* of fitting alone, should what the meshes lead to change with it */
+#define HELD        1e-5 /* of a frequency: a hundredth of the noise of a good measurement */
 
 /* Which measured shapes the functional gets: with LIKELIHOOD those whose noise is known. */
 static int uses_shapes(const struct job *job)
@@ -383,8 +384,9 @@ static int refuse_unmoved(struct pool *pool, const struct states *states, struct
     return ROTID_ERROR_ARGUMENT;
 }
 
-/* After a fit: the spectrum and the pairs of a state there; *moved: another fit is wanted, as these differ from those it had. */
-static int pair_after_fit(struct pool *pool, struct running *run, const double *x, int bare, int *moved)
+/* After a fit: the spectrum and the pairs of a state there; *moved: the pairs differ from those it had; *apart: raised to how far
+ * what the meshes lead to does, of a frequency. */
+static int pair_after_fit(struct pool *pool, struct running *run, const double *x, int bare, int *moved, double *apart)
 {
     double ratio = 0;
     int status = pair_state(pool, run, x, (bare ? 0 : SPECTRUM_MESH | SPECTRUM_REDUCED) | (run->held ? SPECTRUM_MESH : 0),
@@ -392,7 +394,8 @@ static int pair_after_fit(struct pool *pool, struct running *run, const double *
     if (!status && run->held)
         status = mesh_hold(pool, &run->state->job, &run->out->spectrum, &ratio);
     if (!status)
-        *moved |= ratio > HELD || pairs_moved(run);
+        *moved |= pairs_moved(run);
+    *apart = fmax(*apart, ratio);
     return status;
 }
 
@@ -443,6 +446,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
                        rotid_fit_result **fit)
 {
     int count = states->nstate, status = pair_at_start(pool, states, run, notes), moved = 0;
+    double apart = 0;
     struct paired *paired = POOL_ARRAY(pool, struct paired, count);
     rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, states->nparameter);
     if (status || !paired || !bounds)
@@ -462,9 +466,11 @@ static int with_models(struct pool *pool, const struct states *states, int basel
             status = join(pool, last, *fit);
         rotid_fit_free(last);
         moved = options.baseline != baseline;
+        apart = 0;
         for (int s = 0; s < count && !status; s++)
-            status = pair_after_fit(pool, &run[s], (*fit)->x, bare, &moved);
-        if (status || round == ROUNDS || !moved || is_cancelled(*fit, environment))
+            status = pair_after_fit(pool, &run[s], (*fit)->x, bare, &moved, &apart);
+        int again = round < ROUNDS ? moved || apart > HELD : !moved && apart > HELD && round < MESH_ROUNDS;
+        if (status || !again || is_cancelled(*fit, environment))
             break;
         for (int s = 0; s < count; s++)
             run[s].before = run[s].out->compared;
@@ -483,6 +489,12 @@ static int with_models(struct pool *pool, const struct states *states, int basel
         if (pairs_moved(&run[s]) && !paired_anew++)
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                         "the pairing of the modes still changes with the fitted model: the result is not reliable");
+    if (apart > HELD && !moved && !is_cancelled(*fit, environment))
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0,
+            "what two meshes of the solid lead to still changes with the fitted model, by %.2g %% of a frequency: the result is "
+            "not reliable",
+            100 * apart);
     for (int s = 0; s < count; s++) {
         const struct job *job = &run[s].state->job;
         run[s].out->shapes_fitted = uses_shapes(job) && !(job->options.fit.functional != ROTID_LIKELIHOOD &&
