@@ -230,7 +230,7 @@ static void a_drop_of_30_is_reported(void **state)
             if (!score[i].reported)
                 fail_msg("%s: drop %.1f and nothing reported", table[i].effect[0], score[i].drop);
         }
-    assert_true(clear >= (getenv("ROTID_LONG") ? 20 : 8));
+    assert_true(clear >= (getenv("ROTID_LONG") ? 10 : 8));
 }
 
 static void intervals_hold_the_truth(void **state)
