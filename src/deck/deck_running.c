@@ -545,11 +545,11 @@ int deck_check_unknown(struct deck_reader *reader, const struct card *card, cons
     return twice;
 }
 
-/* U = G m/W of ISO 21940-11: m of the machine, W its highest running speed. */
+/* U = G m/W of ISO 21940-11: m of the machine with what changes in operation, W its highest running speed. */
 static void scale_unbalances(struct deck_reader *reader, const struct place running)
 {
     struct machine *machine = reader->machine;
-    const struct rotor *rotor = &reader->job->rotor;
+    struct rotor changed, *rotor = &changed;
     struct mass_properties mass = {0};
     int graded = 0, status;
     for (int i = 0; i < machine->nunbalance; i++)
@@ -560,8 +560,15 @@ static void scale_unbalances(struct deck_reader *reader, const struct place runn
         deck_error(reader, running, "*UNBALANCE, G= is a grade at the highest running speed, expected *OPERATION with it");
         return;
     }
-    status = model_weigh(reader->pool, NULL, rotor, 0, NULL, NULL, &mass);
+    status = rotor_copy(reader->pool, &reader->job->rotor, rotor);
+    for (int i = 0; i < machine->nchange && !status; i++) {
+        double now = *parameter_value(rotor, machine->change[i].parameter) * machine->change[i].factor;
+        parameters_set(rotor, 1, &machine->change[i].parameter, &now);
+    }
+    status = status ? status : model_weigh(reader->pool, NULL, rotor, 0, NULL, NULL, &mass);
     reader->out_of_memory |= status != ROTID_OK;
+    if (status)
+        return;
     for (int i = 0; i < machine->ndisk; i++)
         mass.mass += machine->disk[i].mass;
     for (int i = 0; i < rotor->ndisk; i++)
