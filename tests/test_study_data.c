@@ -191,6 +191,37 @@ POOL_TEST(noise_is_what_it_is_said_to_be)
     jobs_close(&jobs);
 }
 
+/* Scales read the rotor that the data are of, with its density and the mass that is hidden, within their stated deviations: the
+ * weight of the deck is that of another one. */
+POOL_TEST(a_model_is_weighed_as_it_is)
+{
+    static const double pi = 3.14159265358979323846;
+    (void)bench_write("weighed.inp",
+                      BENCH_BEAM BENCH_MODES BENCH_WANTED "*NOISE, FREQUENCY=0.001\n*WEIGHT\n1, 0.02\n*CENTRE\n0.1, 0.001\n");
+    open_study("*STUDY, REPLICATES=1000\n*DECKS\nweighed.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.rho, 7000\n*NOISE\n0.001\n"
+               "*HIDE, TYPE=added_mass\nmass, 2\nz, 0.9\n");
+    double part[4] = {7850 * pi / 4 * 0.05 * 0.05 * 0.3, 7000 * pi / 4 * 0.1 * 0.1 * 0.4, 7850 * pi / 4 * 0.06 * 0.06 * 0.3, 2},
+           at[4] = {0.15, 0.5, 0.85, 0.9}, mass = 0, centre = 0, sum[4] = {0};
+    for (int i = 0; i < 4; i++) {
+        mass += part[i];
+        centre += part[i] * at[i];
+    }
+    centre /= mass;
+    for (long run = 0; run < 1000; run++) {
+        const struct weighed w = make(run).job->measurement.weighed;
+        double m = (w.mass - mass) / 0.02, z = (w.centre - centre) / 0.001;
+        sum[0] += m;
+        sum[1] += z;
+        sum[2] += m * m;
+        sum[3] += z * z;
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_close(sum[i] / 1000, 0, 0, 4 / sqrt(1000));
+        assert_close(sum[2 + i] / 1000, 1, 4 * sqrt(2.0 / 1000), 0);
+    }
+    jobs_close(&jobs);
+}
+
 POOL_TEST(noise_adds_to_that_of_measured_data)
 {
     (void)bench_write("noisy.inp", BENCH_DECK "*NOISE, FREQUENCY=0.003\n");

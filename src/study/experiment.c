@@ -17,7 +17,7 @@
  * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
  * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */
 
-enum draw_purpose { DRAW_TRUTH = 1, DRAW_HIDDEN, DRAW_SENSOR, DRAW_FREQUENCY, DRAW_SHAPE, DRAW_START };
+enum draw_purpose { DRAW_TRUTH = 1, DRAW_HIDDEN, DRAW_SENSOR, DRAW_FREQUENCY, DRAW_SHAPE, DRAW_START, DRAW_WEIGHT };
 
 /* The output function of splitmix64 on state and key: a change of one bit changes half of the bits. */
 static uint64_t mix(uint64_t state, uint64_t key)
@@ -116,6 +116,11 @@ static void experiment_noise(const struct study *study, const struct study_point
                         normal(study, DRAW_SHAPE, point->replicate, s, job->measurement.number[k], job->rotor.sensor[i].id);
             std[i] = stated(from_model, std[i], noise->shape);
         }
+    }
+    struct weighed *weighed = &job->measurement.weighed;
+    if (from_model) { /* 0: not weighed */
+        weighed->mass += weighed->mass_std * normal(study, DRAW_WEIGHT, point->replicate, s, 0, 0);
+        weighed->centre += weighed->centre_std * normal(study, DRAW_WEIGHT, point->replicate, s, 1, 0);
     }
     if (truth)
         experiment_fault(truth, 1, job);
@@ -404,6 +409,18 @@ static void take_mode(const struct rotor *rotor, const struct modes *modes, int 
     }
 }
 
+/* What scales read of the rotor, which an accelerometer that goes from sensor to sensor has left. */
+static int weigh(struct pool *pool, const struct job *source, int moving, struct job *job)
+{
+    struct rotor rotor = source->rotor;
+    struct mass_properties mass = {0};
+    rotor.neffect -= moving;
+    int status = model_weigh(pool, source->models, &rotor, 0, NULL, NULL, &mass);
+    job->measurement.weighed.mass = mass.mass;
+    job->measurement.weighed.centre = mass.center;
+    return status;
+}
+
 /* The data of the job, which have their own arrays, become those of the model with the values drawn for a replicate, without
  * noise; shapes relative to their largest component. Values end in *truth. */
 static int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
@@ -428,6 +445,8 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
                         : solve(source.models, &source.rotor, refine, &modes);
     for (int k = 0; k < job->measurement.nmode && !status; k++)
         take_mode(&source.rotor, &modes, k, job);
+    if (!status)
+        status = weigh(pool, &source, moving, job);
     /* what else was measured is not that of this model */
     job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
     job->measurement.hammer = job->measurement.ncorrection = 0;

@@ -380,8 +380,11 @@ static char *diagnose(struct pool *pool, const struct study *study, const struct
 {
     const struct diagnose_options options = {.threads = 1, .seed = study->seed, .replicates = study->plan->bootstrap};
     struct diagnosis result;
+    struct states states = experiment->states;
     char *text = NULL;
-    *status = diagnose_states(pool, &experiment->states, &options, environment, notes, &result);
+    if (study->plan->from_model) /* which makes no run-up */
+        states.machine = NULL;
+    *status = diagnose_states(pool, &states, &options, environment, notes, &result);
     if (*status)
         return NULL;
     if (result.result.interrupted)
