@@ -338,6 +338,29 @@ POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
     free(text);
 }
 
+/* An unknown that groups share is held in all of them, not in the first alone. */
+POOL_TEST(a_shared_unknown_is_held_in_every_group)
+{
+#define MEASURED "*MODES, COUNT=ELASTIC\n1, 419.065\n2, 754.2\n3, 1502.17\n"
+    static const char text[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=left, MATERIAL=steel\n0.30, 0.06, 0, 12\n"
+        "*SHAFT, NAME=core, MATERIAL=steel\n0.50, 0.10, 0, 16\n*SHAFT, NAME=right, MATERIAL=steel\n0.25, 0.06, 0, 10\n"
+        "*NOISE, FREQUENCY=0.01\n*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n"
+        "*STATE, NAME=before\n" MEASURED "*STATE, NAME=after\n" MEASURED;
+    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    struct message_list notes;
+    struct states read;
+    struct job out;
+    message_open(&notes, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
+    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    double left = out.rotor.group[0].material.e, right = out.rotor.group[2].material.e;
+    print_message("left %g, right %g\n", left, right);
+    assert_true(left < 2e11 && left == right);
+    assert_close(out.rotor.group[1].material.e, 2.1e11, 0, 0);
+}
+
 /* What is missed counts as noise by how much the mode has moved, d^2 = (2 ln f_a/f_b)^2 without shapes. */
 POOL_TEST(what_a_mode_has_moved_widens_its_noise)
 {

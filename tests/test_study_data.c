@@ -191,6 +191,23 @@ POOL_TEST(noise_is_what_it_is_said_to_be)
     jobs_close(&jobs);
 }
 
+/* A start, or a truth, of an unknown that groups share is that of all of them. */
+POOL_TEST(a_shared_truth_is_that_of_every_group)
+{
+    static const char *const truths[] = {"", "*TRUTH\nleft.E=right.E, 1.6e11\n"};
+    (void)bench_write("shared.inp",
+                      BENCH_BEAM BENCH_MODES "*NOISE, FREQUENCY=0.001\n*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.5e11\n");
+    for (int i = 0; i < 2; i++) {
+        char plan[512];
+        (void)snprintf(plan, sizeof plan, "*STUDY\n*DECKS\nshared.inp\n*DATA, SOURCE=MODEL\n*NOISE\n1e-6\n%s", truths[i]);
+        open_study(plan);
+        cJSON *result = bench_result(&study, 0);
+        assert_close(bench_number(result, "parameters", 0, "value"), i ? 1.6e11 : 1.5e11, 1e-5, 0);
+        cJSON_Delete(result);
+        jobs_close(&jobs);
+    }
+}
+
 /* Scales read the rotor that the data are of, with its density and the mass that is hidden, within their stated deviations: the
  * weight of the deck is that of another one. */
 POOL_TEST(a_model_is_weighed_as_it_is)

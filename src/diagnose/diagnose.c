@@ -235,7 +235,7 @@ static int hold(struct pool *pool, const struct state *before, const double *x, 
         int shared = 0;
         for (int p = 0; p < before->job.unknowns.nparameter; p++)
             if (state_unknown(before, p) == state_unknown(after, q)) {
-                *parameter_value(&job->rotor, job->unknowns.parameter[q]) = x[p];
+                parameters_set(&job->rotor, 1, &job->unknowns.parameter[q], &x[p]);
                 shared = 1;
             }
         if (shared)

@@ -260,11 +260,15 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
     return upper > lower ? lower + along * (upper - lower) : lower;
 }
 
-static void set_parameter(struct rotor *rotor, struct parameter parameter, double value)
+/* of all groups that share it */
+static void set_parameter(struct rotor *rotor, const struct parameter *parameter, double value)
 {
-    if (parameter.kind == PARAMETER_G)
-        rotor->group[parameter.index].material.isotropic = 0;
-    *parameter_value(rotor, parameter) = value;
+    struct parameter one = *parameter;
+    for (int i = -1; i < parameter->nalso && parameter->kind == PARAMETER_G; i++) {
+        one.index = i < 0 ? parameter->index : parameter->also[i];
+        rotor->group[one.index].material.isotropic = 0;
+    }
+    parameters_set(rotor, 1, parameter, &value);
 }
 
 static void set(struct rotor *rotor, const char *names, double value)
@@ -275,7 +279,7 @@ static void set(struct rotor *rotor, const char *names, double value)
         const char *unit;
         next = parameter_next_name(next, name);
         if (!parameter_find(rotor, name, &parameter, &unit))
-            set_parameter(rotor, parameter, value);
+            set_parameter(rotor, &parameter, value);
     }
 }
 
@@ -285,7 +289,7 @@ static void draw_values(const struct study *study, long replicate, struct truth 
     const struct plan *plan = study->plan;
     struct job *job = &truth->job;
     for (int p = 0; p < job->unknowns.nparameter; p++)
-        set_parameter(&job->rotor, job->unknowns.parameter[p], job->unknowns.bounds[p].start);
+        set_parameter(&job->rotor, &job->unknowns.parameter[p], job->unknowns.bounds[p].start);
     for (int t = 0; t < plan->ntruth; t++)
         set(&job->rotor, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));

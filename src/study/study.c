@@ -211,19 +211,31 @@ static void check_sensors(struct checker *c, const struct study_cell *cell, cons
     }
 }
 
+/* Of a shared one all. */
+static int has_parameters(const struct rotor *rotor, const char *names)
+{
+    char name[PARAMETER_NAME];
+    int lacks = 0;
+    for (const char *next = names; next && !lacks;) {
+        struct parameter parameter;
+        const char *unit;
+        next = parameter_next_name(next, name);
+        lacks = parameter_find(rotor, name, &parameter, &unit) != 0;
+    }
+    return !lacks;
+}
+
 /* In one of the states at least. */
 static void check_truth(struct checker *c, int d, const struct states *states)
 {
     const struct plan *plan = c->study->plan;
     for (int t = 0; t < plan->ntruth; t++) {
-        struct parameter parameter;
-        const char *unit;
         char text[512];
         (void)snprintf(text, sizeof text, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
                        plan->deck[d].name);
         int found = 0;
         for (int s = 0; s < states->nstate; s++)
-            found |= !parameter_find(&states->state[s].job.rotor, plan->truth[t].name, &parameter, &unit);
+            found |= has_parameters(&states->state[s].job.rotor, plan->truth[t].name);
         if (!found)
             report(c, plan->truth[t].place, text);
     }
