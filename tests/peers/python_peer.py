@@ -383,6 +383,15 @@ def draws(checks, folder):
         hz = lowest_hz(k, m, len(out["rigid_hz"]) + len(out["full_hz"]))
         checks.close(f"draws: rotor {i + 1} of ROSS bends as the deck with these moduli", elastic(out, hz), out["full_hz"], EXACT)
     checks.true("draws: a rotor for each", len(rotors) == 2 and names == ["core.E", "core.G"], len(rotors))
+    isotropic = folder / "isotropic.inp"  # whose fitted E is not the stated one, from which G goes with E all the same
+    isotropic.write_text(STEEL + "*SHAFT, NAME=a, MATERIAL=steel\n0.4, 0.1, 0, 6\n*MODES, COUNT=ELASTIC\n1, 2500\n*IDENTIFY\na.E, 1e11, 4e11, 2e11\n")
+    stiff = list(noted(rotid.stochastic, isotropic, {"a.E": np.array([1.5e11, 3e11])})[0])
+    checks.close("draws: G of an isotropic material goes with E", [r.shaft_elements[0].material.E / r.shaft_elements[0].material.G_s for r in stiff],
+                 [stiff[0].shaft_elements[0].material.E / stiff[0].shaft_elements[0].material.G_s] * 2, 1e-9)
+    by_hand.write_text(isotropic.read_text().split("*MODES")[0].replace("2.1e11", "1.5e11"))
+    out = export_of(by_hand, folder, start=True)
+    k, m = (plane_of(stiff[0], (0, 4), part)[0] for part in (stiff[0].K(0), stiff[0].M()))
+    checks.close("draws: and is that of the drawn E", elastic(out, lowest_hz(k, m, len(out["rigid_hz"]) + len(out["full_hz"]))), out["full_hz"], EXACT)
     refused(checks, "draws: a parameter that is no modulus", "tail.K", rotid.stochastic, deck, {"tail.K": [1.0]})
     bound = rotid.run("identify", folder / "bound.inp", no_baseline=True)
     refused(checks, "draws: a parameter at a bound", "a.E", rotid.draws, bound, 5)

@@ -79,6 +79,7 @@ def scales(model, drawn):
         if group in layered or groups[group].get("layer_of"):
             raise RotidError([f"{deck}: {name}: a section with layers depends on it in another way than in proportion"])
         material = groups[group]["material"]
+        material.setdefault("g_follows", is_isotropic(material) and f"{group}.G" not in at)  # as stated: e_pa becomes the fitted one
         material["e_pa" if modulus == "E" else "g_pa"] = value = at.get(name, material["e_pa" if modulus == "E" else "g_pa"])
         values = np.asarray(values, dtype=float)
         if not (values > 0).all():
@@ -87,11 +88,14 @@ def scales(model, drawn):
     return scale, count.pop()
 
 
+def is_isotropic(material):
+    return abs(material["g_pa"] * 2 * (1 + material["nu"]) / material["e_pa"] - 1) < 1e-9 and not material.get("sheet_e_pa")
+
+
 def shear_scale(material, segment, young, shear):
     """kGS over that of the model. Where E alone was drawn of an isotropic material, G goes with it."""
     if shear is None:
-        isotropic = abs(material["g_pa"] * 2 * (1 + material["nu"]) / material["e_pa"] - 1) < 1e-9 and not material.get("sheet_e_pa")
-        return young if isotropic else np.ones_like(young)
+        return young if material["g_follows"] else np.ones_like(young)
     if not material.get("sheet_e_pa"):
         return shear
     if segment.get("height_m"):
