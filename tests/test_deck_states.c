@@ -215,6 +215,18 @@ POOL_TEST(one_file_is_not_set_for_two_states)
     assert_close(s.state[0].job.measurement.frequency_hz[0], 226, 1e-12, 0);
 }
 
+/* The diagnosis looks at neighbours: modes that may be one, or whose shapes are exchanged. */
+POOL_TEST(modes_are_kept_by_rising_number)
+{
+    const struct states s = good(BAR UNKNOWN "*MODES\n3, 1190, 0.03\n1, 225, 0.01, 0.9\n2, 610\n", NULL);
+    const struct job_measurement *m = &s.state[0].job.measurement;
+    static const double hz[] = {225, 610, 1190};
+    for (int k = 0; k < 3; k++)
+        assert_true(m->number[k] == k + 1 && m->frequency_hz[k] == hz[k]);
+    assert_true(m->damping[0] == 0.01 && isnan(m->damping[1]) && m->damping[2] == 0.03);
+    assert_close(m->frequency_std[0], 0.9 / 225, 1e-12, 0);
+}
+
 POOL_TEST(states_have_a_limit)
 {
     char *text = pool_copy_text(&test_pool, BAR UNKNOWN);

@@ -303,4 +303,14 @@ static int open_all(void **state)
     return folder_make(state) || symlink(INPUT "data", folder_path("data"));
 }
 
+/* Two exchanged channels made the shapes of two modes look exchanged as well: put right and back, they are no finding. */
+UNIT_TEST(modes_that_only_exchanged_channels_exchange_are_not_accused)
+{
+    struct run r;
+    diagnose(&r, ROTID_SOURCE_DIR "/tests/data/exchanged_channels.inp");
+    assert_int_equal(r.d.result.ndata_findings, 1);
+    assert_string_equal(r.d.result.data_findings[0].id, "sensor_swap");
+    close_run(&r);
+}
+
 TEST_GROUP(open_all, folder_remove);

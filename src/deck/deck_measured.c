@@ -139,11 +139,17 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->field[1].place,
                        "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number", number,
                        line->field[1].text, job->measurement.number[k], job->measurement.frequency_hz[k]);
-        k = job->measurement.nmode++;
-        job->measurement.number[k] = number;
-        job->measurement.frequency_hz[k] = hz;
-        job->measurement.damping[k] = damping;
-        job->measurement.frequency_std[k] = std / hz;
+        struct job_measurement *m = &job->measurement;
+        for (k = m->nmode++; k > 0 && m->number[k - 1] > number; k--) { /* kept by rising number */
+            m->number[k] = m->number[k - 1];
+            m->frequency_hz[k] = m->frequency_hz[k - 1];
+            m->damping[k] = m->damping[k - 1];
+            m->frequency_std[k] = m->frequency_std[k - 1];
+        }
+        m->number[k] = number;
+        m->frequency_hz[k] = hz;
+        m->damping[k] = damping;
+        m->frequency_std[k] = std / hz;
     }
 }
 

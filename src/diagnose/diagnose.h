@@ -350,6 +350,7 @@ struct engine {
     int *number, *holdout;               /* of the modes of all states */
     int nprepared;                       /* findings of the data before a model was looked at */
     int dropped;                         /* modes that nobody's shape fits and that were left out */
+    int exchanged;                       /* the shapes of which measured mode, from 1, and the next one change places; 0: none */
     struct job_measurement measured;     /* with them, where there are any */
     rotid_fit_result *fit;               /* of these states */
     double mode_out_rms, mode_out_shape; /* of them, NaN where unknown: modes left out in turn, percent and shape */
