@@ -153,6 +153,14 @@ POOL_TEST(a_grade_is_an_unbalance_of_the_whole_machine)
         ROTID_OK);
     assert_close(c.machine->unbalance[0].value, 0.25 * 7.9577e-6 * (0.8 * (mass - 30) + 30), 1e-4, 0);
     running_case_close(&c);
+    assert_int_equal(running_case_open(
+                         SHAFT
+                         "*CAUSE, NAME=acc, TYPE=added_mass\nmass, 5\nz, 0.4\n*RUNNING, WITHOUT=acc\n*BEARING, NAME=p\n0.2, 1e8, "
+                         "10\n*UNBALANCE, G=2.5\n0.5, 0.25\n*OPERATION\n1000, 3000\n",
+                         3000, 3, 0, &c),
+                     ROTID_OK); /* a cause that is gone has no mass */
+    assert_close(c.machine->unbalance[0].value, 0.25 * 7.9577e-6 * (mass - 30), 1e-4, 0);
+    running_case_close(&c);
     says(SHAFT TWO "*UNBALANCE, G=2.5\n1, 1\n", ROTID_ERROR, 10, "expected *OPERATION");
     says(SHAFT TWO "*UNBALANCE, G=-1\n1, 1\n", ROTID_ERROR, 15, "G");
 }

@@ -545,13 +545,15 @@ int deck_check_unknown(struct deck_reader *reader, const struct card *card, cons
     return twice;
 }
 
-/* U = G m/W of ISO 21940-11: m of the machine with what changes in operation, W its highest running speed. */
+/* U = G m/W of ISO 21940-11: m of the machine (machine_rotor) by the values of the deck, W its highest running speed. */
 static void scale_unbalances(struct deck_reader *reader, const struct place running)
 {
     struct machine *machine = reader->machine;
-    struct rotor changed, *rotor = &changed;
+    struct job job = *reader->job;
+    struct machine_values values;
+    struct rotor rotor;
     struct mass_properties mass = {0};
-    int graded = 0, status;
+    int graded = 0;
     for (int i = 0; i < machine->nunbalance; i++)
         graded |= machine->unbalance[i].grade > 0;
     if (!graded)
@@ -560,19 +562,15 @@ static void scale_unbalances(struct deck_reader *reader, const struct place runn
         deck_error(reader, running, "*UNBALANCE, G= is a grade at the highest running speed, expected *OPERATION with it");
         return;
     }
-    status = rotor_copy(reader->pool, &reader->job->rotor, rotor);
-    for (int i = 0; i < machine->nchange && !status; i++) {
-        double now = *parameter_value(rotor, machine->change[i].parameter) * machine->change[i].factor;
-        parameters_set(rotor, 1, &machine->change[i].parameter, &now);
-    }
-    status = status ? status : model_weigh(reader->pool, NULL, rotor, 0, NULL, NULL, &mass);
+    job.unknowns.nparameter = 0;
+    int status = machine_nominal(reader->pool, machine, NULL, &values);
+    if (!status)
+        status = machine_rotor(reader->pool, machine, &job, &values, &rotor);
+    if (!status)
+        status = model_weigh(reader->pool, NULL, &rotor, 0, NULL, NULL, &mass);
     reader->out_of_memory |= status != ROTID_OK;
     if (status)
         return;
-    for (int i = 0; i < machine->ndisk; i++)
-        mass.mass += machine->disk[i].mass;
-    for (int i = 0; i < rotor->ndisk; i++)
-        mass.mass -= machine->without_disk[i] ? rotor->disk[i].mass : 0;
     for (int i = 0; i < machine->nunbalance; i++)
         if (machine->unbalance[i].grade > 0)
             machine->unbalance[i].value *= machine->unbalance[i].grade * mass.mass / machine->high;

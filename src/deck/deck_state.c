@@ -376,11 +376,7 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
     value *= si;
     if (check_value(reader, line, parameter, &value, si))
         return;
-    if (parameter.kind == PARAMETER_G)
-        job->rotor.group[parameter.index].material.isotropic = 0;
-    for (int i = 0; i < parameter.nalso && parameter.kind == PARAMETER_G; i++)
-        job->rotor.group[parameter.also[i]].material.isotropic = 0;
-    parameters_set(&job->rotor, 1, &parameter, &value);
+    parameter_state(&job->rotor, &parameter, value);
     for (int p = 0; p < job->unknowns.nparameter; p++) {
         if (!parameters_overlap(&job->unknowns.parameter[p], &parameter))
             continue;

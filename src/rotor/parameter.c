@@ -192,3 +192,10 @@ void parameters_set(const struct rotor *rotor, int n, const struct parameter *pa
         }
     }
 }
+
+void parameter_state(const struct rotor *rotor, const struct parameter *parameter, double value)
+{
+    for (int i = -1; i < parameter->nalso && parameter->kind == PARAMETER_G; i++)
+        rotor->group[i < 0 ? parameter->index : parameter->also[i]].material.isotropic = 0;
+    parameters_set(rotor, 1, parameter, &value);
+}

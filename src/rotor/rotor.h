@@ -307,6 +307,9 @@ double *parameter_value(const struct rotor *rotor, struct parameter parameter);
 /* Sets n parameters to x [n], shared ones in all their groups. */
 void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x);
 
+/* The same of one that is stated: a G becomes that of the group itself, where its material was isotropic. */
+void parameter_state(const struct rotor *rotor, const struct parameter *parameter, double value);
+
 /* --------------------------------------------------------------------------------------------------------------- effects */
 
 /* What the effects of a rotor do together: products of their factors, and how one parameter moves the product.

@@ -260,17 +260,6 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
     return upper > lower ? lower + along * (upper - lower) : lower;
 }
 
-/* of all groups that share it */
-static void set_parameter(struct rotor *rotor, const struct parameter *parameter, double value)
-{
-    struct parameter one = *parameter;
-    for (int i = -1; i < parameter->nalso && parameter->kind == PARAMETER_G; i++) {
-        one.index = i < 0 ? parameter->index : parameter->also[i];
-        rotor->group[one.index].material.isotropic = 0;
-    }
-    parameters_set(rotor, 1, parameter, &value);
-}
-
 static void set(struct rotor *rotor, const char *names, double value)
 {
     char name[PARAMETER_NAME];
@@ -279,7 +268,7 @@ static void set(struct rotor *rotor, const char *names, double value)
         const char *unit;
         next = parameter_next_name(next, name);
         if (!parameter_find(rotor, name, &parameter, &unit))
-            set_parameter(rotor, &parameter, value);
+            parameter_state(rotor, &parameter, value);
     }
 }
 
@@ -289,7 +278,7 @@ static void draw_values(const struct study *study, long replicate, struct truth 
     const struct plan *plan = study->plan;
     struct job *job = &truth->job;
     for (int p = 0; p < job->unknowns.nparameter; p++)
-        set_parameter(&job->rotor, &job->unknowns.parameter[p], job->unknowns.bounds[p].start);
+        parameter_state(&job->rotor, &job->unknowns.parameter[p], job->unknowns.bounds[p].start);
     for (int t = 0; t < plan->ntruth; t++)
         set(&job->rotor, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
