@@ -67,6 +67,10 @@ int blas_threads(void);
 /* Sweeps of whole diagnoses go in steps so many times as large, unless make test-long has them whole. */
 #define SPARSE (getenv("ROTID_LONG") ? 1 : 5)
 
+/* The next allocation to fail in a sweep of a run: every one up to the hundredth, then each a twentieth later, unless make
+ * test-long has all. */
+#define NEXT_FAILURE(n) ((n) < 100 || SPARSE == 1 ? (n) + 1 : (n) + (n) / 20)
+
 /* Processes by the hundred: under a sanitizer, which makes the start of one ten times as long, every third. */
 #ifdef __SANITIZE_ADDRESS__
 #define SLOW_START (getenv("ROTID_LONG") ? 1 : 3)

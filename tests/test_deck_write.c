@@ -612,7 +612,7 @@ POOL_TEST(without_memory_nothing_is_written)
     long fail_at = 0;
     int status;
     do {
-        fail_at += fail_at < 100 || SPARSE == 1 ? 1 : fail_at / 20;
+        fail_at = NEXT_FAILURE(fail_at);
         struct pool pool;
         struct message_list notes;
         char *text;

@@ -299,6 +299,17 @@ UNIT_TEST(what_changed_is_named_and_what_stays_is_not)
     }
 }
 
+/* The states of a deck, and the job that asks what changed from one to the other. */
+static void read_changed(const char *text, struct states *read, struct job *out)
+{
+    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    struct message_list notes;
+    message_open(&notes, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, read), ROTID_OK);
+    assert_status(changed_job(&test_pool, read, "before", "after", &options, NULL, &notes, out), ROTID_OK);
+}
+
 /* The data of the second state by the equations of changed.h, beside the modes of the model that is held. */
 POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
 {
@@ -306,16 +317,11 @@ POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
     static const char *const dense[] = {"density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
     const struct hide_request r = request(MODES, SENSORS, 1300);
-    const struct diagnose_options options = {.threads = 1, .seed = 1};
     char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
-    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
-    struct message_list notes;
     struct states read;
     struct job out;
     struct spectrum spectrum;
-    message_open(&notes, &test_pool);
-    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
-    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    read_changed(text, &read, &out);
     assert_int_equal(out.unknowns.nparameter, 0);
     assert_status(spectrum_compute(&test_pool, NULL, &out.rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, &spectrum), ROTID_OK);
     const struct job_measurement *before = &read.state[0].job.measurement, *after = &read.state[1].job.measurement;
@@ -347,14 +353,9 @@ POOL_TEST(a_shared_unknown_is_held_in_every_group)
         "*SHAFT, NAME=core, MATERIAL=steel\n0.50, 0.10, 0, 16\n*SHAFT, NAME=right, MATERIAL=steel\n0.25, 0.06, 0, 10\n"
         "*NOISE, FREQUENCY=0.01\n*IDENTIFY\nleft.E=right.E, 1e10, 1e12, 1.9e11\n"
         "*STATE, NAME=before\n" MEASURED "*STATE, NAME=after\n" MEASURED;
-    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
-    const struct diagnose_options options = {.threads = 1, .seed = 1};
-    struct message_list notes;
     struct states read;
     struct job out;
-    message_open(&notes, &test_pool);
-    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
-    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    read_changed(text, &read, &out);
     double left = out.rotor.group[0].material.e, right = out.rotor.group[2].material.e;
     print_message("left %g, right %g\n", left, right);
     assert_true(left < 2e11 && left == right);
@@ -368,16 +369,11 @@ POOL_TEST(what_a_mode_has_moved_widens_its_noise)
     static const char *const dense[] = {"density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", DISC, 1, dense}};
     const struct hide_request r = request(MODES, 0, 1400);
-    const struct diagnose_options options = {.threads = 1, .seed = 1};
     char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
-    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
-    struct message_list notes;
     struct states read;
     struct job out;
     double widest = 0;
-    message_open(&notes, &test_pool);
-    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
-    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    read_changed(text, &read, &out);
     const struct job_measurement *before = &read.state[0].job.measurement, *after = &read.state[1].job.measurement;
     assert_int_equal(out.measurement.nmode, MODES);
     for (int k = 0; k < MODES; k++) {

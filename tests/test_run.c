@@ -229,7 +229,7 @@ UNIT_TEST(no_allocation_that_fails_leaks_or_goes_unsaid)
     pool_open(&outer, NULL);
     make_job(&outer, 3, &job);
     long n = 1;
-    for (;; n += n < 100 || SPARSE == 1 ? 1 : n / 20) {
+    for (;; n = NEXT_FAILURE(n)) {
         struct failing_allocator failing;
         struct pool pool;
         struct message_list notes;

@@ -353,7 +353,6 @@ static void watch(struct pool *pool, const struct bands *b, const double *d, str
 {
     *growth = -INFINITY;
     struct pair pair;
-    system_at(s, b->machine->high);
     for (int i = 0; i < b->nwatched && !pair_new(pool, s->size, &pair); i++) {
         double rate = creal(b->watched[i].lambda), predicted = rate;
         for (int j = 0; j < b->nsource; j++) { /* linear in what is drawn or in its power, whichever destabilises more */
@@ -362,6 +361,7 @@ static void watch(struct pool *pool, const struct bands *b, const double *d, str
         }
         if (rate < 0 && predicted < (1 - MOST) * rate)
             continue;
+        system_at(s, b->machine->high);
         if (system_transfer(b->nominal, &b->watched[i], s, &pair) || pair_refine(s, b->machine->high, NULL, &pair))
             continue;
         *growth = fmax(*growth, creal(pair.lambda) / cabs(pair.lambda));
