@@ -312,9 +312,9 @@ UNIT_TEST(memory_that_is_out_is_said)
 
 /* ------------------------------------------------------------------------------------------------ written tables */
 
-/* What `rotid uff --csv` writes of the file is read as *MEASURED reads the file. Returns how many standard deviations there are.
- */
-static int assert_same_modes(const char *path)
+/* What `rotid uff --csv` writes of the file is read as *MEASURED reads the file: with so many standard deviations, and components
+ * that were not measured. */
+static void assert_same_modes(const char *path, int expected_deviations, int expected_gaps)
 {
     struct reading a, b;
     struct csv_universal universal;
@@ -322,7 +322,7 @@ static int assert_same_modes(const char *path)
     struct message_list messages;
     const char *failed, *name = folder_path("u"), *file[] = {folder_path("u.modes.csv"), folder_path("u.shapes.csv")};
     char deck[2048];
-    int deviations = 0;
+    int deviations = 0, gaps = 0;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
     assert_status(csv_universal_read(&pool, path, &messages, &universal), ROTID_OK);
@@ -359,21 +359,24 @@ static int assert_same_modes(const char *path)
             if (isfinite(m->shape_std[at]))
                 assert_close(t->shape_std[at], m->shape_std[at], 1e-15, 0);
             deviations += isfinite(m->shape_std[at]);
+            gaps += isnan(m->shape[at]);
         }
     }
+    assert_int_equal(deviations, expected_deviations);
+    assert_int_equal(gaps, expected_gaps);
     pool_close(&a.pool);
     pool_close(&b.pool);
     pool_close(&pool);
-    return deviations;
 }
 
-/* Two modes, the second complex and without node 2, and the standard deviations of the first. */
+/* Two modes, the second complex and without node 2, and the standard deviations of the first, in which node 2 was measured along
+ * another axis. */
 static const char *write_universal(void)
 {
     const struct uff_node node[] = {{.id = 7, .x = {0, 0, 0.5}}, {.id = 1, .x = {0, 0, 0.25}}, {.id = 2, .x = {0, 0, 2}}};
     int id[] = {7, 1, 2}, two[] = {7, 1};
-    double real[] = {0.1, 2, 0, 0, -4, 0, 0.2, 1, 0}, part[] = {0, 1, 0, 0, -0.5, 0}, imag[] = {0, 0.1, 0, 0, 0.02, 0},
-           std[] = {0, 0.04, 0, 0, 0, 0, 0, 0.02, 0};
+    double real[] = {0.1, 2, 0, 0, -4, 0, 0.2, 0, 0}, part[] = {0, 1, 0, 0, -0.5, 0}, imag[] = {0, 0.1, 0, 0, 0.02, 0},
+           std[] = {0, 0.04, 0, 0, 0.02, 0, 0.01, 0, 0};
     struct uff_shape shape[] = {{.model_type = 1,
                                  .analysis_type = 2,
                                  .data_characteristic = 2,
@@ -426,8 +429,8 @@ static const char *write_universal(void)
 
 UNIT_TEST(tables_of_a_universal_file_are_the_measured_modes)
 {
-    assert_int_equal(assert_same_modes(ROTID_SOURCE_DIR "/input/data/converged_steel.uff"), 0);
-    assert_int_equal(assert_same_modes(write_universal()), 2);
+    assert_same_modes(ROTID_SOURCE_DIR "/input/data/converged_steel.uff", 0, 0);
+    assert_same_modes(write_universal(), 2, 2);
 }
 
 UNIT_TEST(a_text_in_a_table_is_no_formula)

@@ -543,6 +543,8 @@ static void read_values(const struct extra *extra)
         }
         if (value > 0)
             target[first + sensor] = extra->kind == UFF_EXTRA_SHAPE_STD ? value / largest : value;
+        else if (extra->kind == UFF_EXTRA_SHAPE_STD && uff_extra_is_known(set, i) && job->measurement.shape[first + sensor] == 0)
+            job->measurement.shape[first + sensor] = NAN;
     }
 }
 

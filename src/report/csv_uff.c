@@ -89,8 +89,11 @@ static void take_std(struct csv_universal *u, const struct uff_shape *set, int c
     for (int m = 0; m < set->node_count; m++) {
         const struct uff_node key = {.id = set->node[m]}, *at = bsearch(&key, u->node, (size_t)u->nnode, sizeof key, by_id);
         double deviation = set->real[m * set->component_count + component];
+        double *value = &u->value[(at ? at - u->node : 0) + (ptrdiff_t)k * u->nnode];
         if (at && deviation > 0 && largest > 0)
             std[at - u->node] = deviation / largest;
+        else if (at && *value == 0 && uff_extra_is_known(set, m))
+            *value = NAN;
     }
 }
 

@@ -553,6 +553,14 @@ int uff_extra_count(const struct uff_shape *set, int *tests)
     return (*tests || sscanf(set->id[2], "IMPACTS %d", &count) == 1) && count > 0 ? count : 0;
 }
 
+int uff_extra_is_known(const struct uff_shape *set, int i)
+{
+    int known = 0;
+    for (int c = 0; c < set->component_count; c++)
+        known |= set->real[(ptrdiff_t)i * set->component_count + c] > 0;
+    return known;
+}
+
 int uff_extra_frequency_std(const struct uff_shape *set, double *hz)
 {
     double damping; /* nothing needs its deviation yet, but it has to be one */

@@ -220,6 +220,10 @@ enum uff_extra uff_extra_of(const struct uff_shape *set, int *number);
 /* How many impacts, or tests, such a standard deviation rests on, in its third line of text; 0: it does not say. */
 int uff_extra_count(const struct uff_shape *set, int *tests);
 
+/* Whether the i-th node of such a set has a standard deviation in some direction: where that in another one is zero, the shape's
+ * zero there was not measured. */
+int uff_extra_is_known(const struct uff_shape *set, int i);
+
 /* The standard deviation of the frequency [Hz], zero where it is not known, in the second line of a UFF_EXTRA_SHAPE_STD. 0, or 1
  * where the line has another form. */
 int uff_extra_frequency_std(const struct uff_shape *set, double *hz);
