@@ -64,14 +64,18 @@ POOL_TEST(every_form_gives_the_same_functions)
          "[deg]\"",
          ';', ',', 1, 1e3, 9.80665, 57.29577951308232},
         {"freq\t12:1 mag [mm/s2/N]\t12:1 phase [rad]\t13:1 mag [mm/s2/N]\t13:1 phase [rad]", '\t', '.', 1, 1, 1e-3, 1},
+        {"sep=|\r\nf|12/1 re [1/kg]|12/1 im [1/kg]|13/1 re [1/kg]|13/1 im [1/kg]", '|', ',', 0, 1, 1, 1},
     };
-    for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
+    for (size_t f = 0; f < 2 * sizeof forms / sizeof *forms; f++) {
         struct measurement m = {0};
         const char *said;
-        assert_status(read_table(table_of(forms[f].head, forms[f].separator, forms[f].comma, forms[f].polar, forms[f].in_hz,
-                                          forms[f].in_si, forms[f].degrees),
-                                 NULL, &m, &said),
-                      ROTID_OK);
+        size_t k = f / 2;
+        char *text = pool_format(&test_pool, "%s",
+                                 table_of(forms[k].head, forms[k].separator, forms[k].comma, forms[k].polar, forms[k].in_hz,
+                                          forms[k].in_si, forms[k].degrees));
+        for (char *feed = text; f % 2 && (feed = strchr(feed, '\n')) != NULL;)
+            *feed = '\r';
+        assert_status(read_table(text, NULL, &m, &said), ROTID_OK);
         assert_string_equal(said, "");
         assert_int_equal(m.set.nfrf, 2);
         assert_int_equal(m.set.nline, LINES);

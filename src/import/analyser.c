@@ -175,7 +175,8 @@ static int take_name(struct analyser *a, int index, const char *name)
 static int take_head(struct analyser *a, char *row)
 {
     int count = 1, *parts;
-    a->separator = strchr(row, ';') ? ';' : strchr(row, '\t') ? '\t' : ',';
+    if (!a->separator)
+        a->separator = strchr(row, ';') ? ';' : strchr(row, '\t') ? '\t' : ',';
     for (const char *at = row; (at = strchr(at, a->separator)) != NULL; at++)
         count++;
     if (count < 3 || count > COLUMNS_MOST)
@@ -315,12 +316,15 @@ int analyser_read(struct pool *pool, const char *path, const struct measurement_
     if (!status && !strncmp(row, "\xef\xbb\xbf", 3))
         row += 3;
     for (const char *c = row; !status && *c; c++)
-        lines += *c == '\n';
+        lines += *c == '\n' || *c == '\r';
+    if (!status && !strncmp(row, "sep=", 4) && row[4] && strchr("\r\n", row[5])) { /* what is left of this row is blank */
+        a.separator = row[4];
+        row += 5 + strspn(row + 5, "\r\n");
+        line++;
+    }
     for (int is_head = 1; !status && row && (is_head || *row); line++) {
-        char *end = strchr(row, '\n'), *next = end ? end + 1 : NULL;
-        if (end)
-            *end = 0;
-        row[strcspn(row, "\r")] = 0;
+        char *end = row + strcspn(row, "\r\n"), *next = *end ? end + 1 + (end[0] == '\r' && end[1] == '\n') : NULL;
+        *end = 0;
         if (is_head) {
             status = take_head(&a, row);
             a.set->frequency_hz = POOL_ARRAY(pool, double, lines);
