@@ -249,10 +249,10 @@ UNIT_TEST(form_does_not_change_what_a_deck_says)
     static const char *const texts[] = {
         START "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n",
         "*material,name=STEEL\n*Elastic\n2.1E11,.3\n*density\n7850.\n*shaft,material=Steel,name=core\n1,0.1,0,20\n*modes\n1,500\n"
-        "2,1300\n3,2400\n5,5400\n*identify\nCORE.e,1e10,4e11,2e11\n",
-        /* an editor of Windows, no end of the last line */
+        "2,1300\n3,2400\n5,5400\n*identify\nCORE.e,1e10,4e11,2e11",
+        /* an editor of Windows, half an end of the last line */
         "\xef\xbb\xbf*MATERIAL, NAME=steel\r\n*ELASTIC\r\n2.1e11, 0.3\r\n*DENSITY\r\n7850\r\n\r\n*SHAFT, NAME=core, MATERIAL="
-        "steel\r\n1, 0.1, 0, 20\r\n*MODES\r\n1, 500\r\n2, 1300\r\n3, 2400\r\n5, 5400\r\n*IDENTIFY\r\ncore.E, 1e10, 4e11, 2e11",
+        "steel\r\n1, 0.1, 0, 20\r\n*MODES\r\n1, 500\r\n2, 1300\r\n3, 2400\r\n5, 5400\r\n*IDENTIFY\r\ncore.E, 1e10, 4e11, 2e11\r",
         /* blanks, tabs, comments, a keyword line in several lines, a comma behind the last option or value */
         "** comment\n\n * MATERIAL , NAME = steel ,\n*ELASTIC ** isotropic\n\t2.1e11\t,0.3,** E, nu\n**\n*DENSITY\n7850**kg/m3\n"
         " \t \n*SHAFT,\n NAME=core,\n  \n** and\n MATERIAL=steel\n1, 0.1, 0, 20,\n\t*MODES\n1, 500\n2, 1300\n3, 2400\n5, 5400\n"

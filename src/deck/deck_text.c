@@ -373,6 +373,12 @@ static void too_large(struct reader *reader, const char *path)
                DECK_MOST_BYTES >> 20);
 }
 
+/* Without the carriage return at the end of a line that is not too long. */
+static size_t bare_length(const char *line, size_t length)
+{
+    return length && length < DECK_LINE_LENGTH + 2 && line[length - 1] == '\r' ? length - 1 : length;
+}
+
 /* `path`: the file of the places in it. */
 static int read_source(struct reader *reader, struct deck_source *source, const char *path)
 {
@@ -393,8 +399,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
             break;
         }
         if (c == '\n') {
-            if (length && length < sizeof line_text && line_text[length - 1] == '\r')
-                length--;
+            length = bare_length(line_text, length);
             stop = length <= DECK_LINE_LENGTH && read_line(reader, line_text, length, line);
             reader->text->end = (struct place){path, line, (int)length + 1};
             line++;
@@ -409,6 +414,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
             }
         }
     }
+    length = bare_length(line_text, length);
     if (!stop && !reader->over && length && length <= DECK_LINE_LENGTH)
         (void)read_line(reader, line_text, length, line);
     if (length)
