@@ -484,6 +484,21 @@ POOL_TEST(all_pairs_are_those_of_the_full_model)
     running_case_close(&c);
 }
 
+/* Dashpots and a loss far beyond critical damping leave pairs that a basis of modes does not tell. */
+POOL_TEST(what_is_damped_beyond_whirl_is_no_mode)
+{
+    struct running_case c;
+    const char *deck = pool_format(&test_pool,
+                                   "%.*s*BEARING, NAME=a\n0.15, 8e7, 8e7, 3e7, 2e7\n*BEARING, NAME=b\n1.5, 9e7, 7e7, "
+                                   "2e7, 3e7\n*LOSS, TYPE=VISCOUS\ncore, 1e-2\n",
+                                   (int)(strstr(general, "*BEARING") - general), general);
+    assert_int_equal(running_case_open(deck, 15000, 5, 0, &c), ROTID_OK);
+    for (int i = 0; i < c.speeds.ncampbell; i++)
+        for (int m = 0; m < c.speeds.campbell[i].nmodes; m++)
+            assert_true(c.speeds.campbell[i].modes[m].damping_ratio < 0.999);
+    running_case_close(&c);
+}
+
 POOL_TEST(bearing_loads_carry_the_weight)
 {
     struct running_case c;

@@ -12,7 +12,8 @@
 #define FARTHEST       0.2  /* of the speed: a step of Newton */
 #define ONE            1e-7 /* relative distance of two eigenvalues below which they are one */
 #define GROWS_STRAIGHT 1e-7 /* of the highest mode: below, a real eigenvalue is rounding of 0 */
-#define IS_A_WAVE      1e-6 /* Im lambda over |lambda|: below, the mode is overdamped */
+#define IS_A_WAVE      1e-6 /* Im lambda over |lambda|: below, the mode does not whirl */
+#define OVERDAMPED     0.05 /* and does not where it decays: the basis does not tell its frequency */
 
 int pair_new(struct pool *pool, int size, struct pair *pair)
 {
@@ -65,6 +66,11 @@ static int by_imaginary(const void *a, const void *b)
 {
     double x = cimag(((const struct pair *)a)->lambda), y = cimag(((const struct pair *)b)->lambda);
     return (x > y) - (x < y);
+}
+
+static int is_a_wave(double complex lambda)
+{
+    return cimag(lambda) > (creal(lambda) < 0 ? OVERDAMPED : IS_A_WAVE) * cabs(lambda);
 }
 
 /* u' T v, T (x, y) = (i y, -i x): 1 for forward circles, -1 for backward ones */
@@ -129,7 +135,7 @@ int pairs_all(struct pool *pool, struct system *s, double speed, int *count, str
         *real = j ? fmax(*real, grown) : grown;
     }
     for (int j = 0; j < two && !status; j++) {
-        if (!(cimag(lambda[j]) > IS_A_WAVE * cabs(lambda[j])) || *count == s->size)
+        if (!is_a_wave(lambda[j]) || *count == s->size)
             continue;
         struct pair *to = &pair[(*count)++];
         to->lambda = lambda[j];
@@ -236,7 +242,7 @@ static int refine(struct system *s, int side, struct pair *pair)
             pair->lambda = lambda;
             left_by_factor(s, pair); /* those of the last step are as near as that went */
             normalise(n, pair->u);
-            return !(cimag(lambda) > IS_A_WAVE * cabs(lambda));
+            return !is_a_wave(lambda);
         }
         before = change;
     }
