@@ -52,6 +52,22 @@ POOL_TEST(an_interval_of_e_alone_has_a_closed_form)
     rotid_suggestion_free(s);
 }
 
+/* The density of a bar by its frequencies and by scales that read its mass to 0.4 %. */
+POOL_TEST(a_rotor_that_will_be_weighed_is_counted_so)
+{
+    static const char text[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+        "0.8, 0.03, 0, 30\n*NOISE, FREQUENCY=0.004\n*IDENTIFY\nbar.rho, 1e3, 2e4, 7850\n*WEIGHT\n4, 0.018\n";
+    const double weight = 196 * 0.018 / (0.8 * 0.03 * 0.03 * 7850 * 3.14159265358979323846 / 4);
+    const rotid_suggest_options options = {.size = sizeof options, .replicates = 100};
+    rotid_suggestion *s = suggest_text(text, &options);
+    for (int i = 0; i < s->nmodes; i++) {
+        double alone = 196 * 2 * 0.004 / sqrt(s->modes[i].modes);
+        assert_close(s->modes[i].frequencies_percent[0], alone * weight / hypot(alone, weight), 1e-6, 0);
+    }
+    rotid_suggestion_free(s);
+}
+
 static char *measured_deck(const rotid_deck *deck, int modes, const char *cards)
 {
     char failure[ROTID_FAILURE_LENGTH], *text = pool_format(&test_pool, "%s%s*MODES\n", shaft, cards);
@@ -73,12 +89,12 @@ static const char seven[] = "*SENSORS\n1, 0.05\n2, 0.2\n3, 0.35\n4, 0.5\n5, 0.7\
                             "SHAPE=0.005\n";
 
 /* The data that were expected, measured without error: identification states the intervals, diagnosis the limits. */
-POOL_TEST(intervals_and_limits_are_those_of_the_test_that_is_made)
+static void compare_with_the_test(const char *cards)
 {
     const rotid_suggest_options options = {.size = sizeof options, .modes = 5, .replicates = 1000};
-    char failure[ROTID_FAILURE_LENGTH], *before = pool_format(&test_pool, "%s%s", shaft, seven);
+    char failure[ROTID_FAILURE_LENGTH], *before = pool_format(&test_pool, "%s%s", shaft, cards);
     rotid_suggestion *s = suggest_text(before, &options);
-    rotid_deck *bare = read_handle(before, 0, NULL), *deck = read_handle(measured_deck(bare, 5, seven), 0, NULL);
+    rotid_deck *bare = read_handle(before, 0, NULL), *deck = read_handle(measured_deck(bare, 5, cards), 0, NULL);
     rotid_identification *fit;
     rotid_diagnosis *d;
     if (rotid_identify(deck, 0, NULL, failure, &fit) || rotid_diagnose(deck, NULL, NULL, failure, &d))
@@ -102,6 +118,13 @@ POOL_TEST(intervals_and_limits_are_those_of_the_test_that_is_made)
     rotid_deck_free(bare);
 }
 
+POOL_TEST(intervals_and_limits_are_those_of_the_test_that_is_made)
+{
+    double mass = 7850 * 3.14159265358979323846 / 4 * (2 * 0.3 * 0.05 * 0.05 + 0.5 * 0.08 * 0.08);
+    compare_with_the_test(seven);
+    compare_with_the_test(pool_format(&test_pool, "%s*WEIGHT\n%.17g, 0.01\n*CENTRE\n0.55, 1e-4\n", seven, mass));
+}
+
 /* ---- places of sensors */
 
 #define PLACES 9
@@ -111,7 +134,7 @@ static struct design random_design(int nparam, int ntarget)
 {
     struct random_stream stream = {7};
     struct design d;
-    assert_int_equal(design_new(&test_pool, MODES, PLACES, nparam, ntarget, &d), 0);
+    assert_int_equal(design_new(&test_pool, MODES, PLACES, 0, nparam, ntarget, &d), 0);
     for (int i = 0; i < MODES * (1 + PLACES) * (nparam + ntarget); i++)
         d.column[i] = random_normal(&stream);
     for (int i = 0; i < MODES * PLACES; i++) {

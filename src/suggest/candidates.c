@@ -117,7 +117,7 @@ static int one_pair(struct pool *pool, const struct rivals *rivals, const struct
     if (!status)
         status = columns_prepare(c);
     if (!status)
-        status = design_new(pool, rivals->nmode, places->n, used, 1, d);
+        status = design_new(pool, rivals->nmode, places->n, 0, used, 1, d);
     if (status)
         return status;
     d->targets_alone = 1;

@@ -14,10 +14,10 @@ struct sums { /* over a set of places: of one design and the modes wanted */
     double *uu, *uc, *cc, *square; /* [modes], [modes * columns], [nparam * columns], [ntarget] */
 };
 
-int design_new(struct pool *pool, int nmode, int nplace, int nparam, int ntarget, struct design *d)
+int design_new(struct pool *pool, int nmode, int nplace, int nwhole, int nparam, int ntarget, struct design *d)
 {
-    size_t rows = (size_t)nmode * (1 + (size_t)nplace), cells = (size_t)nplace * (size_t)nmode;
-    *d = (struct design){.nmode = nmode, .nplace = nplace, .nparam = nparam, .ntarget = ntarget};
+    size_t rows = (size_t)nmode * (1 + (size_t)nplace) + (size_t)nwhole, cells = (size_t)nplace * (size_t)nmode;
+    *d = (struct design){.nmode = nmode, .nplace = nplace, .nwhole = nwhole, .nparam = nparam, .ntarget = ntarget};
     d->column = POOL_ARRAY(pool, double, rows *(size_t)(nparam + ntarget));
     d->scale = POOL_ARRAY(pool, double, cells);
     d->largest = POOL_ARRAY(pool, double, cells);
@@ -30,9 +30,14 @@ static int columns_of(const struct design *d)
     return d->nparam + d->ntarget;
 }
 
+static int first_whole(const struct design *d)
+{
+    return d->nmode * (1 + d->nplace);
+}
+
 static double at(const struct design *d, int column, int row)
 {
-    return d->column[row + (ptrdiff_t)column * d->nmode * (1 + d->nplace)];
+    return d->column[row + (ptrdiff_t)column * (first_whole(d) + d->nwhole)];
 }
 
 /* weight: of the products c_i c_j */
@@ -72,6 +77,8 @@ static int sums_new(struct pool *pool, const struct design *d, int modes, struct
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < s->modes; k++)
         add_row(d, k, 1, s);
+    for (int i = 0; i < d->nwhole; i++)
+        add_row(d, first_whole(d) + i, 1, s);
     return ROTID_OK;
 }
 

@@ -83,3 +83,13 @@ int planned_measure(struct pool *pool, const struct job *source, const double *x
     to->options.fit.derivative = ROTID_NELSON;
     return ROTID_OK;
 }
+
+int planned_weigh(struct pool *pool, const struct job *from, const double *x, struct job *to)
+{
+    struct mass_properties mass;
+    int status = model_weigh(pool, to->models, &to->rotor, to->unknowns.nparameter, to->unknowns.parameter, x, &mass);
+    const struct weighed *stated = &from->measurement.weighed;
+    if (!status)
+        to->measurement.weighed = (struct weighed){mass.mass, stated->mass_std, mass.center, stated->centre_std};
+    return status;
+}

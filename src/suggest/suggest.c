@@ -143,13 +143,15 @@ static int plan_design(struct pool *pool, const struct job *job, const double *x
     if (!status)
         status = planned_measure(pool, &at, x, &plan, &at);
     if (!status)
-        status = list_targets(pool, &at, &targets);
+        status = planned_weigh(pool, job, x, &at);
     if (!status)
-        status = design_new(pool, modes, places->n, job->unknowns.nparameter, targets.n, design);
+        status = list_targets(pool, &at, &targets);
     if (!status)
         status = columns_open(pool, &at, number, holdout, &none, x, c);
     if (!status)
         status = columns_prepare(c);
+    if (!status)
+        status = design_new(pool, modes, places->n, c->functional.nwhole, job->unknowns.nparameter, targets.n, design);
     return status ? status : fill(c, &at, x, &targets, design);
 }
 
@@ -304,6 +306,8 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
     int status = planned_sensors(pool, job, n, z, &test);
     if (!status)
         status = planned_measure(pool, &test, x, &plan, &test);
+    if (!status)
+        status = planned_weigh(pool, job, x, &test);
     struct states states = states_of(&test, &state);
     if (!status)
         status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, SCAN_ALL, &last.scan);

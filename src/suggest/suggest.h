@@ -91,6 +91,9 @@ int planned_sensors(struct pool *pool, const struct job *from, int n, const doub
  * the model has fewer modes. */
 int planned_measure(struct pool *pool, const struct job *source, const double *x, const struct planned *plan, struct job *to);
 
+/* *to is weighed as well as the job `from` was, and weighs what the model at x does. Statuses of model_weigh. */
+int planned_weigh(struct pool *pool, const struct job *from, const double *x, struct job *to);
+
 /* ----------------------------------------------------------------------------------------------------------------- tests */
 
 /* Tests that could be made next, and what each makes of a rotor. */
@@ -170,16 +173,17 @@ void suggest_free(struct suggestion *out);
  * q_t = G_tt - G_tp (P + G_pp)^-1 G_pt: what is left of a target when the parameters follow it. */
 
 struct design {
-    int nmode, nplace, nparam, ntarget;
+    int nmode, nplace, nwhole, nparam, ntarget;
     int targets_alone; /* nonzero: the value is that of the targets */
-    double *column;    /* [nrow * (nparam + ntarget)], nrow = nmode (1 + nplace): frequencies, then shapes mode by mode */
+    double *column;    /* [nrow * (nparam + ntarget)], nrow = nmode (1 + nplace) + nwhole: frequencies, then shapes mode by mode,
+                          then what the rotor weighs, whatever is taken */
     double *scale;     /* [nplace * nmode] u_k at all places */
     double *prior;     /* [nparam * nparam] P, positive definite */
     double *largest;   /* [nplace * nmode] |shape|, largest 1: noise is stated relative to the largest component at S */
 };
 
 /* Room for a design. ROTID_OK or ROTID_ERROR_MEMORY. */
-int design_new(struct pool *pool, int nmode, int nplace, int nparam, int ntarget, struct design *design);
+int design_new(struct pool *pool, int nmode, int nplace, int nwhole, int nparam, int ntarget, struct design *design);
 
 /* What a set of places says by the first `modes` modes. */
 struct information {
