@@ -392,6 +392,12 @@ def draws(checks, folder):
     out = export_of(by_hand, folder, start=True)
     k, m = (plane_of(stiff[0], (0, 4), part)[0] for part in (stiff[0].K(0), stiff[0].M()))
     checks.close("draws: and is that of the drawn E", elastic(out, lowest_hz(k, m, len(out["rigid_hz"]) + len(out["full_hz"]))), out["full_hz"], EXACT)
+    shared = folder / "shared.inp"
+    shared.write_text(STEEL + "*SHAFT, NAME=a, MATERIAL=steel\n0.4, 0.1, 0, 6\n*SHAFT, NAME=b, MATERIAL=steel\n0.3, 0.08, 0, 4\n"
+                      "*MODES, COUNT=ELASTIC\n1, 900\n*IDENTIFY\na.E=b.E, 1e10, 9e11, 2e11\n")
+    both = list(noted(rotid.stochastic, shared, {"a.E=b.E": np.array([1.5e11, 3e11])})[0])
+    checks.close("draws: a shared unknown is drawn in each of its groups", [e.material.E for r in both for e in r.shaft_elements],
+                 [1.5e11] * 10 + [3e11] * 10, 1e-9)
     refused(checks, "draws: a parameter that is no modulus", "tail.K", rotid.stochastic, deck, {"tail.K": [1.0]})
     bound = rotid.run("identify", folder / "bound.inp", no_baseline=True)
     refused(checks, "draws: a parameter at a bound", "a.E", rotid.draws, bound, 5)

@@ -67,7 +67,8 @@ def scales(model, drawn):
     """Draws over the values of the model, by group and modulus, and how many."""
     deck, groups = model["deck"], {group["name"]: group for group in model["geometry"]["groups"]}
     layered = {group.get("layer_of") for group in groups.values()} - {None}
-    at = {p["name"]: p["value"] for p in model["out"]["parameters"]}
+    at = {one: p["value"] for p in model["out"]["parameters"] for one in p["name"].split("=")}  # of a shared unknown each of its groups
+    drawn = {one: values for name, values in drawn.items() for one in name.split("=")}
     count = {len(values) for values in drawn.values()}
     if len(count) != 1:
         raise RotidError(["the parameters have differing numbers of draws, expected the same"])
