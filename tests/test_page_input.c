@@ -375,4 +375,32 @@ UNIT_TEST(a_sound_file_is_not_accused_where_memory_runs_out)
     }
 }
 
+/* Memory of the writer: no page without its study. */
+POOL_TEST(a_page_that_lacks_its_study_is_not_written)
+{
+    cJSON_Hooks hooks = {failing_malloc, free};
+    const char *file;
+    int status = ROTID_ERROR_MEMORY;
+    make_results();
+    for (refuse_at = 1; status; refuse_at *= 2) {
+        struct message_list messages;
+        struct result result;
+        struct document document;
+        message_open(&messages, &test_pool);
+        assert_status(page_result_read(&test_pool, page_path("study.json"), &messages, &result), ROTID_OK);
+        assert_status(document_open(&document, &test_pool), ROTID_OK);
+        page_compose(&document, 1, &result);
+        asked = 0;
+        cJSON_InitHooks(&hooks);
+        status = page_write(&document, 1, &result, page_path("lacking.html"), "made", &messages, &file);
+        cJSON_InitHooks(NULL);
+        assert_int_equal(status, refuse_at > asked ? ROTID_OK : ROTID_ERROR_MEMORY);
+        assert_int_equal(page_exists("lacking.html"), !status);
+        test_pool.out_of_memory = 0;
+        cJSON_Delete(result.json);
+        document_close(&document);
+    }
+    assert_true(refuse_at > 16);
+}
+
 TEST_GROUP(page_bench_open, page_bench_close);

@@ -118,11 +118,12 @@ static void write_run(FILE *out, const cJSON *run)
 }
 
 /* A study: the summary, and of a file of results its runs, evenly thinned. */
-static void write_study(FILE *out, const struct result *result)
+static void write_study(FILE *out, struct pool *pool, const struct result *result)
 {
     struct result summary = *result;
     char *text = result_json(&summary);
     cJSON *json = text ? cJSON_Parse(text) : NULL;
+    pool->out_of_memory |= !json;
     write_value(out, json, 0);
     cJSON_Delete(json);
     json_free(text);
@@ -172,7 +173,7 @@ void data_write(FILE *out, struct pool *pool, int count, const struct result *re
         write_text(out, result[i].file);
         write_key(out, "result");
         if (result[i].study)
-            write_study(out, &result[i]);
+            write_study(out, pool, &result[i]);
         else
             write_value(out, result[i].json, 0);
         if (result[i].diagnose)
