@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "folder.h"
+#include "reading.h"
 #include "running_case.h"
 #include "support.h"
 
@@ -245,6 +246,26 @@ static double bounce(const struct exchange *e, double mass, int upper, double rp
 
 /* A stiff rotor on them: frequencies of its bounce in closed form. Between the rows loci veer, and one falls below the speed and
  * rises above it again: each crossing is found. */
+/* Speeds that differ in the last digit, below standstill, or below what the doubles hold shares of. */
+POOL_TEST(speeds_that_are_nearly_one_are_all_there)
+{
+    static const double ranges[][2] = {{5000, 5000.000000000001}, {0, 9.9e-321}};
+    rotid_deck *deck = read_handle(LIGHT, 0, NULL);
+    for (int i = 0; i < 2; i++) {
+        const rotid_speeds_options options = {
+            .size = sizeof options, .from_rpm = ranges[i][0], .to_rpm = ranges[i][1], .count = 41, .draws = -1};
+        rotid_speeds *s;
+        assert_status(rotid_speeds_compute(deck, &options, NULL, NULL, &s), ROTID_OK);
+        assert_int_equal(s->ncampbell, 41);
+        for (int k = 0; k < s->ncampbell; k++) {
+            assert_true(s->campbell[k].nmodes >= 2);
+            assert_close(s->campbell[k].modes[0].frequency_hz, s->campbell[0].modes[0].frequency_hz, 1e-9, 0);
+        }
+        rotid_speeds_free(s);
+    }
+    rotid_deck_free(deck);
+}
+
 POOL_TEST(critical_speeds_between_rows_of_a_table_are_those_of_the_closed_form)
 {
     const struct exchange all[] = {

@@ -93,6 +93,7 @@ static int between_speeds(struct pool *pool, const struct search *s, double to, 
                 next = row_between(&s->machine->bearing[b].film, at, ROWS * to, next);
                 next = row_between(&s->machine->bearing[b].pedestal, at, ROWS * to, next);
             }
+            next = next > at ? next : end; /* shares of the highest speed that are below the doubles */
             if (POOL_ADD(pool, *speed, *count, &next))
                 return ROTID_ERROR_MEMORY;
         }
@@ -104,7 +105,7 @@ static int thin(struct pool *pool, const struct search *s, const struct tracks *
 {
     *t = (struct tracks){.nspeed = s->count, .nmode = all->nmode, .room = all->room, .speed = s->speed};
     t->pair = POOL_ARRAY(pool, struct pair, (size_t)s->count * (size_t)all->room);
-    for (int i = 0, at = 0; i < s->count && t->pair; i++, at++) {
+    for (int i = 0, at = 0; i < s->count && t->pair; i++) {
         while (all->speed[at] < s->speed[i])
             at++;
         for (int m = 0; m < all->nmode; m++)
