@@ -273,6 +273,7 @@ UNIT_TEST(wrong_usage_is_refused)
         {"bar.uff -o same --json same", "is the file of --json as well"},
         {"bar.uff --extended x.inp", "--extended is no option of ema, but of diagnose suggest"},
         {"bar.uff more.uff", "more.uff:1:1: cannot be opened"},
+        {"bar.uff bar.uff", "bar.uff: has the modes of a file before it to the last digit"},
         {"bar.uff bar.uff --json both.json", "--json both.json: expected one file"},
         {"", "no file given"},
         {"missing.uff", "missing.uff:1:1: cannot be opened"},

@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/base.h"
 #include "import/import.h"
@@ -148,6 +149,16 @@ static int write_output(struct command *command, const struct measurement *measu
     return command->output && ema->nmode ? write_modes(command, measurement, ema) : EXIT_DONE;
 }
 
+/* Whether two tests have the same modes to the last digit: one that is given twice has no scatter. */
+static int is_same_test(const struct ema *a, const struct ema *b)
+{
+    int same = a->nmode > 0 && a->nmode == b->nmode && a->npoint == b->npoint;
+    for (int k = 0; k < a->nmode && same; k++)
+        same = a->mode[k].frequency_hz == b->mode[k].frequency_hz &&
+               !memcmp(a->mode[k].shape, b->mode[k].shape, (size_t)a->npoint * sizeof *a->mode[k].shape);
+    return same;
+}
+
 /* Several tests of one structure: their mean, and the scatter between them. */
 static int command_ema_tests(struct command *command)
 {
@@ -166,6 +177,10 @@ static int command_ema_tests(struct command *command)
         if (failed)
             return failed;
         code = is_doubtful(&test[t]) ? EXIT_DOUBTFUL : code;
+        for (int before = 0; before < t; before++)
+            if (is_same_test(&test[before], &test[t]))
+                return arguments_wrong("%s: has the modes of a file before it to the last digit, expected another test",
+                                       command->file[t]);
     }
     command->deck = command->file[0];
     int status = ema_average(&command->pool, count, test, &mean, &scatter);
