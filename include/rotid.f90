@@ -1134,7 +1134,7 @@ module rotid
   end type rotid_matrix
 
   type, bind(C) :: rotid_model
-    integer(c_size_t) :: size = 96
+    integer(c_size_t) :: size = 104
     integer(c_int) :: n = 0, kd = 0, nfar = 0
     type(c_ptr) :: far = c_null_ptr    ! integer [nfar], from 0; rotid_fit_model takes it as an array
     integer(c_int) :: nparam = 0
@@ -1146,6 +1146,7 @@ module rotid
     type(c_ptr) :: user = c_null_ptr
     integer(c_int) :: nmodes = 0
     type(c_ptr) :: modes = c_null_ptr  ! real [n, nmodes]: vectors near the lowest modes, to begin with
+    type(c_funptr) :: derivative_products = c_null_funptr ! rotid_model_derivative_products
   end type rotid_model
 
   type, bind(C) :: rotid_measured
@@ -1212,7 +1213,7 @@ module rotid
   end type rotid_host_diagnosis
 
   type, bind(C) :: rotid_fit_options
-    integer(c_size_t) :: size = 72
+    integer(c_size_t) :: size = 80
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
     integer(c_int) :: baseline = 0
     integer(c_int) :: max_iterations = 0
@@ -1221,6 +1222,7 @@ module rotid
     real(c_double) :: bijection_chi = 0
     real(c_double) :: decrease_tolerance = 0
     real(c_double) :: objective_tolerance = 0
+    real(c_double) :: decrease_least = 0
   end type rotid_fit_options
 
   type, bind(C) :: rotid_fit_iteration
@@ -1282,7 +1284,7 @@ module rotid
   end type rotid_lm_iteration
 
   type, bind(C) :: rotid_lm_options
-    integer(c_size_t) :: size = 72
+    integer(c_size_t) :: size = 80
     integer(c_int) :: max_iterations = 0
     real(c_double) :: gradient_tolerance = 0
     real(c_double) :: step_tolerance = 0
@@ -1291,6 +1293,7 @@ module rotid
     type(c_funptr) :: trace = c_null_funptr ! rotid_lm_options_trace
     type(c_ptr) :: trace_user = c_null_ptr
     real(c_double) :: decrease_tolerance = 0
+    real(c_double) :: decrease_least = 0
   end type rotid_lm_options
 
   type, bind(C) :: rotid_lm_result
@@ -1352,6 +1355,16 @@ module rotid
       type(rotid_matrix), intent(inout), target :: stiffness, mass
       integer(c_int) :: failure
     end function rotid_model_derivatives
+
+    function rotid_model_derivative_products(user, x, p, count, u, dk_u, dm_u) result(refused) bind(C)
+      import :: c_ptr, c_int, c_double
+      type(c_ptr), value :: user
+      real(c_double), intent(in) :: x(*)
+      integer(c_int), value :: p, count
+      real(c_double), intent(in) :: u(*)
+      real(c_double), intent(inout) :: dk_u(*), dm_u(*)
+      integer(c_int) :: refused
+    end function rotid_model_derivative_products
 
     ! r [m], jacobian [m, n]: one of the two is null
     function rotid_residual(user, m, n, x, r, jacobian) result(failure) bind(C)

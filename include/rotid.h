@@ -1345,8 +1345,8 @@ typedef struct rotid_matrix {
     double *block;  /* [nfar * nfar] C, both triangles: alike but for rounding, else ROTID_ERROR_ARGUMENT where it is used */
 } rotid_matrix;
 
-/* A model with nparam >= 0 parameters x. Both callbacks receive matrices of the structure declared here, set to zero, and return
- * 0 or anything else for failure. K is positive semidefinite, M positive definite. */
+/* A model with nparam >= 0 parameters x. `matrices` and `derivatives` receive matrices of the structure declared here, set to
+ * zero, and return 0 or anything else for failure. K is positive semidefinite, M positive definite. */
 typedef struct rotid_model {
     size_t size;
     int n, kd, nfar;
@@ -1365,6 +1365,9 @@ typedef struct rotid_model {
     const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the
                             full model begins where they are as many as it needs: of a model nearby, say. The result is the same
                             but for rounding. NULL: none */
+    /* NULL, or dK/dx_p u and dM/dx_p u for u [n * count], which takes less time than the matrices: returns 0, anything else where
+     * `derivatives` are to be asked for this parameter. The results are set to zero before. */
+    int (*derivative_products)(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u);
 } rotid_model;
 
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1
@@ -1410,6 +1413,7 @@ typedef struct rotid_fit_options {
     double bijection_chi; /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
                              their start */
     double decrease_tolerance, objective_tolerance; /* [0], [1e-16] as in rotid_lm_options */
+    double decrease_least;                          /* [0] as there; of ROTID_LIKELIHOOD half of chi2 */
 } rotid_fit_options;
 
 /* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
@@ -1558,8 +1562,9 @@ ROTID_API void rotid_host_diagnosis_free(rotid_host_diagnosis *diagnosis);
  * [nparam] between the bounds, NULL: at the starts. A derivative that is a fifth too large does not keep a fit from converging,
  * but its intervals are too narrow then. Entries are compared as A_ij / sqrt(A_ii A_jj), whatever their units, those of the far
  * block both triangles. error [2 * nparam]: |claimed - D| / max(|claimed|, |D|) of dK/dx_p, p = 0 ..., then of dM/dx_p, 0 where
- * both vanish, 1 where one does; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its
- * error exceeds both 1e-6 and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
+ * both vanish, 1 where one does, or the same ratio of derivative_products and dK u, dM u for the lowest modes u, where that is
+ * larger; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its error exceeds both 1e-6
+ * and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
  * fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK, _ARGUMENT,
  * _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
 ROTID_API int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,
@@ -1651,6 +1656,7 @@ typedef struct rotid_lm_options {
     void *trace_user;
     double decrease_tolerance; /* [0] decrease by the last five accepted steps over the objective: smaller, the iteration creeps
                                   along a valley, and ends with ROTID_STOP_OBJECTIVE */
+    double decrease_least;     /* [0] of that decrease itself: as good an end */
 } rotid_lm_options;
 
 typedef struct rotid_lm_result {

@@ -5,6 +5,7 @@
 
 #include "dense.h"
 #include "host_beam.h"
+#include "linalg/linalg.h"
 #include "support.h"
 
 enum { N = 3 };
@@ -148,6 +149,47 @@ POOL_TEST(a_derivative_that_is_a_fifth_too_large_is_found)
         assert_true(error[cases[k].p] >= cases[k].least && error[cases[k].p] < 0.17);
         if (cases[k].entry < 0 && !cases[k].of_block) /* of the tie the diagonal stands in the band */
             assert_close(error[cases[k].p], 0.2 / 1.2, 1e-6, 0);
+    }
+}
+
+/* dK u and dM u, too large by a fifth for parameter p */
+static int products(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u)
+{
+    struct wrong *wrong = user;
+    const rotid_model *model = &wrong->host.model;
+    rotid_matrix d[2];
+    double factor = wrong->factor;
+    wrong->factor = 1;
+    for (int i = 0; i < 2; i++)
+        assert_status(matrix_new(&test_pool, model->n, model->kd, model->nfar, model->far, &d[i]), ROTID_OK);
+    int status = derivatives(user, x, p, &d[0], &d[1]);
+    wrong->factor = factor;
+    matrix_multiply(&d[0], count, u, dk_u);
+    matrix_multiply(&d[1], count, u, dm_u);
+    for (int i = 0; i < model->n * count; i++)
+        dk_u[i] *= p == wrong->p ? factor : 1;
+    return status;
+}
+
+POOL_TEST(a_product_that_is_a_fifth_too_large_is_found)
+{
+    for (int p = 0; p < N; p++) {
+        struct wrong wrong;
+        open_wrong(0, &wrong);
+        wrong.host.model.derivative_products = products;
+        wrong.mass = wrong.claimed = 0.1;
+        assert_status(check(&wrong, NULL), ROTID_OK);
+        for (int q = 0; q < 2 * N; q++)
+            assert_true(!is_wrong(q));
+        wrong.p = p;
+        wrong.entry = 0; /* of the matrix, hardly any */
+        wrong.of_block = 1;
+        wrong.factor = 1.2;
+        wrong.host.model.derivatives = NULL; /* differences, which are right */
+        assert_status(check(&wrong, NULL), ROTID_OK);
+        for (int q = 0; q < 2 * N; q++)
+            assert_int_equal(is_wrong(q), q == p);
+        assert_close(error[p], 0.2 / 1.2, 1e-6, 0);
     }
 }
 

@@ -183,6 +183,29 @@ POOL_TEST(columns_with_effects_in_the_model)
     check_own(job);
 }
 
+/* By products of elements, weighed by matrices; the mass by matrices in any case. */
+POOL_TEST(columns_of_a_solid_are_its_jacobian)
+{
+    static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, slope[4] = {0.2};
+    for (int weighed = 0; weighed < 2; weighed++) {
+        struct job *job = open_job(BUNDLE_RODS);
+        job->models = models_as(&test_pool, AS_SOLID);
+        assert_non_null(job->models);
+        if (!weighed)
+            job->measurement.weighed = (struct weighed){0};
+        bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
+        bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
+        bench_add(&job->rotor, cause_stiffness_gradient.effect, 1, 0, slope);
+        for (int p = 0; p < 2; p++)
+            bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
+        for (int p = 0; p < 3; p++)
+            bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
+        bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
+        job->unknowns.nparameter = 8;
+        check_own(job);
+    }
+}
+
 static int targets(const struct rotor *rotor, enum cause_target target)
 {
     return target == TARGET_GROUP       ? rotor->ngroup

@@ -14,9 +14,10 @@
 enum { host_n = 14 };
 struct host {
     double k0[host_n * host_n], k1[host_n * host_n], k2[host_n * host_n], m0[host_n * host_n], m1[host_n * host_n];
-    int fail_matrices, fail_derivatives;        /* the callback reports a failure */
-    double least, most;                         /* of x[0]: beyond them there are no matrices */
-    double poison_matrices, poison_derivatives; /* added to one element */
+    int fail_matrices, fail_derivatives;                         /* the callback reports a failure */
+    double least, most;                                          /* of x[0]: beyond them there are no matrices */
+    double poison_matrices, poison_derivatives, poison_products; /* added to one element */
+    int refuse_products;
     rotid_model model;
 };
 static const double host_values[2] = {1.5, 0.8};
@@ -63,7 +64,8 @@ static const rotid_model *open_host(struct pool *pool, struct host *host)
         memcpy(parts[p], dense_of(pool, &a), host_n * host_n * sizeof(double));
     }
     host->fail_matrices = host->fail_derivatives = 0;
-    host->poison_matrices = host->poison_derivatives = 0;
+    host->poison_matrices = host->poison_derivatives = host->poison_products = 0;
+    host->refuse_products = 0;
     host->least = -INFINITY;
     host->most = INFINITY;
     host->model = (rotid_model){.size = sizeof(rotid_model),
@@ -87,6 +89,52 @@ POOL_TEST(derivatives_of_a_hosts_dense_model_match_differences)
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
         check_derivatives(*state, model, kind, ROTID_NELSON, 0, 6, host_values, steps, 1e-7);
         check_derivatives(*state, model, kind, ROTID_MODAL, 0, 6, host_values, steps, 1e-7);
+    }
+}
+
+/* dK u and dM u; where they are refused the matrices are asked for */
+static int host_products(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u)
+{
+    const struct host *host = user;
+    const double of[3] = {p == 0 ? 1 : 0, p == 0 ? x[1] : x[0], p == 0 ? 0 : 2 * x[1]};
+    const double *const parts[3] = {host->k1, host->k2, host->m1};
+    for (int c = 0; c < count; c++)
+        for (int part = 0; part < 3; part++)
+            for (int i = 0; i < host_n * host_n; i++)
+                (part < 2 ? dk_u : dm_u)[i % host_n + c * host_n] += of[part] * parts[part][i] * u[i / host_n + c * host_n];
+    dk_u[3] += host->poison_products;
+    return host->refuse_products;
+}
+
+POOL_TEST(products_give_the_derivatives_that_the_matrices_give)
+{
+    const int wanted[7] = {0, 1, 0, 1, 1, 0, 0};
+    for (int vectors = 0; vectors < 2; vectors++) {
+        struct host host;
+        struct prediction by[2];
+        char failure[ROTID_FAILURE_LENGTH];
+        const rotid_model *model = open_host(*state, &host);
+        for (int products = 0; products < 2; products++) {
+            struct prediction *p = &by[products];
+            host.model.derivative_products = products ? host_products : NULL;
+            host.fail_derivatives = products; /* which nobody asks for then */
+            assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, 6, vectors, p), ROTID_OK);
+            assert_status(prediction_compute(p, host_values), ROTID_OK);
+            assert_status(prediction_differentiate(p, host_values, wanted, vectors), ROTID_OK);
+        }
+        for (int k = 0; k < 6; k++)
+            for (int q = 0; q < 2 && wanted[k]; q++) {
+                assert_close(by[1].dlambda[k + q * by[1].count], by[0].dlambda[k + q * by[0].count], 1e-11, 0);
+                assert_true(!vectors || relative_difference(host_n, by[1].dphi + prediction_place(&by[1], k, q),
+                                                            by[0].dphi + prediction_place(&by[0], k, q)) < 1e-10);
+            }
+        host.refuse_products = 1;
+        assert_status(prediction_differentiate(&by[1], host_values, wanted, vectors), ROTID_ERROR_CALLBACK);
+        host.refuse_products = 0;
+        host.poison_products = NAN;
+        by[1].failure = failure;
+        assert_status(prediction_differentiate(&by[1], host_values, wanted, vectors), ROTID_ERROR_FINITE);
+        assert_string_equal(failure, "model->derivative_products for p = 0: row 3 is nan, expected a number");
     }
 }
 

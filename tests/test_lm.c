@@ -322,6 +322,15 @@ UNIT_TEST(test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for)
         assert_true(i == 0 || (above < 1e-3 * tolerance[i] && above > 1e-7 * tolerance[i]));
     }
     assert_true(iterations[1] < iterations[2] && iterations[2] < iterations[3] && iterations[3] < iterations[0]);
+    for (int i = 1; i < 4; i++) { /* of an objective near 1/2, twice as much of it as of itself */
+        double x = 0, r[2];
+        rotid_lm_result result;
+        const rotid_lm_options options = {
+            .size = sizeof options, .gradient_tolerance = 1e-30, .decrease_least = tolerance[i] / 2};
+        assert_int_equal(rotid_lm(2, 1, falls_for_ever, NULL, &options, NULL, &x, r, jacobian, work, &result),
+                         ROTID_STOP_OBJECTIVE);
+        assert_int_equal(result.iterations, iterations[i]);
+    }
 }
 
 UNIT_TEST(test_evaluations_are_counted_as_they_are_made)

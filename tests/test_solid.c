@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "dense.h"
 #include "linalg/linalg.h"
 #include "solid/solid.h"
 #include "solid_rig.h"
@@ -195,6 +196,28 @@ static double largest_difference(const rotid_matrix *a, const rotid_matrix *b) /
     return largest;
 }
 
+/* Without the matrices, of five vectors at once, but for what moves more than elements: springs, masses, tie rods. */
+static void check_products(const struct solid *solid, int p, const rotid_matrix *dk, const rotid_matrix *dm)
+{
+    enum { COUNT = 5 };
+    struct random_stream stream = {20 + (unsigned)p};
+    const struct parameter parameter = solid->parameter[p];
+    const struct effect_kind *kind = parameter.kind == PARAMETER_EFFECT ? solid->rotor.effect[parameter.index].kind : NULL;
+    int n = solid->mesh.ndof, from, end, elements = parameter.kind <= PARAMETER_RHO || (kind && kind->field);
+    size_t length = (size_t)n * COUNT;
+    double *u = random_numbers(&test_pool, &stream, (ptrdiff_t)length), *expected = numbers(&test_pool, (ptrdiff_t)length),
+           *dk_u = POOL_ARRAY(&test_pool, double, length), *dm_u = POOL_ARRAY(&test_pool, double, length);
+    int refused = solid_derivative_products(solid, p, COUNT, u, dk_u, dm_u, &from, &end);
+    assert_true(!elements || !refused);
+    for (int i = 0; i < 2 && !refused; i++) {
+        const double *own = i ? dm_u : dk_u;
+        matrix_multiply(i ? dm : dk, COUNT, u, expected);
+        assert_true(relative_difference(length, own, expected) < 1e-12);
+        for (int row = 0; row < n; row++)
+            assert_true((row >= from && row < end) || own[row] == 0);
+    }
+}
+
 POOL_TEST(derivatives_agree_with_differences)
 {
     static const char *const names[] = {"core.E",
@@ -296,6 +319,7 @@ POOL_TEST(derivatives_agree_with_differences)
         solid_differentiate(&solid, p, &dk, &dm, &from, &end);
         if (!zero_outside(&dk, from, end) || !zero_outside(&dm, from, end))
             fail_msg("parameter %d moves more than rows %d to %d", p, from, end - 1);
+        check_products(&solid, p, &dk, &dm);
         double scale_k = largest_difference(&k[0], NULL) * 1e-9 / h, scale_m = largest_difference(&m[0], NULL) * 1e-9 / h;
         matrix_combine(0.5 / h, &k[1], -0.5 / h, &k[0], &k[0]);
         matrix_combine(0.5 / h, &m[1], -0.5 / h, &m[0], &m[0]);

@@ -83,6 +83,17 @@ POOL_TEST(a_pencil_knows_whether_the_mass_is_the_one_of_before)
         assert_int_equal(pencil_take(&pencil, &k, &m), 0);
         assert_int_equal(pencil_take(&pencil, &k, &m), 1);
     }
+    const double *x = random_numbers(*state, &stream, of->n);
+    double *y = numbers(*state, of->n);
+    for (int t = 0; t < 4; t++) { /* entries of K that go, come back, and stand where there were none */
+        ptrdiff_t from = (ptrdiff_t)(40 + 10 * t) * (of->kd + 1);
+        for (int d = 1; d <= of->kd; d++)
+            k.band[from + d] = (d + t) % 3 ? 0 : k.band[from + d] == 0 ? 0.5 : 0;
+        (void)pencil_take(&pencil, &k, &m);
+        pencil_multiply_stiffness(&pencil, 1, x, y);
+        assert_close(relative_difference((size_t)of->n, y, dense_product(*state, of->n, of->n, 1, dense_of(*state, &k), x)), 0, 0,
+                     1e-14);
+    }
 }
 
 /* b := A^-1 b of the rows kept, which the dense solver confirms */

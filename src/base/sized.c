@@ -32,11 +32,11 @@ ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, after);
 ENDS_WITH(rotid_suggest_options, speed_backward);
 ENDS_WITH(rotid_speeds_options, seed);
-ENDS_WITH(rotid_model, modes);
+ENDS_WITH(rotid_model, derivative_products);
 ENDS_WITH(rotid_measured, centre_std);
 ENDS_WITH(rotid_state, parameter);
-ENDS_WITH(rotid_fit_options, objective_tolerance);
-ENDS_WITH(rotid_lm_options, decrease_tolerance);
+ENDS_WITH(rotid_fit_options, decrease_least);
+ENDS_WITH(rotid_lm_options, decrease_least);
 ENDS_WITH(rotid_host_cause, user);
 ENDS_WITH(rotid_host_options, reserved);
 

@@ -135,6 +135,12 @@ int columns_prepare(struct columns *c)
     c->dm_phi = vectors + images;
     c->rows = vectors + 2 * images;
     c->right = vectors + 3 * images;
+    c->phi = POOL_ARRAY(pool, double, images);
+    if (!c->phi)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < c->nmode; i++)
+        memcpy(c->phi + (ptrdiff_t)i * n, c->functional.prediction.phi + (ptrdiff_t)c->mode[i].pair * n,
+               (size_t)n * sizeof *c->phi);
     struct nelson_band nelson;
     int status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
     if (!status)
@@ -223,27 +229,48 @@ static double mode_derivative(struct columns *c, const struct columns_mode *mode
     return product_dot(length, prediction->phi + mode->pair * n + from, c->right);
 }
 
-int columns_parameter(struct columns *c, int p, double *column)
+/* dk_phi and dm_phi [length * nmode] := the rows of dK phi and dM phi that are not zero, by the matrices; weighed := the
+ * derivatives of what was weighed */
+static struct rows images_by_matrices(struct columns *c, int p, double *weighed)
 {
-    const rotid_model *equations = &c->model.equations;
-    const struct prediction *prediction = &c->functional.prediction;
     struct rows k, m;
-    int row = c->nmode;
     model_differentiate(&c->model, c->x, p, &c->dk, &c->dm, &k.from, &k.end);
     m = k;
     matrix_occupied(&c->dk, &k.from, &k.end);
     matrix_occupied(&c->dm, &m.from, &m.end);
-    functional_whole_derivative(&c->functional, &c->dm, column + c->nrow - c->functional.nwhole);
+    functional_whole_derivative(&c->functional, &c->dm, weighed);
     const struct rows rows = either(k, m);
-    ptrdiff_t length = rows.end - rows.from, n = equations->n;
+    ptrdiff_t length = rows.end - rows.from, n = c->model.equations.n;
     for (int i = 0; i < c->nmode; i++)
-        memcpy(c->rows + i * length, prediction->phi + c->mode[i].pair * n + rows.from, (size_t)length * sizeof *c->rows);
+        memcpy(c->rows + i * length, c->phi + i * n + rows.from, (size_t)length * sizeof *c->rows);
     take_image(c, &c->dk, k, rows, c->dk_phi);
     take_image(c, &c->dm, m, rows, c->dm_phi);
+    return rows;
+}
+
+/* The same without matrices, dk_phi and dm_phi [n * nmode]. Returns 0 where that is impossible. */
+static int images_by_products(struct columns *c, int p, struct rows *rows)
+{
+    size_t images = (size_t)c->model.equations.n * (size_t)c->nmode * sizeof(double);
+    if (c->functional.nwhole)
+        return 0;
+    memset(c->dk_phi, 0, images);
+    memset(c->dm_phi, 0, images);
+    return !model_derivative_products(&c->model, c->x, p, c->nmode, c->phi, c->dk_phi, c->dm_phi, &rows->from, &rows->end);
+}
+
+int columns_parameter(struct columns *c, int p, double *column)
+{
+    const struct prediction *prediction = &c->functional.prediction;
+    struct rows rows;
+    int row = c->nmode, whole = images_by_products(c, p, &rows);
+    if (!whole)
+        rows = images_by_matrices(c, p, column + c->nrow - c->functional.nwhole);
+    ptrdiff_t length = rows.end - rows.from, leading = whole ? c->model.equations.n : length, first = whole ? rows.from : 0;
     for (int i = 0; i < c->nmode; i++) {
         const struct columns_mode *mode = &c->mode[i];
-        double dlambda =
-                   mode_derivative(c, mode, rows.from, (int)length, c->dk_phi + i * length, c->dm_phi + i * length, c->dphi),
+        ptrdiff_t at = first + i * leading;
+        double dlambda = mode_derivative(c, mode, rows.from, (int)length, c->dk_phi + at, c->dm_phi + at, c->dphi),
                lambda = prediction->lambda[mode->pair];
         column[i] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
         shape_part(c, mode, c->dphi, c->r + row, column + row);

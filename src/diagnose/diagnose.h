@@ -227,6 +227,7 @@ struct columns {
     int nrow, nmode;                /* residuals, fitted modes */
     struct columns_mode *mode;      /* [nmode] */
     double *x, *r;                  /* [nparam], [nrow]: the point and its residual */
+    double *phi;                    /* [n * nmode] */
     double *rows, *dk_phi, *dm_phi; /* [n * nmode] what a change touches of the modes, and what it makes of that */
     double *right;                  /* [n] */
     double *dphi;                   /* [nmaster] */
@@ -439,7 +440,8 @@ double bootstrap_extrapolated(const struct bootstrap *b);
 #define REFIT_GRADIENT  1e-5
 #define REFIT_STEP      1e-7
 #define REFIT_OBJECTIVE 1e-6 /* what another step would gain: sizes are good to a hundredth of their standard deviation */
-#define REFIT_DECREASE  1e-4 /* a tenth of a unit of chi2 is worth nothing beside margins of some */
+#define REFIT_DECREASE  1e-4 /* of the objective, by five steps */
+#define REFIT_LEAST     0.05 /* a tenth of a unit of chi2 by five steps is worth nothing beside margins of some */
 /* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
 #define REFIT_WORSE 0.01
 

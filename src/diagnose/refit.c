@@ -242,6 +242,7 @@ int refit_until(struct pool *pool, const struct states *states, const int *numbe
     options.gradient_tolerance = REFIT_GRADIENT;
     options.step_tolerance = REFIT_STEP;
     options.decrease_tolerance = REFIT_DECREASE;
+    options.decrease_least = objective > 0 ? REFIT_LEAST : 0;
     options.objective_tolerance = objective;
     return identify_fit_states(pool, states, number, holdout, &options, environment, fit);
 }

@@ -1,6 +1,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/base.h"
 #include "fit/fit.h"
@@ -99,6 +100,38 @@ static int check_arguments(const rotid_model *model, const rotid_parameter *para
     return status;
 }
 
+/* |a - b| / max(|a|, |b|), 0 where both vanish */
+static double apart(ptrdiff_t length, const double *a, const double *b)
+{
+    double difference = 0, largest = 0;
+    for (ptrdiff_t i = 0; i < length; i++) {
+        difference = fmax(difference, fabs(a[i] - b[i]));
+        largest = fmax(largest, fmax(fabs(a[i]), fabs(b[i])));
+    }
+    return largest > 0 ? difference / largest : 0;
+}
+
+/* error: at least what model->derivative_products differ from the products of dK and dM with the lowest modes */
+static int check_products(struct pool *pool, struct prediction *p, const double *x, double *error)
+{
+    const rotid_model *model = p->model;
+    ptrdiff_t length = (ptrdiff_t)model->n * p->count;
+    double *own = POOL_ARRAY(pool, double, 2 * length), *right = POOL_ARRAY(pool, double, length);
+    int status = own && right ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int q = 0; q < model->nparam && !status && model->derivative_products; q++) {
+        memset(own, 0, 2 * (size_t)length * sizeof *own);
+        if (model->derivative_products(model->user, x, q, p->count, p->phi, own, own + length))
+            continue;
+        status = prediction_matrix_derivatives(p, x, q);
+        for (int of_mass = 0; of_mass < 2 && !status; of_mass++) {
+            matrix_multiply(of_mass ? &p->dm : &p->dk, p->count, p->phi, right);
+            double *worst = &error[q + of_mass * model->nparam];
+            *worst = fmax(*worst, apart(length, own + of_mass * length, right));
+        }
+    }
+    return status;
+}
+
 static int run(struct pool *pool, const rotid_model *model, const rotid_parameter *parameter, const double *given, char *failure,
                double *error, double *doubt)
 {
@@ -126,7 +159,9 @@ static int run(struct pool *pool, const rotid_model *model, const rotid_paramete
         status = rotid_check_jacobian(m, n, entries, &check, x, scale, failure, error + place, doubt + place, work);
         status = status == ROTID_ERROR_CALLBACK ? check.status : status;
     }
-    return status;
+    if (!status) /* modes and matrices at x again */
+        status = prediction_compute(p, x);
+    return status ? status : check_products(pool, p, x, error);
 }
 
 int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,

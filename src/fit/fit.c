@@ -476,6 +476,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
                                    .gradient_tolerance = options->gradient_tolerance,
                                    .step_tolerance = options->step_tolerance,
                                    .decrease_tolerance = options->decrease_tolerance,
+                                   .decrease_least = options->decrease_least,
                                    .objective_tolerance = options->objective_tolerance,
                                    .trace = trace,
                                    .trace_user = fit};

@@ -331,7 +331,8 @@ static int creeps(const struct lm *lm, double *objective)
     int now = lm->result->iterations;
     double *before = &objective[now % CREEP], then = *before;
     *before = lm->result->objective;
-    return now >= CREEP && lm->options.decrease_tolerance > 0 && then - *before < lm->options.decrease_tolerance * *before;
+    double worth = fmax(lm->options.decrease_tolerance * *before, lm->options.decrease_least);
+    return now >= CREEP && worth > 0 && then - *before < worth;
 }
 
 static int minimise(struct lm *lm)

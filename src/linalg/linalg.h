@@ -130,15 +130,14 @@ struct pencil {
     int *row;                             /* [(kd + 1) n], increasing within a column, the diagonal element first */
     double *k, *m;                        /* the entries of K and M there */
     double *block;                        /* [nfar^2] that of M */
-    uint64_t digest;                      /* of the entries of M and their places */
     double *x, *y;                        /* [8 n] columns interleaved */
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY. What is never written costs address space alone where the memory comes from calloc. */
 int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p);
 
-/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is that of the call before,
- * by a digest of 64 bits of its entries. */
+/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is that of the call before, 0 also where other
+ * entries are not zero than then. */
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m);
 
 /* Y [n * columns] := K X or M X */

@@ -24,24 +24,51 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
     return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Whether M is that of the call before shows in a digest of its entries: where K has entries that are rounding, they come and go
- * with its parameters, and so do places of the pattern. */
-static uint64_t digest(uint64_t before, uint64_t place, double value)
+typedef long long four_counts __attribute__((vector_size(32)));
+
+static int reach_of(const rotid_matrix *a, int j)
 {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    before = (before ^ bits ^ place * 0xff51afd7ed558ccdULL) * 0x9e3779b97f4a7c15ULL;
-    return before ^ before >> 29;
+    return a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
 }
 
-int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
+/* How many of the entries below the diagonal are not zero in K or M */
+EACH_MACHINE static long long count_entries(const rotid_matrix *k, const rotid_matrix *m)
 {
-    int same = p->mass != NULL, at = 0;
-    uint64_t entries = 0;
-    p->stiffness = k;
-    p->mass = m;
+    four_counts sum = {0};
+    long long rest = 0;
+    for (int j = 0; j < k->n; j++) {
+        const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
+        int reach = reach_of(k, j), d = 1;
+        for (; d + 4 <= reach + 1; d += 4)
+            sum -= (four_counts)((FOUR(kj + d) != 0) | (FOUR(mj + d) != 0));
+        for (; d <= reach; d++)
+            rest += kj[d] != 0 || mj[d] != 0;
+    }
+    return rest + sum[0] + sum[1] + sum[2] + sum[3];
+}
+
+/* Entries at the places of the call before; *same: whether M is that of then. Returns whether none is anywhere else. */
+static int take_again(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m, int *same)
+{
+    long long count = 0;
     for (int j = 0; j < p->n; j++) {
-        int reach = k->kd < p->n - 1 - j ? k->kd : p->n - 1 - j;
+        const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1) - j, *mj = m->band + (ptrdiff_t)j * (k->kd + 1) - j;
+        for (int at = p->start[j]; at < p->start[j + 1]; at++) {
+            int i = p->row[at];
+            count += i != j && (kj[i] != 0 || mj[i] != 0);
+            *same &= p->m[at] == mj[i];
+            p->k[at] = kj[i];
+            p->m[at] = mj[i];
+        }
+    }
+    return count == count_entries(k, m);
+}
+
+static void take_new(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int at = 0;
+    for (int j = 0; j < p->n; j++) {
+        int reach = reach_of(k, j);
         const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
         p->start[j] = at;
         for (int d = 0; d <= reach; d++) {
@@ -51,16 +78,23 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
             }
             if (d && kj[d] == 0 && mj[d] == 0)
                 continue;
-            if (mj[d] != 0)
-                entries = digest(entries, (uint64_t)j * (uint64_t)(k->kd + 1) + (uint64_t)d, mj[d]);
             p->row[at] = j + d;
             p->k[at] = kj[d];
             p->m[at++] = mj[d];
         }
     }
     p->start[p->n] = at;
-    same &= p->digest == entries;
-    p->digest = entries;
+}
+
+int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int same = p->mass != NULL;
+    if (!same || !take_again(p, k, m, &same)) {
+        take_new(p, k, m);
+        same = 0;
+    }
+    p->stiffness = k;
+    p->mass = m;
     for (ptrdiff_t i = 0; i < (ptrdiff_t)m->nfar * m->nfar; i++) {
         same &= p->block[i] == m->block[i];
         p->block[i] = m->block[i];

@@ -3,6 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Residuals of the pairs of wide bands, each step of which has its price. An eigenvalue is off by the square of its own. */
+#define NEAR_VALUE  1e-7
+#define NEAR_VECTOR 1e-9
+
 static const double two_pi = 6.28318530717958647692;
 
 int functional_fits(const rotid_measured *measured, int mode)
@@ -57,6 +61,8 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
         return status;
     if (!f->with_vectors && reduction == ROTID_REDUCTION_NONE) /* rigid motions have no number */
         eigen_full_want(&f->prediction.full, model->nrigid < count ? model->nrigid : 0, count);
+    if (reduction == ROTID_REDUCTION_NONE && f->prediction.full.wide)
+        eigen_full_within(&f->prediction.full, f->with_vectors ? NEAR_VECTOR : NEAR_VALUE);
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
         return ROTID_ERROR_MEMORY;
     if (measured->shape && f->shape)

@@ -299,6 +299,26 @@ int prediction_matrix_derivatives(struct prediction *p, const double *x, int q)
     return status ? status : check_derivative("the mass of model->derivatives", &p->dm, p->failure, &p->dm_is_zero);
 }
 
+/* dK phi and dM phi of the wanted pairs, and those between, from the model itself; *given: whether it has such a way. */
+static int ask_products(struct prediction *p, const double *x, int q, const int *wanted, int *given)
+{
+    const rotid_model *model = p->model;
+    int end, first = range_of(p->count, wanted, &end), n = p->size;
+    ptrdiff_t length = (ptrdiff_t)(end - first) * n;
+    double *image[] = {p->image + (ptrdiff_t)first * n, p->image + ((ptrdiff_t)first + p->count) * n};
+    *given = model->derivative_products && p->reduction == ROTID_REDUCTION_NONE;
+    for (int i = 0; i < 2 && *given; i++)
+        memset(image[i], 0, (size_t)length * sizeof(double));
+    *given =
+        *given && !model->derivative_products(model->user, x, q, end - first, p->phi + (ptrdiff_t)first * n, image[0], image[1]);
+    for (ptrdiff_t i = 0; i < 2 * length && *given; i++)
+        if (!isfinite(image[i / length][i % length]))
+            return failure_say(p->failure, ROTID_ERROR_FINITE,
+                               "model->derivative_products for p = %d: row %d is %g, expected a number", q, (int)(i % n),
+                               image[i / length][i % length]);
+    return ROTID_OK;
+}
+
 /* image [size * count] := A phi of the wanted pairs, neighbours together */
 static void multiply_wanted(const struct prediction *p, const rotid_matrix *a, int is_zero, const int *wanted, double *image)
 {
@@ -313,13 +333,19 @@ static void multiply_wanted(const struct prediction *p, const rotid_matrix *a, i
     }
 }
 
-/* With dK and dM in place: dK phi and dM phi of the full matrices */
-static void form_images(struct prediction *p, const int *wanted)
+/* dK phi and dM phi of the full matrices; condensed dK and dM alone */
+static int form_images(struct prediction *p, const double *x, int q, const int *wanted)
 {
-    if (p->reduction != ROTID_REDUCTION_NONE)
-        return;
+    double *dm_phi = p->image + (ptrdiff_t)p->count * p->size;
+    int given, status = ask_products(p, x, q, wanted, &given);
+    if (status || given)
+        return status;
+    status = prediction_matrix_derivatives(p, x, q);
+    if (status || p->reduction != ROTID_REDUCTION_NONE)
+        return status;
     multiply_wanted(p, &p->dk, p->dk_is_zero, wanted, p->image);
-    multiply_wanted(p, &p->dm, p->dm_is_zero, wanted, p->image + (ptrdiff_t)p->count * p->size);
+    multiply_wanted(p, &p->dm, p->dm_is_zero, wanted, dm_phi);
+    return ROTID_OK;
 }
 
 /* (36) with the derivatives of the matrices in place */
@@ -445,9 +471,7 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
         }
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = prediction_matrix_derivatives(p, x, q);
-        if (!status)
-            form_images(p, wanted);
+        status = form_images(p, x, q, wanted);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 form_right_side(p, k, q);
@@ -471,9 +495,7 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
         if (wanted[k])
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = prediction_matrix_derivatives(p, x, q);
-        if (!status)
-            form_images(p, wanted);
+        status = form_images(p, x, q, wanted);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 p->dlambda[k + (ptrdiff_t)q * p->count] = eigenvalue_derivative(p, k);

@@ -27,6 +27,21 @@ void model_differentiate(const struct rotor_model *model, const double *x, int p
     discrete_differentiate(&model->discrete, p, dk, dm, from, end);
 }
 
+static int derivative_products(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u)
+{
+    int from, end;
+    return model_derivative_products(user, x, p, count, u, dk_u, dm_u, &from, &end);
+}
+
+int model_derivative_products(const struct rotor_model *model, const double *x, int p, int count, const double *u, double *dk_u,
+                              double *dm_u, int *from, int *end)
+{
+    if (!discretisation_is_solid(model->discrete.as))
+        return 1;
+    parameters_set(discrete_rotor(&model->discrete), model->equations.nparam, model->parameter, x);
+    return solid_derivative_products(&model->discrete.solid, p, count, u, dk_u, dm_u, from, end);
+}
+
 static int choose_masters(struct pool *pool, struct rotor_model *model)
 {
     int nsensor = model->rotor->nsensor, count = nsensor ? nsensor : model->naxis;
@@ -81,6 +96,7 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
                                      .nrigid = nrigid,
                                      .matrices = matrices,
                                      .derivatives = derivatives,
+                                     .derivative_products = derivative_products,
                                      .user = model};
     model->equations.modes = models_modes(models, structure.n, &model->equations.nmodes);
     model->rotor = discrete_rotor(&model->discrete);

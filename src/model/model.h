@@ -209,6 +209,11 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
 void model_differentiate(const struct rotor_model *model, const double *x, int p, rotid_matrix *dk, rotid_matrix *dm, int *from,
                          int *end);
 
+/* equations.derivative_products, likewise; returns 1 where there is no such way: of beams, and where x_p moves more than elements
+ * of a solid. */
+int model_derivative_products(const struct rotor_model *model, const double *x, int p, int count, const double *u, double *dk_u,
+                              double *dm_u, int *from, int *end);
+
 /* m: where master i is. */
 double model_master_z(const struct rotor_model *model, int i);
 

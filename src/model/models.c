@@ -34,15 +34,24 @@ struct models {
     struct near *near; /* the same */
 };
 
-/* The entry with this shape, if possible with these values. */
+/* Causes have no part in the mesh of a solid. */
+static int share_mesh(enum discretisation as, const struct rotor *built, const struct rotor *asked)
+{
+    struct rotor a = *built, b = *asked;
+    if (discretisation_is_solid(as))
+        a.neffect = b.neffect = 0;
+    return rotor_same_shape(&a, &b);
+}
+
+/* The entry with this mesh, if possible with these values. */
 static struct built_model *find(const struct models *models, const struct rotor *rotor, int refine, int *same_values)
 {
     struct built_model *found = NULL;
     *same_values = 0;
     for (; models; models = models->older)
         for (struct built_model *e = models->first; e; e = e->next)
-            if (e->refine == refine && rotor_same_shape(&e->rotor, rotor)) {
-                *same_values = rotor_same_values(&e->rotor, rotor);
+            if (e->refine == refine && share_mesh(models->as, &e->rotor, rotor)) {
+                *same_values = rotor_same_shape(&e->rotor, rotor) && rotor_same_values(&e->rotor, rotor);
                 found = e;
                 if (*same_values)
                     return e;
@@ -56,9 +65,8 @@ static int counted(const struct models *models, const struct rotor *rotor)
 {
     for (; models; models = models->older)
         for (const struct built_model *e = models->first; e; e = e->next) {
-            int solid = discretisation_is_solid(models->as);
             struct rotor known = e->rotor, asked = *rotor;
-            if (solid)
+            if (discretisation_is_solid(models->as))
                 known.neffect = asked.neffect = 0;
             if (e->nrigid >= 0 && rotor_same_shape(&known, &asked) && rotor_same_values(&known, &asked))
                 return e->nrigid;

@@ -660,15 +660,21 @@ static void tie_columns(const struct solid *solid, const struct solid_element *e
     }
 }
 
-void solid_add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a)
+/* dof [24]: the unknowns of rows and columns of e, -1 where there is none */
+static void tie_element(const struct solid *solid, const struct solid_element *element, double *e, int *dof)
 {
-    int dof[SOLID_DOFS], stride = a->kd + 1;
     tie_columns(solid, element, e, SOLID_DOFS, 1);
     tie_columns(solid, element, e, 1, SOLID_DOFS);
     for (int i = 0; i < SOLID_DOFS; i++) {
         const struct solid_node *node = &solid->mesh.node[element->node[i / 3]];
         dof[i] = node->r == 0 && i % 3 == 1 ? -1 : node->dof[i % 3];
     }
+}
+
+void solid_add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a)
+{
+    int dof[SOLID_DOFS], stride = a->kd + 1;
+    tie_element(solid, element, e, dof);
     for (int j = 0; j < SOLID_DOFS; j++)
         for (int i = 0; i < SOLID_DOFS && dof[j] >= 0; i++)
             if (dof[i] >= dof[j])
@@ -784,6 +790,49 @@ void solid_differentiate(const struct solid *solid, int p, rotid_matrix *dk, rot
     take_in_attached(solid, p, from, end);
     assemble(solid, p, dk, dm, from, end);
     *from = *from < *end ? *from : *end;
+}
+
+/* y [ndof * count] += E u */
+static void add_product_of_element(const struct solid *solid, const struct solid_element *element, double *e, int count,
+                                   const double *u, double *y)
+{
+    int dof[SOLID_DOFS];
+    tie_element(solid, element, e, dof);
+    for (int c = 0; c < count; c++, u += solid->mesh.ndof, y += solid->mesh.ndof) {
+        double sum[SOLID_DOFS] = {0};
+        for (int j = 0; j < SOLID_DOFS; j++) {
+            const double *column = e + (ptrdiff_t)SOLID_DOFS * j, uj = dof[j] < 0 ? 0 : u[dof[j]];
+            for (int i = 0; i < SOLID_DOFS; i++)
+                sum[i] += column[i] * uj;
+        }
+        for (int i = 0; i < SOLID_DOFS; i++)
+            if (dof[i] >= 0)
+                y[dof[i]] += sum[i];
+    }
+}
+
+int solid_derivative_products(const struct solid *solid, int p, int count, const double *u, double *dk_u, double *dm_u, int *from,
+                              int *end)
+{
+    double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS];
+    int has_k, has_m, attached_end = 0;
+    *from = solid->mesh.ndof;
+    take_in_attached(solid, p, from, &attached_end);
+    if (attached_end)
+        return 1;
+    *end = 0;
+    for (int e = 0; e < solid->mesh.nelement; e++) {
+        const struct solid_element *element = &solid->mesh.element[e];
+        element_matrices_of(solid, e, p, ek, em, &has_k, &has_m);
+        if (has_k)
+            add_product_of_element(solid, element, ek, count, u, dk_u);
+        if (has_m)
+            add_product_of_element(solid, element, em, count, u, dm_u);
+        if (has_k || has_m)
+            take_in_element(solid, element, from, end);
+    }
+    *from = *from < *end ? *from : *end;
+    return 0;
 }
 
 /* ------------------------------------------------------------------------------------------------ mass, motion, energy */
