@@ -290,7 +290,7 @@ UNIT_TEST(least_squares_name_what_they_refuse)
     assert_int_equal(rotid_lm_workspace(-1, 3), 0);
     assert_int_equal(rotid_check_jacobian_workspace(3, 0), 0);
     assert_refused(rotid_lm(1, 1, residual, NULL, &options, failure, x, r, jacobian, work, &result),
-                   "options->size is 0, expected sizeof(rotid_lm_options), here 72");
+                   "options->size is 0, expected sizeof(rotid_lm_options), here 80");
     assert_refused(rotid_check_jacobian(1, 1, residual, NULL, x, scale, failure, error, doubt, work),
                    "scale[0] is 0, expected a positive number");
     options.size = sizeof options;
@@ -509,7 +509,7 @@ POOL_TEST(what_a_newer_host_asks_for_is_refused_and_zeros_are_not)
                    pool_format(&test_pool, "options->size is %zu, expected sizeof(rotid_fit_options), here %zu", SIZE_MAX,
                                sizeof f.options));
     f.model.size = 0;
-    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 96");
+    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 104");
     f.model.size = sizeof f.model;
     f.measured.size = 1;
     assert_refused(fit(&f, NULL),

@@ -441,7 +441,7 @@ double bootstrap_extrapolated(const struct bootstrap *b);
 #define REFIT_STEP      1e-7
 #define REFIT_OBJECTIVE 1e-6 /* what another step would gain: sizes are good to a hundredth of their standard deviation */
 #define REFIT_DECREASE  1e-4 /* of the objective, by five steps */
-#define REFIT_LEAST     0.05 /* a tenth of a unit of chi2 by five steps is worth nothing beside margins of some */
+#define REFIT_LEAST     0.01 /* chi2 by 0.02 in five steps is worth nothing; at 0.1 some stop on the way to another minimum */
 /* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
 #define REFIT_WORSE 0.01
 
