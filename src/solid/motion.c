@@ -44,6 +44,7 @@ static void edge_at(const struct solid_mesh *mesh, int n, double x, double *r, d
     *slope = (x - 0.5) * node[0].r - 2 * x * node[1].r + (x + 0.5) * node[2].r;
 }
 
+/* In torsion V = r_i A_i at node i: the rotation V/r is that of A = 1 where all A_i are 1, though the axis has no unknown. */
 int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta)
 {
     const int *nodes = mesh->line + 2 * (ptrdiff_t)line;
@@ -61,7 +62,7 @@ int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line
             for (int i = 0; i < 3; i++) {
                 const struct solid_node *node = &mesh->node[n + i];
                 if (mesh->type != MODE_BENDING) {
-                    add_term(v, node->dof[mesh->type], w * shape[i] * (mesh->type == MODE_TORSION ? r * r : 1));
+                    add_term(v, node->dof[mesh->type], w * shape[i] * (mesh->type == MODE_TORSION ? r * node->r : 1));
                     continue;
                 }
                 add_term(v, node->dof[0], w * shape[i] / 2);
@@ -90,7 +91,8 @@ int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, dou
             shape_of_edge(edge, r, shape, NULL);
             inertia += share * (bends ? r : 1);
             for (int i = 0; i < 3; i++)
-                add_term(w, mesh->node[n + i].dof[bends ? 2 : mesh->type], share * shape[i]);
+                add_term(w, mesh->node[n + i].dof[bends ? 2 : mesh->type],
+                         share * shape[i] * (mesh->type == MODE_TORSION ? mesh->node[n + i].r / r : 1));
         }
     }
     for (int i = 0; i < w->count && !status; i++)
