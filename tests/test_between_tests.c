@@ -78,7 +78,25 @@ POOL_TEST(a_mode_counts_where_every_test_has_it)
     assert_status(ema_average(&test_pool, 3, test, &mean, &scatter), ROTID_OK);
     assert_int_equal(mean.nmode, MODES - 1);
     assert_int_equal(scatter.missing, 1);
+    assert_int_equal(scatter.lacking, 0);
     assert_close(mean.mode[1].frequency_hz, 900, 1e-3, 0);
+}
+
+/* The second test has a point along another axis, the third one lacks another. */
+POOL_TEST(a_point_counts_where_every_test_has_it)
+{
+    static struct ema test[3];
+    struct ema mean;
+    struct ema_scatter scatter;
+    int left = 0;
+    make_tests(3, 1e-4, 1e-3, 0, test);
+    test[1].point_direction[3] = 2;
+    test[2].npoint--;
+    assert_status(ema_average(&test_pool, 3, test, &mean, &scatter), ROTID_OK);
+    for (int p = 0; p < POINTS; p++)
+        left += !isfinite(mean.mode[0].shape[p]);
+    assert_int_equal(left, 2);
+    assert_int_equal(scatter.lacking, 3); /* the first along both axes */
 }
 
 /* The file of `impacts` impacts (below 0: of so many tests) in a deck without *NOISE: the standard deviation of its mode 1, and

@@ -166,6 +166,7 @@ struct ema { /* everything on the pool */
 /* What several tests of one structure say of their repeatability. */
 struct ema_scatter {
     int tests, missing;      /* modes of the first test that another one does not have */
+    int lacking;             /* points, each along its axis, that some test does not have: the shapes are without them */
     double *std_hz;          /* [mean.nmode] of one test, by each mode's own few */
     double frequency, shape; /* of one test, over all modes: relative; of the largest component. NaN without a mode */
 };

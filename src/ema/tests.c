@@ -17,6 +17,23 @@ static int same_point(const struct ema *first, int p, const struct ema *test)
     return -1;
 }
 
+/* Points that a test has and another one has not, each once. */
+static int count_lacking(int count, const struct ema test[])
+{
+    int lacking = 0;
+    for (int t = 0; t < count; t++)
+        for (int p = 0; p < test[t].npoint; p++) {
+            int before = 0, with = 0;
+            for (int s = 0; s < count; s++) {
+                int is_there = same_point(&test[t], p, &test[s]) >= 0;
+                before += is_there && s < t;
+                with += is_there;
+            }
+            lacking += !before && with < count;
+        }
+    return lacking;
+}
+
 /* MAC of mode k of `first` with mode j of `test` over the points [first->npoint] of both, and the factor by which the second has
  * to be taken to be nearest to the first. */
 static double alike(const struct ema *first, int k, const struct ema *test, int j, const int *point, double *factor)
@@ -42,7 +59,8 @@ int ema_average(struct pool *pool, int count, const struct ema test[], struct em
     double squares_hz = 0, squares_shape = 0;
     long long rows_hz = 0, rows_shape = 0;
     *mean = *first;
-    *scatter = (struct ema_scatter){.tests = count, .std_hz = POOL_ARRAY(pool, double, first->nmode)};
+    *scatter = (struct ema_scatter){
+        .tests = count, .lacking = count_lacking(count, test), .std_hz = POOL_ARRAY(pool, double, first->nmode)};
     mean->mode = POOL_ARRAY(pool, struct ema_mode, first->nmode);
     mean->nmode = 0;
     mean->tests = count;

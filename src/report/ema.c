@@ -244,6 +244,9 @@ void screen_scatter(const struct screen *to, int count, const char *const *file,
     if (scatter->missing)
         screen_say(to, "%d %s of %s left out: not in every test", scatter->missing,
                    human_plural(scatter->missing, "mode", "modes"), file[0]);
+    if (scatter->lacking)
+        screen_say(to, "%d %s left out of the shapes: not in every test along the same axis", scatter->lacking,
+                   human_plural(scatter->lacking, "point", "points"));
     if (mean->nmode)
         screen_say(to,
                    "between tests frequencies repeat within %.2g %%, shapes within %.2g %% of the largest component:\n*NOISE, "
