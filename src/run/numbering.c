@@ -11,7 +11,6 @@
 #define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
 #define UNIT        5    /* the least factor between frequencies that a unit explains is 2 pi */
 #define UNEXPLAINED 1e-3 /* p-value of a misfit that makes other numbers worth a try */
-#define STEP        1e-3 /* of ln x for a derivative of ln f, whose error is its square */
 #define ASSUMED     0.01 /* noise of frequencies where the deck states none */
 
 /* ln of the mean factor of measured over computed frequencies: the partner of mode n is mode n + above of the spectrum */
@@ -116,25 +115,49 @@ struct outlook {
     double *slope;         /* [n * rows] */
 };
 
-/* A parameter at the share h of the width of its bounds from the start, in ln x where x is above 0. */
-static double at_share(const rotid_parameter *bound, double h)
+/* dx/dh at the start, x in ln x where it is above 0 */
+static double width_of(const rotid_parameter *bound)
 {
-    return bound->lower > 0 ? bound->start * pow(bound->upper / bound->lower, h)
-                            : bound->start + h * (bound->upper - bound->lower);
+    return bound->lower > 0 ? bound->start * log(bound->upper / bound->lower) : bound->upper - bound->lower;
 }
 
-static int log_frequencies(const rotid_allocator *allocator, const struct state *state, const double *x, int count, double *out)
+/* The rows of state s at x, the start: d ln f/dh = dlambda/dx dx/dh / (2 lambda). */
+static int look_at_state(struct pool *pool, const struct states *states, int s, const double *x, int rows, struct outlook *o)
 {
+    const struct state *state = &states->state[s];
     const struct job *job = &state->job;
-    struct spectrum s;
-    struct pool scratch;
-    int condensed = job->options.fit.reduction != ROTID_REDUCTION_NONE;
-    pool_open(&scratch, allocator);
-    double *own = state_values(&scratch, state, x);
-    int status = own ? job_spectrum(&scratch, job, own, count, condensed ? SPECTRUM_REDUCED : 0, &s) : ROTID_ERROR_MEMORY;
+    int failed, condensed = job->options.fit.reduction != ROTID_REDUCTION_NONE, count = o->count[s];
+    double *own = state_values(pool, state, x);
+    struct rotor_model model;
+    struct prediction p;
+    int status =
+        !own ? ROTID_ERROR_MEMORY
+             : model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, &model, &failed);
+    int rigid = status ? 0 : model.equations.nrigid, most = status ? 0 : condensed ? model.equations.nmaster : model.equations.n;
     for (int j = 0; j < count; j++)
-        out[j] = status || j >= s.count ? NAN : log(condensed ? s.reduced_hz[j] : s.full_hz[j]);
-    pool_close(&scratch);
+        o->frequency[o->first[s] + j] = NAN;
+    count = rigid + count < most ? count : most - rigid;
+    if (status || count < 1)
+        return status;
+    status = prediction_new(pool, &model.equations, job->options.fit.reduction, ROTID_NELSON, rigid + count, 0, &p);
+    int *wanted = POOL_ARRAY(pool, int, rigid + count);
+    if (!status)
+        status = wanted ? prediction_compute(&p, own) : ROTID_ERROR_MEMORY;
+    for (int j = 0; j < count && !status; j++)
+        wanted[rigid + j] = p.lambda[rigid + j] > 0;
+    if (!status)
+        status = prediction_differentiate(&p, own, wanted, 0);
+    for (int j = 0; j < count && !status; j++) {
+        int row = o->first[s] + j, k = rigid + j;
+        if (!wanted[k])
+            continue;
+        o->frequency[row] = log(prediction_hz(&p, k));
+        for (int q = 0; q < job->unknowns.nparameter; q++) {
+            int unknown = state_unknown(state, q);
+            o->slope[row + (ptrdiff_t)unknown * rows] +=
+                p.dlambda[k + (ptrdiff_t)q * p.count] / (2 * p.lambda[k]) * width_of(&states->bounds[unknown]);
+        }
+    }
     return status;
 }
 
@@ -155,14 +178,13 @@ static int look_ahead(struct pool *pool, const struct states *states, const int 
     o->slope = POOL_ARRAY(pool, double, (size_t)n *(size_t)rows);
     if (!o->frequency || !o->slope)
         return ROTID_ERROR_MEMORY;
-    for (int p = -1; p < n && !status; p++) {
-        for (int q = 0; q < n; q++)
-            x[q] = at_share(&states->bounds[q], q == p ? STEP : 0);
-        for (int s = 0; s < states->nstate && !status; s++)
-            status = log_frequencies(pool->allocator, &states->state[s], x, o->count[s],
-                                     (p < 0 ? o->frequency : o->slope + (ptrdiff_t)p * rows) + o->first[s]);
-        for (int j = 0; j < rows && p >= 0; j++)
-            o->slope[j + (ptrdiff_t)p * rows] = (o->slope[j + (ptrdiff_t)p * rows] - o->frequency[j]) / STEP;
+    for (int q = 0; q < n; q++)
+        x[q] = states->bounds[q].start;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        struct pool scratch;
+        pool_open(&scratch, pool->allocator);
+        status = look_at_state(&scratch, states, s, x, rows, o);
+        pool_close(&scratch);
     }
     return status;
 }
