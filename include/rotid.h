@@ -1365,8 +1365,8 @@ typedef struct rotid_model {
     const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the
                             full model begins where they are as many as it needs: of a model nearby, say. The result is the same
                             but for rounding. NULL: none */
-    /* NULL, or dK/dx_p u and dM/dx_p u for u [n * count], which takes less time than the matrices: returns 0, anything else where
-     * `derivatives` are to be asked for this parameter. The results are set to zero before. */
+    /* NULL, or dk_u := dK/dx_p u and dm_u := dM/dx_p u for u [n * count], which takes less time than the matrices: returns 0,
+     * anything else where `derivatives` are to be asked for this parameter. */
     int (*derivative_products)(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u);
 } rotid_model;
 

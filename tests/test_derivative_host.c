@@ -98,6 +98,8 @@ static int host_products(void *user, const double *x, int p, int count, const do
     const struct host *host = user;
     const double of[3] = {p == 0 ? 1 : 0, p == 0 ? x[1] : x[0], p == 0 ? 0 : 2 * x[1]};
     const double *const parts[3] = {host->k1, host->k2, host->m1};
+    memset(dk_u, 0, (size_t)(count * host_n) * sizeof *dk_u);
+    memset(dm_u, 0, (size_t)(count * host_n) * sizeof *dm_u);
     for (int c = 0; c < count; c++)
         for (int part = 0; part < 3; part++)
             for (int i = 0; i < host_n * host_n; i++)

@@ -251,12 +251,8 @@ static struct rows images_by_matrices(struct columns *c, int p, double *weighed)
 /* The same without matrices, dk_phi and dm_phi [n * nmode]. Returns 0 where that is impossible. */
 static int images_by_products(struct columns *c, int p, struct rows *rows)
 {
-    size_t images = (size_t)c->model.equations.n * (size_t)c->nmode * sizeof(double);
-    if (c->functional.nwhole)
-        return 0;
-    memset(c->dk_phi, 0, images);
-    memset(c->dm_phi, 0, images);
-    return !model_derivative_products(&c->model, c->x, p, c->nmode, c->phi, c->dk_phi, c->dm_phi, &rows->from, &rows->end);
+    return !c->functional.nwhole &&
+           !model_derivative_products(&c->model, c->x, p, c->nmode, c->phi, c->dk_phi, c->dm_phi, &rows->from, &rows->end);
 }
 
 int columns_parameter(struct columns *c, int p, double *column)

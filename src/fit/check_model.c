@@ -1,7 +1,6 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/base.h"
 #include "fit/fit.h"
@@ -119,7 +118,6 @@ static int check_products(struct pool *pool, struct prediction *p, const double 
     double *own = POOL_ARRAY(pool, double, 2 * length), *right = POOL_ARRAY(pool, double, length);
     int status = own && right ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int q = 0; q < model->nparam && !status && model->derivative_products; q++) {
-        memset(own, 0, 2 * (size_t)length * sizeof *own);
         if (model->derivative_products(model->user, x, q, p->count, p->phi, own, own + length))
             continue;
         status = prediction_matrix_derivatives(p, x, q);

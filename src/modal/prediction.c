@@ -307,8 +307,6 @@ static int ask_products(struct prediction *p, const double *x, int q, const int 
     ptrdiff_t length = (ptrdiff_t)(end - first) * n;
     double *image[] = {p->image + (ptrdiff_t)first * n, p->image + ((ptrdiff_t)first + p->count) * n};
     *given = model->derivative_products && p->reduction == ROTID_REDUCTION_NONE;
-    for (int i = 0; i < 2 && *given; i++)
-        memset(image[i], 0, (size_t)length * sizeof(double));
     *given =
         *given && !model->derivative_products(model->user, x, q, end - first, p->phi + (ptrdiff_t)first * n, image[0], image[1]);
     for (ptrdiff_t i = 0; i < 2 * length && *given; i++)

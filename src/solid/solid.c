@@ -821,6 +821,8 @@ int solid_derivative_products(const struct solid *solid, int p, int count, const
     if (attached_end)
         return 1;
     *end = 0;
+    memset(dk_u, 0, (size_t)count * (size_t)solid->mesh.ndof * sizeof *dk_u);
+    memset(dm_u, 0, (size_t)count * (size_t)solid->mesh.ndof * sizeof *dm_u);
     for (int e = 0; e < solid->mesh.nelement; e++) {
         const struct solid_element *element = &solid->mesh.element[e];
         element_matrices_of(solid, e, p, ek, em, &has_k, &has_m);

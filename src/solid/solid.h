@@ -249,7 +249,7 @@ void solid_set(struct solid *solid, const double *x);
  */
 void solid_differentiate(const struct solid *solid, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end);
 
-/* dk_u and dm_u [n * count], zero before, := dK/dx_p u and dM/dx_p u element by element, in rows *from ... *end - 1 alone. Returns
+/* dk_u and dm_u [n * count] := dK/dx_p u and dM/dx_p u element by element, in rows *from ... *end - 1 alone. Returns
  * 1 where x_p moves more than elements. */
 int solid_derivative_products(const struct solid *solid, int p, int count, const double *u, double *dk_u, double *dm_u, int *from,
                               int *end);
