@@ -183,26 +183,36 @@ POOL_TEST(columns_with_effects_in_the_model)
     check_own(job);
 }
 
-/* By products of elements, weighed by matrices; the mass by matrices in any case. */
-POOL_TEST(columns_of_a_solid_are_its_jacobian)
+/* By products of elements, and of one that is weighed by the matrices, whose rows of the modes are the same. */
+POOL_TEST(columns_of_a_solid_are_the_same_by_products_and_matrices)
 {
     static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, slope[4] = {0.2};
-    for (int weighed = 0; weighed < 2; weighed++) {
-        struct job *job = open_job(BUNDLE_RODS);
-        job->models = models_as(&test_pool, AS_SOLID);
-        assert_non_null(job->models);
-        if (!weighed)
-            job->measurement.weighed = (struct weighed){0};
-        bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
-        bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
-        bench_add(&job->rotor, cause_stiffness_gradient.effect, 1, 0, slope);
-        for (int p = 0; p < 2; p++)
-            bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
-        for (int p = 0; p < 3; p++)
-            bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
-        bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
-        job->unknowns.nparameter = 8;
-        check_own(job);
+    struct job *job = open_job(BUNDLE_RODS);
+    struct columns by[2];
+    double column[2][MOST];
+    job->models = models_as(&test_pool, AS_SOLID);
+    assert_non_null(job->models);
+    bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
+    bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
+    bench_add(&job->rotor, cause_stiffness_gradient.effect, 1, 0, slope);
+    for (int p = 0; p < 2; p++)
+        bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
+    for (int p = 0; p < 3; p++)
+        bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
+    bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
+    job->unknowns.nparameter = 8;
+    open_columns(job, NULL, &by[0]);
+    job->measurement.weighed = (struct weighed){0};
+    open_columns(job, NULL, &by[1]);
+    assert_int_equal(by[0].nrow, by[1].nrow + WEIGHED);
+    for (int p = 0; p < 8; p++) {
+        for (int i = 0; i < WEIGHED; i++)
+            column[0][by[1].nrow + i] = NAN;
+        for (int i = 0; i < 2; i++)
+            assert_status(columns_parameter(&by[i], p, column[i]), ROTID_OK);
+        assert_true(relative_difference((size_t)by[1].nrow, column[1], column[0]) < 1e-7);
+        for (int i = 0; i < WEIGHED; i++) /* of stiffness nothing, of the mass and its place */
+            assert_int_equal(column[0][by[1].nrow + i] != 0, p == 2 || (p == 3 && i == 1));
     }
 }
 
