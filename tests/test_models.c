@@ -122,6 +122,28 @@ POOL_TEST(a_rotor_of_another_shape_is_built_anew)
     }
 }
 
+/* None, and a joint with a mass; of a beam, whose joints are hinges of the mesh, that is another shape. */
+POOL_TEST(a_solid_has_one_mesh_whatever_causes_are_in_it)
+{
+    static const double joint[4] = {3e-10}, mass[4] = {4, 1.603};
+    for (int solid = 0; solid < 2; solid++) {
+        struct models *run = models_for_run(&test_pool, NULL), *models = solid ? models_solids(run) : run;
+        struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+        struct rotor_model bare, both, alone;
+        assert_status(open_in(models, rotor, 1, &bare), ROTID_OK);
+        bench_add(rotor, cause_joint.effect, 1, 0, joint);
+        bench_add(rotor, cause_added_mass.effect, -1, 0, mass);
+        assert_status(open_in(models, rotor, 1, &both), ROTID_OK);
+        assert_status(open_in(solid ? models_as(&test_pool, AS_SOLID) : NULL, rotor, 1, &alone), ROTID_OK);
+        const void *mesh = solid ? (const void *)bare.discrete.solid.integrals : bare.discrete.beam.mesh.z;
+        assert_int_equal(mesh == (solid ? (const void *)both.discrete.solid.integrals : both.discrete.beam.mesh.z), solid);
+        assert_same_model(&both, &alone);
+        assert_status(open_in(models, rotor, 1, &both), ROTID_OK); /* with the entry of its own values */
+        assert_same_model(&both, &alone);
+        models_end_run(&test_pool, run, NULL);
+    }
+}
+
 POOL_TEST(a_finer_mesh_is_another_model)
 {
     struct models *models = models_for_run(&test_pool, NULL);
