@@ -158,20 +158,26 @@ POOL_TEST(frequencies_and_scales_have_one_row_each)
         assert_int_equal(c.mode[m].sensors, 0);
 }
 
-POOL_TEST(columns_with_effects_in_the_model)
+/* A mass, a soft zone and a third effect with one parameter, all of whose values are identified beside E and G. */
+static void add_three(struct job *job, const struct effect_kind *third, int target, const double *value)
 {
-    static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, both[4] = {0.3, 0.6, 0.09, 0.5}, cone[4] = {31},
-                        joint[4] = {3e-10};
-    struct job *job = open_job(BUNDLE_TUBE);
+    static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05};
     bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
     bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
-    bench_add(&job->rotor, cause_step_stiffness.effect, -1, 0, cone);
+    bench_add(&job->rotor, third, target, 0, value);
     for (int p = 0; p < 2; p++)
         bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
     for (int p = 0; p < 3; p++)
         bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
     bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
     job->unknowns.nparameter = 8;
+}
+
+POOL_TEST(columns_with_effects_in_the_model)
+{
+    static const double both[4] = {0.3, 0.6, 0.09, 0.5}, cone[4] = {31}, joint[4] = {3e-10};
+    struct job *job = open_job(BUNDLE_TUBE);
+    add_three(job, cause_step_stiffness.effect, -1, cone);
     check_own(job);
     job = open_job(BUNDLE_TUBE);
     bench_add(&job->rotor, cause_joint.effect, 1, 0, joint);
@@ -186,21 +192,13 @@ POOL_TEST(columns_with_effects_in_the_model)
 /* By products of elements, and of one that is weighed by the matrices, whose rows of the modes are the same. */
 POOL_TEST(columns_of_a_solid_are_the_same_by_products_and_matrices)
 {
-    static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, slope[4] = {0.2};
+    static const double slope[4] = {0.2};
     struct job *job = open_job(BUNDLE_RODS);
     struct columns by[2];
     double column[2][MOST];
     job->models = models_as(&test_pool, AS_SOLID);
     assert_non_null(job->models);
-    bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
-    bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
-    bench_add(&job->rotor, cause_stiffness_gradient.effect, 1, 0, slope);
-    for (int p = 0; p < 2; p++)
-        bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
-    for (int p = 0; p < 3; p++)
-        bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
-    bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
-    job->unknowns.nparameter = 8;
+    add_three(job, cause_stiffness_gradient.effect, 1, slope);
     open_columns(job, NULL, &by[0]);
     job->measurement.weighed = (struct weighed){0};
     open_columns(job, NULL, &by[1]);

@@ -115,9 +115,11 @@ static int check_products(struct pool *pool, struct prediction *p, const double 
 {
     const rotid_model *model = p->model;
     ptrdiff_t length = (ptrdiff_t)model->n * p->count;
+    if (!model->derivative_products)
+        return ROTID_OK;
     double *own = POOL_ARRAY(pool, double, 2 * length), *right = POOL_ARRAY(pool, double, length);
-    int status = own && right ? ROTID_OK : ROTID_ERROR_MEMORY;
-    for (int q = 0; q < model->nparam && !status && model->derivative_products; q++) {
+    int status = own && right ? prediction_compute(p, x) : ROTID_ERROR_MEMORY; /* the host stands at x again */
+    for (int q = 0; q < model->nparam && !status; q++) {
         if (model->derivative_products(model->user, x, q, p->count, p->phi, own, own + length))
             continue;
         status = prediction_matrix_derivatives(p, x, q);
@@ -157,8 +159,6 @@ static int run(struct pool *pool, const rotid_model *model, const rotid_paramete
         status = rotid_check_jacobian(m, n, entries, &check, x, scale, failure, error + place, doubt + place, work);
         status = status == ROTID_ERROR_CALLBACK ? check.status : status;
     }
-    if (!status) /* modes and matrices at x again */
-        status = prediction_compute(p, x);
     return status ? status : check_products(pool, p, x, error);
 }
 

@@ -252,7 +252,7 @@ static void gather_narrow(struct factor *f, const rotid_matrix *a)
 {
     memset(f->band, 0, (size_t)f->lda * (size_t)f->nr * sizeof(double));
     for (int k = 0; k < f->n; k++) {
-        int j = f->kept[k], pj = f->position[j], reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
+        int j = f->kept[k], pj = f->position[j], reach = matrix_reach(a, j);
         const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
         if (pj >= 0 && f->position[j + reach] == pj + reach) { /* nothing left out and nothing far from here to there */
             put_inner_column(f, pj, reach, column);
@@ -267,7 +267,7 @@ static void gather_narrow(struct factor *f, const rotid_matrix *a)
 static int column_of_matrix(const struct factor *f, const rotid_matrix *a, int j)
 {
     const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
-    int reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j, count = 0;
+    int reach = matrix_reach(a, j), count = 0;
     for (int d = 0; d <= reach; d++) {
         if (d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(column + d))
             d += MATRIX_STRETCH - 1;
@@ -291,7 +291,7 @@ static int last_row(const struct factor *f, const struct factor_source *source, 
         return -1;
     }
     const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
-    int d = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
+    int d = matrix_reach(a, j);
     for (; d >= 0; d--) {
         while (d + 1 >= MATRIX_STRETCH && matrix_stretch_is_zero(column + d + 1 - MATRIX_STRETCH))
             d -= MATRIX_STRETCH;

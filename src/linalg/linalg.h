@@ -525,6 +525,12 @@ int matrix_is_finite(const rotid_matrix *a);
 /* Nothing but zeros in all of the storage? Soon known where there is anything. */
 int matrix_is_zero(const rotid_matrix *a);
 
+/* How far column j of the band reaches below its diagonal. */
+static inline int matrix_reach(const rotid_matrix *a, int j)
+{
+    return a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
+}
+
 #define MATRIX_STRETCH 8 /* entries of a wide band that are looked at together */
 
 /* Are MATRIX_STRETCH entries all zero? Bits tell faster than comparisons; a negative zero counts as an entry. */

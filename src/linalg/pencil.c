@@ -26,11 +26,6 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
 
 typedef long long four_counts __attribute__((vector_size(32)));
 
-static int reach_of(const rotid_matrix *a, int j)
-{
-    return a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
-}
-
 /* How many of the entries below the diagonal are not zero in K or M */
 EACH_MACHINE static long long count_entries(const rotid_matrix *k, const rotid_matrix *m)
 {
@@ -38,7 +33,7 @@ EACH_MACHINE static long long count_entries(const rotid_matrix *k, const rotid_m
     long long rest = 0;
     for (int j = 0; j < k->n; j++) {
         const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
-        int reach = reach_of(k, j), d = 1;
+        int reach = matrix_reach(k, j), d = 1;
         for (; d + 4 <= reach + 1; d += 4)
             sum -= (four_counts)((FOUR(kj + d) != 0) | (FOUR(mj + d) != 0));
         for (; d <= reach; d++)
@@ -68,7 +63,7 @@ static void take_new(struct pencil *p, const rotid_matrix *k, const rotid_matrix
 {
     int at = 0;
     for (int j = 0; j < p->n; j++) {
-        int reach = reach_of(k, j);
+        int reach = matrix_reach(k, j);
         const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
         p->start[j] = at;
         for (int d = 0; d <= reach; d++) {

@@ -111,6 +111,12 @@ void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix
         beam_differentiate(&discrete->beam, p, dk, dm);
 }
 
+int discrete_derivative_products(const struct discrete *discrete, int p, int count, const double *u, double *dk_u, double *dm_u,
+                                 int *from, int *end)
+{
+    return is_solid(discrete) ? solid_derivative_products(&discrete->solid, p, count, u, dk_u, dm_u, from, end) : 1;
+}
+
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties)
 {
     if (is_solid(discrete))

@@ -36,10 +36,8 @@ static int derivative_products(void *user, const double *x, int p, int count, co
 int model_derivative_products(const struct rotor_model *model, const double *x, int p, int count, const double *u, double *dk_u,
                               double *dm_u, int *from, int *end)
 {
-    if (!discretisation_is_solid(model->discrete.as))
-        return 1;
     parameters_set(discrete_rotor(&model->discrete), model->equations.nparam, model->parameter, x);
-    return solid_derivative_products(&model->discrete.solid, p, count, u, dk_u, dm_u, from, end);
+    return discrete_derivative_products(&model->discrete, p, count, u, dk_u, dm_u, from, end);
 }
 
 static int choose_masters(struct pool *pool, struct rotor_model *model)

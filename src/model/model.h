@@ -61,6 +61,9 @@ void discrete_set(struct discrete *discrete, const double *x);
 void discrete_assemble(struct discrete *discrete, const double *x, rotid_matrix *k, rotid_matrix *m);
 /* dK and dM are zero but in rows and columns *from ... *end - 1 of the band. */
 void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix *dk, rotid_matrix *dm, int *from, int *end);
+/* As solid_derivative_products; 1 of a beam. */
+int discrete_derivative_products(const struct discrete *discrete, int p, int count, const double *u, double *dk_u, double *dm_u,
+                                 int *from, int *end);
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties);
 
 /* *p: the polar inertia P of what turns; *s: a lateral stiffness > 0 to the ground [N/m] evenly over the length of a group. Both
