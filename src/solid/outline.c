@@ -93,9 +93,11 @@ static int lines_graded(struct pool *pool, int nstop, const struct stop *stop, i
 }
 
 #define SAME      1e-9 /* of the largest radius: radii that are one */
-#define CORNER    0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
+#define CORNER    0.05 /* of what both sides of it share, a radius or a wall: elements; leaves 0.03 % in frequencies */
+#define NARROWEST 1e4  /* radius over that wall: beyond, rounding is larger than what it bends */
 #define LARGEST   4    /* a quarter of the radius, or of the length of a disc */
 #define COARSE    6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
+#define THIN_WALL 4    /* radius over thickness from which on a wall is thin */
 #define SLICES    50   /* or the longer of length and radius over this */
 #define THINNEST  200  /* radius over the thickness of a flange, or length over the radius of a shaft, whose waves are resolved */
 #define LONGEST   2    /* times the shorter one: elements that are longer lock in bending */
@@ -189,7 +191,8 @@ int outline_corner(const struct rotor *rotor, int s, double r)
 
 static double corner_size(const struct rotor *rotor, const struct solid_rule *rule, int s, int refine)
 {
-    double thin = fmin(outline_outer(rotor, s), outline_outer(rotor, s + 1));
+    double outer = fmin(outline_outer(rotor, s), outline_outer(rotor, s + 1)),
+           inner = fmax(outline_inner(rotor, s), outline_inner(rotor, s + 1)), thin = fmax(outer - inner, outer / NARROWEST);
     double size = rule->corner > 0 ? rule->corner : CORNER * thin;
     return refine ? size / refine : COARSE * size;
 }
@@ -203,6 +206,13 @@ int outline_has_corners(const struct rotor *rotor)
     return 0;
 }
 
+/* Without corners the coarse mesh has twice the size in both directions, else across alone. */
+static double refined(const struct rotor *rotor, int refine, int along, double size)
+{
+    int halved = !along || !outline_has_corners(rotor);
+    return refine ? size / sqrt(refine) : halved ? 2 * size : size;
+}
+
 /* Of a body of this radius and length: a quarter of the shorter of length and radius, and a fiftieth of the longer one, in both
  * directions; across the shorter one of a body that is much longer than wide, or wider than long, up to a quarter of the elements
  * along the other: thinner ones add nothing to the accuracy and rounding to K. */
@@ -213,8 +223,17 @@ static double largest_size(const struct rotor *rotor, const struct solid_rule *r
     for (int i = 0; i < 2; i++)
         size[i] = fmax(fmin(extent[0], extent[1]) / LARGEST, fmin(extent[i] / SLICES, LONGEST * fmin(extent[0], extent[1])));
     double largest = rule->largest > 0 ? rule->largest : fmax(size[along], fmin(extent[along], size[!along] / LARGEST));
-    int halved = !along || !outline_has_corners(rotor);
-    return refine ? largest / sqrt(refine) : halved ? 2 * largest : largest;
+    return refined(rotor, refine, along, largest);
+}
+
+/* Along section s: as a shaft, which bends in shorter waves where it is slender than the body beside it; and of a thin wall half
+ * of the root of radius times thickness, a fifth of the waves in which its ends bend. */
+static double largest_along(const struct rotor *rotor, const struct solid_rule *rule, int refine, int s)
+{
+    double length = rotor_length(rotor), outer = outline_outer(rotor, s), wall = outer - outline_inner(rotor, s);
+    double size = largest_size(rotor, rule, refine, 1, fmax(outer, length / THINNEST), length);
+    return THIN_WALL * wall < outer ? fmin(size, refined(rotor, refine, 1, fmax(sqrt(outer * wall) / 2, length / THINNEST)))
+                                    : size;
 }
 
 /* Without corners every element of the coarse mesh is cut into two, by which the errors of both have one ratio. */
@@ -320,11 +339,10 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
     *stops = stop;
     *nstop = stops_merge(n, stop, fmin(1e-6 * end, 0.01 * smallest));
     end = rotor->segment[0].length;
-    for (int i = 0, s = 0; i + 1 < *nstop; i++) { /* a slender part bends in shorter waves than the body beside it */
+    for (int i = 0, s = 0; i + 1 < *nstop; i++) {
         while (s + 1 < rotor->nsegment && (stop[i].at + stop[i + 1].at) / 2 > end)
             end += rotor->segment[++s].length;
-        double radius = fmax(outline_outer(rotor, s), rotor_length(rotor) / THINNEST);
-        stop[i].upto = fmin(stop[i].upto, largest_size(rotor, rule, refine, 1, radius, rotor_length(rotor)));
+        stop[i].upto = fmin(stop[i].upto, largest_along(rotor, rule, refine, s));
     }
     stops_go_on(*nstop, stop);
     return ROTID_OK;
