@@ -365,9 +365,9 @@ double discrete_passage(const struct discrete *discrete)
 
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)
 {
-    if (from->as != to->as || from->as == AS_SOLID_TORSION || from->as == AS_SOLID_AXIAL)
+    if (from->as != to->as)
         return 0;
-    if (from->as == AS_SOLID)
+    if (is_solid(from))
         solid_transfer(&from->solid, u, &to->solid, v);
     else if (!is_bar(from) && to->beam.mesh.nelement > from->beam.mesh.nelement)
         beam_prolong(&from->beam, u, &to->beam.mesh, v);

@@ -136,11 +136,11 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
     int worst = -1, solid = job->options.solid;
     if (spectrum->apart) {
         struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */
-                    "%s:%d:%d: the mesh of the solid is not fine enough for mode %d: two meshes differ by more than 2 %% or have "
-                    "other shapes "
-                    "there, so that %.6g Hz is of the mesh as it is; expected fewer modes, thicker parts, or *FIT, MODEL=BEAM",
-                    place.file, place.line, place.column, spectrum->apart, spectrum->full_hz[spectrum->apart - 1]);
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */
+            "%s:%d:%d: the mesh of the solid is not fine enough for mode %d, %.6g Hz: two meshes differ by more than 2 %% or "
+            "have other shapes or another order there; expected fewer modes, thicker parts, or *FIT, MODEL=BEAM",
+            place.file, place.line, place.column, spectrum->apart, spectrum->full_hz[spectrum->apart - 1]);
     }
     double largest = solid ? SOLID_SHARE : 1;
     for (int k = 0; k < comparison->nmode && job_knows_frequency_noise(job); k++) {

@@ -10,6 +10,7 @@
 #define ROUGH        1e-4  /* the same of a trial */
 #define APART        0.02  /* of a frequency: two meshes that differ by more lead nowhere */
 #define ALIKE        0.8   /* MAC of a mode on two meshes, weighted by the mass: of those of a crossing each has 0.5 */
+#define CROSSED      1e-3  /* of a frequency: a mode whose limit is this far below that of the mode before has the wrong number */
 #define OF_A_WAVE    0.2   /* that an element may be long: a quadratic one raises its frequency by 0.1 % */
 #define MOST_FINE    50000 /* unknowns of a mesh that may be refined once more */
 #define MOST_ENTRIES 2e7   /* of its K, which has eight times as many then */
@@ -343,7 +344,8 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
     if (status)
         return status;
     for (int j = count - 1; j >= 0 && coarse_first; j--)
-        s->apart = isnan(s->mesh_error_percent[j]) ? j + 1 : s->apart;
+        s->apart =
+            isnan(s->mesh_error_percent[j]) || (j > 0 && s->full_hz[j] < (1 - CROSSED) * s->full_hz[j - 1]) ? j + 1 : s->apart;
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other.model->equations.n < equations->n;
     if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)

@@ -37,7 +37,7 @@ static void transfer_element(const struct solid *from, const double *u, const st
         motion_at(&from->mesh, around, local, node->z, node->r, motion);
         for (int c = 0; c < 3; c++)
             if (node->dof[c] >= 0 && !(c == 1 && node->r == 0)) /* V of the axis is that of U */
-                v[node->dof[c]] = motion[c];
+                v[node->dof[c]] = mesh->type == MODE_TORSION ? motion[c] / node->r : motion[c];
     }
 }
 
@@ -50,10 +50,11 @@ void solid_transfer(const struct solid *from, const double *u, const struct soli
         transfer_element(from, u, mesh, &mesh->element[e], v);
     for (int e = 0; e < mesh->nelement; e++) {
         const struct solid_element *element = &mesh->element[e];
-        double *at = &v[mesh->node[element->node[5]].dof[0]];
+        int type = mesh->type;
+        double *at = &v[mesh->node[element->node[5]].dof[type]];
         if (element->sensor >= 0)
-            *at = element->at_sensor[0] * v[mesh->node[element->node[1]].dof[0]] + element->at_sensor[1] * *at +
-                  element->at_sensor[2] * v[mesh->node[element->node[2]].dof[0]];
+            *at = element->at_sensor[0] * v[mesh->node[element->node[1]].dof[type]] + element->at_sensor[1] * *at +
+                  element->at_sensor[2] * v[mesh->node[element->node[2]].dof[type]];
     }
     for (int i = 0; i < to->rotor.ntierod + to->rotor.nbars; i++)
         for (int l = 0; l <= mesh->nslice; l++) {
