@@ -39,6 +39,37 @@ static double *solve_and_check(struct pool *pool, int n, const double *k, const 
     return lambda;
 }
 
+/* A free chain whose springs span twelve decades: the trace of M^-1 K is the sum of the highest eigenvalues, of which the inverse
+ * problem has no digits where the shift is of the size of the lowest. */
+POOL_TEST(all_pairs_of_a_chain_of_soft_and_stiff_springs_are_pairs)
+{
+    struct random_stream stream = {34};
+    for (int turn = 0; turn < 100; turn++) {
+        int n = 3 + turn;
+        double *lambda = numbers(*state, n), *phi = numbers(*state, n * n), trace = 0, sum = 0;
+        rotid_matrix k, m;
+        assert_status(matrix_new(*state, n, 1, 0, NULL, &k), ROTID_OK);
+        assert_status(matrix_new(*state, n, 1, 0, NULL, &m), ROTID_OK);
+        for (int i = 0; i < n; i++)
+            m.band[2 * i] = 1;
+        for (int i = 0; i + 1 < n; i++) {
+            double spring = pow(10, 6 * (2 * random_uniform(&stream) - 1));
+            k.band[2 * i] += spring;
+            k.band[2 * i + 1] = -spring;
+            k.band[2 * i + 2] += spring;
+            trace += 2 * spring;
+        }
+        assert_status(rotid_eigenpairs(&k, &m, n, NULL, NULL, lambda, phi), ROTID_OK);
+        const double *square = dense_transposed_product(*state, n, n, n, phi, phi);
+        for (int i = 0; i < n; i++) {
+            sum += lambda[i];
+            for (int j = 0; j < n; j++)
+                assert_close(square[i + j * n], i == j, 0, 1e-7);
+        }
+        assert_close(sum, trace, 1e-9, 0);
+    }
+}
+
 POOL_TEST(a_part_and_all_pairs_agree_with_the_banded_solver)
 {
     struct random_stream stream = {31};

@@ -4,6 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#define FAR   1e9  /* times the shift: of larger eigenvalues mu has less than seven digits */
+#define APART 1e-4 /* of an eigenvalue: no partner of the one before */
+
 int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e)
 {
     *e = (struct eigen_dense){.n = n, .count = count};
@@ -72,6 +75,29 @@ static int mass_is_definite(struct eigen_dense *e, const double *m)
     return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', e->n, e->a, e->n) == 0;
 }
 
+/* Of eigenvalues far above the shift, mu says as little as of the lowest ones K x = lambda M x itself: pairs above the geometric
+ * mean of both ends come from that. Partners of one eigenvalue come from one of the two. */
+static int solve_highest(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi)
+{
+    int n = e->n, j = 0;
+    size_t square = (size_t)n * (size_t)n;
+    memcpy(e->a, k, square * sizeof(double));
+    memcpy(e->b, m, square * sizeof(double));
+    if (LAPACKE_dsygv_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork))
+        return ROTID_ERROR_EIGEN;
+    double split = sqrt(-e->shift) * sqrt(e->values[n - 1]);
+    while (j < e->count && !(e->values[j] > split && (j == 0 || e->values[j] > (1 + APART) * e->values[j - 1])))
+        j++;
+    if (j > 0 && !isfinite(lambda[j - 1]))
+        return ROTID_ERROR_EIGEN;
+    for (; j < e->count; j++) {
+        lambda[j] = e->values[j];
+        memcpy(phi + (ptrdiff_t)j * n, e->a + (ptrdiff_t)j * n, (size_t)n * sizeof *phi);
+    }
+    put_matrices(e, k, m); /* for eigen_dense_inverse */
+    return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, e->b, n) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
+}
+
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi)
 {
     int n = e->n, passes = e->shift < 0 ? 1 : 2;
@@ -94,10 +120,8 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
         int status = solve_inverse(e, k, m);
         for (int j = 0; j < e->count && !status; j++) {
             int source = e->count - 1 - j;
-            double mu = e->values[source], scale = 1 / sqrt(mu);
-            if (!(mu > 0))
-                status = ROTID_ERROR_MASS;
-            lambda[j] = 1 / mu + e->shift;
+            double mu = e->values[source], scale = 1 / sqrt(mu); /* M is positive: below zero by rounding */
+            lambda[j] = mu > 0 ? 1 / mu + e->shift : (double)INFINITY;
             for (int i = 0; i < n; i++)
                 phi[i + (ptrdiff_t)j * n] = scale * e->vectors[i + (ptrdiff_t)source * n];
         }
@@ -106,12 +130,14 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
         if (status)
             return status;
         int reference = e->count < 4 ? e->count - 1 : 3; /* past two rigid modes; past more of them where there are more */
-        while (reference + 1 < e->count && lambda[reference] < 1e-13 * most)
+        while (reference > 0 && !isfinite(lambda[reference]))
+            reference--;
+        while (reference + 1 < e->count && lambda[reference] < 1e-13 * most && isfinite(lambda[reference + 1]))
             reference++;
         if (most > 0 && lambda[reference] >= 1e-13 * most)
             e->shift = -lambda[reference];
     }
-    return ROTID_OK;
+    return lambda[e->count - 1] < FAR * -e->shift ? ROTID_OK : solve_highest(e, k, m, lambda, phi);
 }
 
 void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y)
