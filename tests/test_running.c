@@ -297,6 +297,42 @@ POOL_TEST(critical_speeds_between_rows_of_a_table_are_those_of_the_closed_form)
     }
 }
 
+/* Between rows of a table whose damping rises beyond critical Im lambda = sqrt(k/m - (c/2m)^2) falls from above the speed to 0,
+ * and comes back. Both ends of such a row are speeds of the diagram, and at one of them there is no mode. */
+POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)
+{
+    static const double rows[6] = {0, 3000, 3100, 3150, 3200, 9000}, damping[6] = {10, 10, 1e6, 1e6, 10, 10};
+    const double k = 6e6, m = 50;
+    char *table = pool_format(&test_pool, "speed_rpm,kxx,kyy,cxx,cyy\n");
+    for (int i = 0; i < 6; i++)
+        table = pool_format(&test_pool, "%s%g,3e6,3e6,%g,%g\n", table, rows[i], damping[i], damping[i]);
+    const char *path = folder_write("fall.csv", table);
+    const char *deck = pool_format(&test_pool,
+                                   "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, "
+                                   "0.2, 0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=%s\nstart\n"
+                                   "*BEARING, FILE=%s\nend\n",
+                                   path, path);
+    struct running_case c;
+    int count = 0;
+    double before = 1;
+    assert_int_equal(running_case_open(deck, 6000, 41, 0, &c), ROTID_OK);
+    for (int i = 1; i < 600000; i++) { /* steps of 0.01 rpm */
+        double rpm = 0.01 * i, w = rpm * PI / 30, each = damping[0];
+        for (int r = 0; r < 5; r++)
+            if (rpm >= rows[r] && rpm <= rows[r + 1])
+                each = damping[r] + (damping[r + 1] - damping[r]) * (rpm - rows[r]) / (rows[r + 1] - rows[r]);
+        double now = k / m - each * each / (m * m) - w * w; /* c/2m of two bearings */
+        for (int whirl = 0; whirl < 2 && now * before < 0; whirl++) {
+            assert_true(count < c.speeds.ncritical_speeds);
+            assert_close(c.speeds.critical_speeds[count++].speed_rpm, rpm, 5e-5, 0);
+        }
+        before = now;
+    }
+    assert_int_equal(count, 6);
+    assert_int_equal(c.speeds.ncritical_speeds, 6);
+    running_case_close(&c);
+}
+
 /* A loss factor makes Im lambda jump where it crosses the speed: what is called critical lies between, side 0. */
 POOL_TEST(a_jump_at_a_critical_speed_hides_none)
 {

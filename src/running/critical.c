@@ -272,6 +272,34 @@ static int is_taken(const struct system *s, int count, const struct critical *al
     return 0;
 }
 
+/* A mode above h times the speed that is overdamped at the next speed has crossed it where Im lambda fell to 0 between: *from and
+ * *to := speeds before and behind that, with the mode at *from in pair. 0, or 1 where it is lost first. */
+static int bracket_fall(struct system *s, double h, double *from, double *to, struct pair *pair, struct pair *near)
+{
+    for (int half = 0; half < DIVERGED; half++) {
+        double middle = (*from + *to) / 2;
+        pair_copy(s->size, pair, near);
+        if (pair_follow(s, *from, middle, 1, near)) {
+            *to = middle;
+            continue;
+        }
+        if (cimag(near->lambda) <= h * middle) {
+            *to = middle;
+            return 0;
+        }
+        pair_copy(s->size, near, pair);
+        *from = middle;
+    }
+    return 1;
+}
+
+/* The crossing of a mode that is there at `from` alone, not at `to`. 0, or 1 where there is none. */
+static int cross_to_rest(struct system *s, double from, double to, double h, struct critical *c, struct pair near)
+{
+    return cimag(c->pair.lambda) <= h * from || bracket_fall(s, h, &from, &to, &c->pair, &near) ||
+           cross(s, from, to, h, 1, c, near);
+}
+
 int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, double h, int *count, struct critical **critical,
                    double *missed)
 {
@@ -283,11 +311,19 @@ int criticals_find(struct pool *pool, struct system *s, const struct tracks *t, 
         for (int i = 0; i + 1 < t->nspeed; i++) {
             const struct pair *a = track_at(t, m, i), *b = track_at(t, m, i + 1);
             double from = t->speed[i], to = t->speed[i + 1];
-            if (!is_there(a) || !is_there(b) || (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0)
+            int both = is_there(a) && is_there(b);
+            if (both ? (cimag(a->lambda) - h * from) * (cimag(b->lambda) - h * to) > 0 : !is_there(a) && !is_there(b))
                 continue;
             struct critical c = {.mode = m};
             if (pair_new(pool, s->size, &c.pair) || (!near.u && pair_new(pool, s->size, &near)))
                 return ROTID_ERROR_MEMORY;
+            if (!both) {
+                pair_copy(s->size, is_there(a) ? a : b, &c.pair);
+                if (!cross_to_rest(s, is_there(a) ? from : to, is_there(a) ? to : from, h, &c, near) &&
+                    !is_taken(s, *count, *critical, &c) && POOL_ADD(pool, *critical, *count, &c))
+                    return ROTID_ERROR_MEMORY;
+                continue;
+            }
             /* a long step may go straight on from one locus to another one where short ones veer: then the other one crosses */
             int lost = 1, taken = 0;
             for (int least = 1; least <= FINEST && lost; least *= 16)
