@@ -279,6 +279,24 @@ POOL_TEST(modes_whose_order_two_meshes_have_otherwise_lead_to_their_own_limits)
     assert_int_equal(s.apart, 6);
 }
 
+/* Elements of order 7 of a program of its own in numpy: 11575, 21231, 23211, 34753, 46330, 47826 Hz. The fifth has waves of two
+ * elements and comes seventh on this mesh: that what stands in its place has another number is said. */
+POOL_TEST(a_mode_that_finer_meshes_alone_have_is_said_to_be_missed)
+{
+    struct rig b;
+    struct spectrum s;
+    rig_begin(&b, 2);
+    b.group[0].material = (struct material){.name = "thin", .e = 8.32e10, .g = 1.81e10, .nu = 0.3, .rho = 1136};
+    b.group[1].material = (struct material){.name = "soft", .e = 1.36e11, .g = 8.55e9, .nu = 0.1, .rho = 11394};
+    rig_section(&b, 0, 0.0444, 0.0199);
+    rig_section(&b, 1, 0.0374, 0.0795);
+    assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID_TORSION), &b.rotor, 0, NULL, NULL,
+                                         ROTID_GUYAN, 6, SPECTRUM_MESH, &s),
+                  ROTID_OK);
+    assert_close(s.full_hz[4], 47826, 3e-3, 0);
+    assert_int_equal(s.apart, 5);
+}
+
 /* Exact: Euler's rod, whose shear and rotary inertia are 1e-6 of the frequency and less; and a beam of 9000 elements. */
 POOL_TEST(rigid_motions_of_a_slender_rod_are_no_elastic_modes)
 {

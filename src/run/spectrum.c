@@ -10,7 +10,7 @@
 #define ROUGH        1e-4  /* the same of a trial */
 #define APART        0.02  /* of a frequency: two meshes that differ by more lead nowhere */
 #define ALIKE        0.8   /* MAC of a mode on two meshes, weighted by the mass: of those of a crossing each has 0.5 */
-#define CROSSED      1e-3  /* of a frequency: a mode whose limit is this far below that of the mode before has the wrong number */
+#define CROSSED      1e-3  /* of a frequency: a limit so far below the one before, or above a mode that was missed */
 #define OF_A_WAVE    0.2   /* that an element may be long: a quadratic one raises its frequency by 0.1 % */
 #define MOST_FINE    50000 /* unknowns of a mesh that may be refined once more */
 #define MOST_ENTRIES 2e7   /* of its K, which has eight times as many then */
@@ -256,11 +256,20 @@ static int can_be_refined(const struct solution *solution)
     return solution->size <= MOST_FINE && (double)solution->size * (solution->model->equations.kd + 1) <= MOST_ENTRIES;
 }
 
+/* The lowest mode of a solution that none of the mesh before has the shape of; infinite: none. */
+static double newcomer_hz(const struct solution *s, int count)
+{
+    for (int i = 0; i < count && s->same; i++)
+        if (s->same[i] < 0)
+            return s->hz[s->model->equations.nrigid + i];
+    return INFINITY;
+}
+
 /* Leads the modes whose meshes are apart, or both too coarse for their waves, by finer and finer ones, until two of these agree
- * or the unknowns are too many. */
+ * or the unknowns are too many. *missed: lowered to a mode that only the finer ones have. */
 static int refine_apart(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                         const struct parameter *parameter, const double *x, struct manner manner, const struct mesh_limit *limit,
-                        const struct solution *own, struct spectrum *s)
+                        const struct solution *own, struct spectrum *s, double *missed)
 {
     struct solution before = *own;
     int status = ROTID_OK, *at = POOL_ARRAY(pool, int, s->count);
@@ -285,6 +294,8 @@ static int refine_apart(struct pool *pool, struct models *models, const struct r
             }
             at[j] = partner;
         }
+        if (!status)
+            *missed = fmin(*missed, newcomer_hz(&finer, count));
         before = finer;
     }
     for (int j = 0; j < s->count; j++)
@@ -298,6 +309,7 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
                    struct spectrum *s)
 {
     struct solution own = {0}, other = {0};
+    double missed = INFINITY;
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
     const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models), rotor);
     int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
@@ -340,12 +352,13 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         lead(hz, &other, partner, limit.share, limit.counts, s, j);
     }
     if (limit.counts && coarse_first)
-        status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s);
+        status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s, &missed);
     if (status)
         return status;
     for (int j = count - 1; j >= 0 && coarse_first; j--)
-        s->apart =
-            isnan(s->mesh_error_percent[j]) || (j > 0 && s->full_hz[j] < (1 - CROSSED) * s->full_hz[j - 1]) ? j + 1 : s->apart;
+        if (isnan(s->mesh_error_percent[j]) || missed < (1 - CROSSED) * s->full_hz[j] ||
+            (j > 0 && s->full_hz[j] < (1 - CROSSED) * s->full_hz[j - 1]))
+            s->apart = j + 1;
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other.model->equations.n < equations->n;
     if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)
