@@ -1,5 +1,6 @@
 /* The memory of the first layer: every allocation that fails, all of it from the host's allocator, all of it given back, and no
  * result that leans on the deck. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -275,6 +276,49 @@ UNIT_TEST(results_are_small)
     rotid_diagnosis_free(diagnosis);
     rotid_deck_free(deck);
     assert_int_equal(memory.in_use, 0);
+}
+
+/* ------------------------------------------------------------------------------------------------ files */
+
+static int openings = -1; /* before the one for whose stream there is no memory; below 0: none */
+
+/* In place of the one of libc, in this program */
+FILE *fdopen(int descriptor, const char *mode)
+{
+    char path[40];
+    if (openings-- == 0) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    (void)snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+    FILE *stream = fopen(path, mode);
+    if (stream)
+        (void)close(descriptor);
+    return stream;
+}
+
+/* A file that has no stream for want of memory is no mistake of the deck. */
+UNIT_TEST(no_memory_for_a_stream_is_no_error_of_the_input)
+{
+    static const struct {
+        const char *name, *text;
+    } decks[] = {
+        {"plain.inp", "*MATERIAL, NAME=s\n"},
+        {"outer.inp", "*INCLUDE, FILE=bar.inp\n"},
+        {"table.inp", "*MODES, FILE=modes.csv\n"},
+        {"shapes.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.1\n"
+                       "*MEASURED, FILE=modes.unv\n"},
+    };
+    (void)folder_write("modes.csv", "mode,frequency\n1,100\n");
+    (void)folder_write("modes.unv", "    -1\n    15\n    -1\n");
+    for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
+        rotid_deck *deck;
+        const char *path = folder_write(decks[i].name, decks[i].text);
+        openings = i > 0;
+        assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_ERROR_MEMORY);
+        assert_int_equal(openings, -1);
+        rotid_deck_free(deck);
+    }
 }
 
 static int open_folder(void **state)

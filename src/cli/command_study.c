@@ -85,7 +85,10 @@ int study_prepare(struct command *command, struct study *study)
         struct stat about;
         if (stat(command->file[i], &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode))
             return arguments_wrong("%s is no regular file, expected one, for it is read several times", command->file[i]);
-        plans += plan_is(command->file[i]);
+        int is = plan_is(command->file[i]);
+        if (is < 0)
+            return command_fail(command, is);
+        plans += is;
     }
     if (plans && command->nfile > 1)
         return arguments_wrong("%s: a plan and another file, expected one plan, or decks", command->name);

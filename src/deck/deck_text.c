@@ -436,7 +436,8 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     if (failed) {
         text_error(reader, (struct place){from.file ? from.file : path, from.line, from.column},
                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
-        return ROTID_ERROR_IO;
+        reader->out_of_memory |= file_status(failed) == ROTID_ERROR_MEMORY;
+        return file_status(failed);
     }
     reader->out_of_memory |= deck_text_add_file(reader->pool, reader->text, path) != ROTID_OK;
     reader->depth += from.file != NULL;

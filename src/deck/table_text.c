@@ -299,9 +299,10 @@ int table_text_read(struct pool *pool, const char *path, struct place from, stru
     FILE *stream = file_open(path, 0, &about);
     *table = (struct table_text){.path = path};
     if (!stream) {
+        int status = file_status(errno);
         message_add(messages, SEVERITY_ERROR, from.file, from.line, from.column, "cannot read %s: %s, expected a table as CSV",
                     path, file_error_text(errno, why));
-        return ROTID_ERROR_IO;
+        return status;
     }
     char *text = read_whole(pool, stream, &length);
     int failed = ferror(stream) ? errno : 0;

@@ -49,6 +49,9 @@ FILE *file_open_own(const char *path);
 
 #define FILE_NOBODY "nobody is at the other end of this pipe"
 
+/* What the error number of an opening says to a caller: ROTID_ERROR_MEMORY where memory ran out, else ROTID_ERROR_IO. */
+int file_status(int number);
+
 /* host_error_text, but for ENXIO, whose text of the system says nothing about pipes. */
 const char *file_error_text(int number, char *text);
 

@@ -135,6 +135,11 @@ FILE *file_open_own(const char *path)
     return NULL;
 }
 
+int file_status(int number)
+{
+    return number == ENOMEM ? ROTID_ERROR_MEMORY : ROTID_ERROR_IO;
+}
+
 const char *file_error_text(int number, char *text)
 {
     return number == ENXIO ? FILE_NOBODY : host_error_text(number, text);

@@ -269,8 +269,9 @@ static int read_text(struct analyser *a, struct pool *scratch, char **text)
     char why[256];
     FILE *file = file_open_regular(a->path, &about);
     if (!file) {
+        int status = file_status(errno);
         message_add(a->messages, SEVERITY_ERROR, a->path, 1, 1, "cannot be opened: %s", file_error_text(errno, why));
-        return ROTID_ERROR_IO;
+        return status;
     }
     *text = POOL_ARRAY(scratch, char, about.st_size + 1);
     size_t length = *text ? fread(*text, 1, (size_t)about.st_size, file) : 0;

@@ -14,6 +14,8 @@ static int read_text(struct pool *pool, const char *file, struct message_list *m
     FILE *stream = file_open_regular(file, &is);
     int status = ROTID_ERROR_IO;
     const char *why = NULL;
+    if (!stream && errno == ENOMEM)
+        status = ROTID_ERROR_MEMORY;
     if (!stream)
         why = errno == EISDIR   ? "is a folder, expected a file of JSON"
               : errno == EINVAL ? "is no regular file, expected one of JSON"

@@ -473,7 +473,9 @@ int plan_is(const char *path)
     int found = 0;
     pool_open(&pool, NULL);
     message_open(&unheard, &pool);
-    if (deck_text_read(&pool, path, &unheard, &text) != ROTID_ERROR_MEMORY)
+    if (deck_text_read(&pool, path, &unheard, &text) == ROTID_ERROR_MEMORY)
+        found = ROTID_ERROR_MEMORY;
+    else
         for (int c = 0; c < text.ncard; c++)
             found |= !strcmp(text.card[c].name, "STUDY");
     pool_close(&pool);

@@ -135,7 +135,7 @@ int plan_read(struct pool *pool, const char *path, struct message_list *messages
 /* The plan that runs each deck once as it stands. ROTID_OK or ROTID_ERROR_MEMORY. */
 int plan_of_decks(struct pool *pool, int count, char *const *path, struct plan *plan);
 
-/* Whether the cards of a file have *STUDY among them; 0 also where it cannot be read. */
+/* Whether the cards of a file have *STUDY among them; 0 also where it cannot be read; or ROTID_ERROR_MEMORY. */
 int plan_is(const char *path);
 
 /* ---------------------------------------------------------------------------------------------------- study, check, draw */

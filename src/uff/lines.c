@@ -154,9 +154,10 @@ int uff_open_lines(struct uff_lines *lines)
     errno = 0;
     lines->stream = file_open(lines->path, 1, &about); /* `buffer` is the only one */
     if (!lines->stream) {
+        int status = file_status(errno);
         message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be %s: %s", errno == EISDIR ? "read" : "opened",
                     file_error_text(errno, why));
-        return ROTID_ERROR_IO;
+        return status;
     }
     lines->size = S_ISREG(about.st_mode) ? (long long)about.st_size : -1;
     return ROTID_OK;
