@@ -831,6 +831,11 @@ int evidence_open(struct pool *pool, const struct states *states, const int *num
 int evidence_of_fit(const struct evidence_data *data, const struct states *states, int nown, const rotid_fit_result *fit,
                     int nmember, const struct candidate *member, int nfault, struct fault_column *fault,
                     const struct scan *else_scan, struct evidence *out);
+/* A random field of relative stiffness or mass along the rotor: cosines with the spectrum of a squared exponential, by the
+ * columns of the narrowest zones or of the masses of a scan. column [nrow * EVIDENCE_PROFILE_TERMS]: of unit amplitude. Returns
+ * their number, 0 where the scan has none. */
+#define EVIDENCE_PROFILE_TERMS 12
+int evidence_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column);
 /* ln of what a minimum at another place adds to Z as a factor, if that is as wide; 0 where there is none. */
 double evidence_of_other_place(const struct refit *refit);
 

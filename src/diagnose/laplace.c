@@ -26,7 +26,6 @@
 #define ELSE_MOST     1000.0
 #define ELSE_SHAPES   16 /* amplitudes tried */
 #define ELSE_LINES    8
-#define PROFILE_TERMS 12   /* cosines of a field of stiffness or mass along the rotor */
 #define PROFILE_SIZES 5    /* amplitudes tried, */
 #define PROFILE_LEAST 0.02 /* of the relative change */
 #define PROFILE_MOST  0.6
@@ -526,10 +525,7 @@ static int with_field(const struct evidence_data *d, struct pool *pool, int n, c
     return ROTID_OK;
 }
 
-/* A random field of relative stiffness or mass along the rotor: cosines with the spectrum of a squared exponential, by the
- * columns of the narrowest zones or of the masses of a scan. column [nrow * PROFILE_TERMS]: of unit amplitude; 0 where the scan
- * has none. */
-static int add_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column)
+int evidence_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column)
 {
     const struct scan_candidate *c = NULL;
     for (int i = 0; i < scan->ncandidate && !c; i++)
@@ -538,14 +534,14 @@ static int add_profile(const struct scan *scan, const struct states *states, con
     if (!c)
         return 0;
     const struct rotor *rotor = &states->state[c->home].job.rotor;
-    double length = rotor_length(rotor), sum = 0, share[PROFILE_TERMS];
+    double length = rotor_length(rotor), sum = 0, share[EVIDENCE_PROFILE_TERMS];
     int step = 1;
     while (step < c->count &&
            scan->item[c->first + step].effect.value[cause->place] <= scan->item[c->first].effect.value[cause->place])
         step++;
-    for (int k = 0; k < PROFILE_TERMS; k++)
+    for (int k = 0; k < EVIDENCE_PROFILE_TERMS; k++)
         sum += share[k] = exp(-pow(k * PI * PROFILE_SCALE, 2) / 2);
-    memset(column, 0, (size_t)scan->nrow * PROFILE_TERMS * sizeof *column);
+    memset(column, 0, (size_t)scan->nrow * EVIDENCE_PROFILE_TERMS * sizeof *column);
     for (int i = 0; i < c->count; i += step) {
         const struct scan_item *item = &scan->item[c->first + i];
         double z = item->effect.value[cause->place], before = i >= step ? item[-step].effect.value[cause->place] : z,
@@ -555,13 +551,13 @@ static int add_profile(const struct scan *scan, const struct states *states, con
         if (!item->usable)
             continue;
         const double *one = scan->column + (ptrdiff_t)(c->first + i) * scan->nrow;
-        for (int k = 0; k < PROFILE_TERMS; k++) {
+        for (int k = 0; k < EVIDENCE_PROFILE_TERMS; k++) {
             double factor = amount * item->norm / item->unit * sqrt(2 * share[k] / sum) * cos(k * PI * z / length);
             for (int j = 0; j < scan->nrow; j++)
                 column[j + (ptrdiff_t)k * scan->nrow] += factor * one[j];
         }
     }
-    return PROFILE_TERMS;
+    return EVIDENCE_PROFILE_TERMS;
 }
 
 /* ln Z with something else: fields over the sensors alone, or small ones and fields of stiffness, of mass or of both along the
@@ -569,7 +565,7 @@ static int add_profile(const struct scan *scan, const struct states *states, con
 static int something_else(const struct evidence_data *d, struct pool *pool, const struct states *states, const struct scan *scan,
                           int n, const struct unknown *u, const double *rows, int nown, struct evidence *out)
 {
-    int nrow = d->nrow, most_columns = n + 2 * PROFILE_TERMS, tried = 1;
+    int nrow = d->nrow, most_columns = n + 2 * EVIDENCE_PROFILE_TERMS, tried = 1;
     double weighed = -INFINITY, sum;
     struct unknown *all = POOL_ARRAY(pool, struct unknown, most_columns);
     double *more = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(most_columns + 1));
@@ -584,8 +580,8 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
         int count = 0;
         for (int k = 0; k < 2; k++)
             if (kinds & 1 << k)
-                count += add_profile(scan, states, catalogue_find(k ? "added_mass" : "stiffness_local"),
-                                     more + (ptrdiff_t)(n + count) * nrow);
+                count += evidence_profile(scan, states, catalogue_find(k ? "added_mass" : "stiffness_local"),
+                                          more + (ptrdiff_t)(n + count) * nrow);
         double one;
         if (!count)
             continue;

@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <math.h>
 #include <signal.h>
+#include <string.h>
 #include <time.h>
 
 #include "hide/hide_text.h"
@@ -17,18 +18,20 @@ static const char usage[] =
     "  --jobs N         cases at once (2)\n"
     "  --only KIND      of `hide --random`: none, an id, physical, data, outside, pair; in place of the mixture\n"
     "  --changed        pairs of states with an error of the model in both: what changed between them\n"
+    "  --prior[=stated] cases from the priors and the model of the diagnosis itself: are its probabilities true? =stated: the\n"
+    "                   noise is as stated, which the priors allow to differ\n"
     "  --log FILE       a line of JSON a case; goes on with what the file holds\n"
     "  --keep FOLDER    leaves there the deck of a case and its truth: case_N.inp, case_N.json\n"
     "  --suggest        makes the tests that rotid suggest proposes of ambiguous cases, and counts what becomes of its promises\n"
     "Interrupted, it shows what is finished. Exit code: 0 all requirements hold, 1 one does not, 2 wrong usage, 3 a file or "
     "memory.\n";
 
-enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, SUGGEST, HELP };
+enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, PRIOR, LOG, KEEP, SUGGEST, HELP };
 
-static const struct option long_options[] = {{"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST}, {"seed", 1, NULL, SEED},
-                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},   {"changed", 0, NULL, CHANGED},
-                                             {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},   {"suggest", 0, NULL, SUGGEST},
-                                             {"help", 0, NULL, HELP},   {NULL, 0, NULL, 0}};
+static const struct option long_options[] = {
+    {"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST},     {"seed", 1, NULL, SEED}, {"jobs", 1, NULL, JOBS},
+    {"only", 1, NULL, ONLY},   {"changed", 0, NULL, CHANGED}, {"log", 1, NULL, LOG},   {"prior", 2, NULL, PRIOR},
+    {"keep", 1, NULL, KEEP},   {"suggest", 0, NULL, SUGGEST}, {"help", 0, NULL, HELP}, {NULL, 0, NULL, 0}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -69,6 +72,9 @@ static int take(int option, struct power_options *o)
     case CHANGED:
         o->changed = 1;
         return 0;
+    case PRIOR:
+        o->prior = 1 + (optarg != NULL);
+        return optarg && strcmp(optarg, "stated") != 0;
     case LOG:
         o->log = optarg;
         return 0;
@@ -104,7 +110,8 @@ int main(int argc, char **argv)
     set_blas_threads(1);
     signal(SIGINT, interrupt);
     signal(SIGTERM, interrupt);
-    return o.changed   ? power_changed(&o, &interrupted, stdout)
+    return o.prior     ? power_calibration(&o, &interrupted, stdout)
+           : o.changed ? power_changed(&o, &interrupted, stdout)
            : o.suggest ? power_suggest(&o, &interrupted, stdout)
                        : power_run(&o, &interrupted, stdout);
 }

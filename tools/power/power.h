@@ -7,12 +7,15 @@
 #include <stdio.h>
 
 #include "hidden.h"
+#include "hide/hide_random.h"
+#include "hide/hide_text.h"
 
 struct power_options {
     int cases, first, jobs, changed;
     uint64_t seed;
     const char *only; /* kind of effect of `hide --random`, or NULL: the mixture */
     const char *log;  /* a line of JSON a case; what it holds is not done again. NULL: none */
+    int prior;        /* cases from the priors of the diagnosis; 2: but for the noise, which is as stated */
     int suggest;      /* what becomes of the tests that are proposed, in place of the diagnosis alone */
     const char *keep; /* directory for decks and truths, NULL: they are removed */
 };
@@ -51,6 +54,9 @@ FILE *power_lines(const char *path, int (*take)(void *context, const cJSON *line
 /* Opens the log to go on with it, and takes what it holds of these cases into result[options->cases]. NULL likewise. */
 FILE *power_log(const struct power_options *options, struct power_result *result);
 
+/* Leaves a deck as NAME_NUMBER.inp in the folder `keep`. */
+void power_keep(const struct power_options *options, const char *name, int number, const char *text);
+
 /* ---- the run */
 
 /* Runs the cases, shows the progress on a terminal, writes the report. Ends after the cases under way as soon as *interrupted is
@@ -69,6 +75,33 @@ int power_changed(const struct power_options *options, const volatile sig_atomic
  * first, the same test again, and that with twice the sensors, diagnoses each with what was measured as two states, and counts
  * names beside what was promised. 0, or 3: a file or memory. */
 int power_suggest(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
+
+/* ---- self-consistency */
+
+/* Draws an explanation from the priors of the diagnosis, its causes and their sizes, of the candidates that scan_list lists;
+ * shapes are measured: faults of channels as well. */
+void power_prior_draw(const struct rotor *rotor, const struct scan *list, int shapes, struct hide_random *random,
+                      struct explanation *e);
+int power_prior_kinds(const struct scan *list, int shapes); /* of causes, all as likely */
+
+struct prior_case {
+    struct hide_text deck; /* with the data; its data are to be freed */
+    struct explanation truth;
+    const struct segment *segment; /* with the elements that the data were computed on */
+    int kinds, draws;              /* draws: with those whose data cannot be measured */
+};
+
+/* Rotor, sensors and noise of the request, an explanation, and data that the model of the diagnosis makes of it. stated: the
+ * noise is as stated, else its level is drawn too. ROTID_OK, memory, ROTID_ERROR_ARGUMENT without data. */
+int power_prior_case(struct pool *pool, const struct hide_request *request, int stated, struct prior_case *out);
+
+/* Cases from the priors: the leading explanation of each, its probability, and whether it is the truth. 0 where the bands hold, 1
+ * where not, 3 a file or memory. */
+int power_calibration(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
+
+/* The table in ten bins of the probability, with bands that hold together 19 times of 20 where the probabilities are true; log
+ * score. 0 where all bins are inside. */
+int power_bands(FILE *out, int count, const double *probability, const int *right);
 
 /* Tables and requirements of what is done; 0 where all of these hold. */
 int power_report(FILE *out, int count, const struct power_result *result);

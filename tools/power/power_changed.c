@@ -134,15 +134,6 @@ static char *quiet_deck(const struct hide_request *request, const struct hidden_
     return hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
 }
 
-static void keep(const struct power_options *options, int number, const char *text)
-{
-    char path[600];
-    (void)snprintf(path, sizeof path, "%s/pair_%d.inp", options->keep, number);
-    FILE *file = fopen(path, "w");
-    if (!file || fputs(text, file) < 0 || fclose(file))
-        fprintf(stderr, "power: cannot write %s\n", path);
-}
-
 static int run_pair(void *context, int index, int worker)
 {
     struct pairs *pairs = context;
@@ -181,7 +172,7 @@ static int run_pair(void *context, int index, int worker)
         }
     }
     if (text && options.keep)
-        keep(&options, options.first + index, text);
+        power_keep(&options, "pair", options.first + index, text);
     if (text) {
         if (!comes) {
             cJSON_DeleteItemFromObject(second, "effects");

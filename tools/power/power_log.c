@@ -268,3 +268,12 @@ FILE *power_log(const struct power_options *options, struct power_result *result
     struct taking taking = {options, result};
     return power_lines(options->log, take_line, &taking);
 }
+
+void power_keep(const struct power_options *options, const char *name, int number, const char *text)
+{
+    char path[600];
+    (void)snprintf(path, sizeof path, "%s/%s_%d.inp", options->keep, name, number);
+    FILE *file = fopen(path, "w");
+    if (!file || fputs(text, file) < 0 || fclose(file))
+        fprintf(stderr, "power: cannot write %s\n", path);
+}
