@@ -122,3 +122,37 @@ UNIT_TEST(what_is_hidden_leads)
     rmdir(directory);
     free(deck);
 }
+
+/* Of a free rotor in one group with E unknown the density: its frequencies are those of another E, so that nothing tells it from
+ * nothing, and their ratio stays that of the priors. */
+static void check_inseparable(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                              const struct hidden_score *unused)
+{
+    const struct posterior *p = &d->posterior;
+    double density = 0;
+    (void)c, (void)truth, (void)unused;
+    for (int i = 0; i < p->count; i++)
+        if (p->item[i].nmember == 1 && !p->item[i].something_else && !strcmp(p->item[i].member[0].cause->id, "density"))
+            density += p->item[i].probability;
+    assert_close(density / p->nothing, exp(posterior_log_prior(1, 0) - posterior_log_prior(0, 0)) / p->nkind, 1e-9, 0);
+    (*(int *)context)++;
+}
+
+UNIT_TEST(what_no_data_tell_apart_keeps_the_ratio_of_the_priors)
+{
+    char directory[] = "/tmp/hidden.XXXXXX";
+    int checked = 0;
+    struct hidden_case c = {.request = hide_request_default(), .directory = directory};
+    struct hidden_score score;
+    assert_non_null(mkdtemp(directory));
+    c.request.name = "free";
+    c.request.deck = "*MATERIAL, NAME=own\n*ELASTIC\n1.5e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=own\n"
+                     "0.5, 0.1, 0, 20\n0.5, 0.06, 0, 20\n*IDENTIFY\ncore.E, 3e10, 6e11, 1.2e11\n";
+    c.request.modes = 6;
+    c.request.sensors = 17;
+    c.request.seed = 4;
+    assert_int_equal(hidden_run(&c, NULL, check_inseparable, &checked, &score), 0);
+    assert_int_equal(score.outcome, HIDDEN_SILENT);
+    assert_int_equal(checked, 1);
+    rmdir(directory);
+}

@@ -296,9 +296,19 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
     e->by_columns = 1;
 }
 
+/* A cause whose columns lie within those of the unknowns: no fit tells it from what it was added to. */
+static int is_inseparable(const struct proposal *p)
+{
+    const struct scan_candidate *c = p->candidate < 0 ? NULL : &p->scan->candidate[p->candidate];
+    return c && c->count && c->best < 0;
+}
+
+/* Those that can be fitted before the others. */
 static int by_gain(const void *a, const void *b)
 {
     const struct proposal *one = a, *two = b;
+    if (is_inseparable(one) != is_inseparable(two))
+        return is_inseparable(one) - is_inseparable(two);
     double first = one->set.log_posterior, second = two->set.log_posterior;
     return (first < second) - (first > second);
 }
@@ -636,7 +646,8 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
     count = keep_first(proposal, count);
     double best = best_stated(p);
-    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN)
+    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN &&
+           !is_inseparable(&proposal[fits]))
         fits++;
     status = fit_proposals(engine, result, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
