@@ -164,6 +164,30 @@ POOL_TEST(a_smooth_solid_that_is_soft_in_shear_leaves_more)
     }
 }
 
+/* A disc of sheets bends in its plane, whose E is 51 times G though that of its axis is five times. Reference: elements of order
+ * 10 of a program of its own in numpy, which differ by 5e-5 from those of order 8. */
+POOL_TEST(a_disc_of_sheets_that_slide_leaves_more_too)
+{
+    static const double disc[5] = {2621.432, 3674.364, 4764.015, 6521.076, 6742.302};
+    struct rig b;
+    struct spectrum s;
+    rig_begin(&b, 1);
+    b.group[0].material = rig_stack;
+    b.group[0].material.e = 2e10;
+    b.group[0].material.g = 4e9;
+    b.group[0].material.nu = 0.3;
+    b.group[0].material.rho = 7700;
+    b.group[0].material.sheet_e = 2.1e11;
+    b.group[0].material.stacking = 2.04 / 2.1;
+    rig_section(&b, 0, 0.1, 0.4);
+    assert_status(spectrum_compute_parts(&test_pool, models_as(&test_pool, AS_SOLID), &b.rotor, 0, NULL, NULL, ROTID_GUYAN, 5,
+                                         SPECTRUM_MESH, &s),
+                  ROTID_OK);
+    assert_hz(5, s.full_hz, disc, 2e-3);
+    for (int j = 0; j < 5; j++)
+        assert_true(fabs(100 * (s.full_hz[j] / disc[j] - 1)) < s.mesh_error_percent[j]);
+}
+
 POOL_TEST(a_smooth_solid_leaves_a_fifteenth_of_the_distance_of_two_meshes)
 {
     static const struct {

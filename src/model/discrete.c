@@ -350,8 +350,11 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
     int twist = as == AS_SOLID_TORSION;
     if (!solid_has_corners(rotor)) {
         double soft = 1;
-        for (int i = 0; i < rotor->ngroup; i++)
-            soft = fmax(soft, rotor->group[i].material.e / material_shear_modulus(&rotor->group[i].material) / RESOLVED);
+        for (int i = 0; i < rotor->ngroup; i++) {
+            const struct material *m = &rotor->group[i].material;
+            double stiff = m->laminated ? fmax(m->e, m->stacking * m->sheet_e) : m->e; /* a disc of sheets bends in its plane */
+            soft = fmax(soft, stiff / material_shear_modulus(m) / RESOLVED);
+        }
         double share = fmin(OF_SMOOTH * soft, OF_EDGE);
         return (struct mesh_limit){COARSE_MESH, share, 1, 4, share};
     }
