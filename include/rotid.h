@@ -1564,9 +1564,9 @@ ROTID_API void rotid_host_diagnosis_free(rotid_host_diagnosis *diagnosis);
  * block both triangles. error [2 * nparam]: |claimed - D| / max(|claimed|, |D|) of dK/dx_p, p = 0 ..., then of dM/dx_p, 0 where
  * both vanish, 1 where one does, or the same ratio of derivative_products and dK u, dM u for the lowest modes u, where that is
  * larger; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its error exceeds both 1e-6
- * and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
- * fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK, _ARGUMENT,
- * _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
+ * and doubt; both are NaN where `matrices` has no model around x, or x is within 1e-8 of a bound. K and M at x are looked at as
+ * by the fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK,
+ * _ARGUMENT, _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
 ROTID_API int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,
                                 const rotid_environment *environment, char *failure, double *error, double *doubt);
 

@@ -237,6 +237,20 @@ POOL_TEST(units_make_no_difference)
         assert_close(error[q], first[q], 1e-9, 1e-12);
 }
 
+/* Where a fit ended pressed against a bound there is no room for differences, and nothing is said of that parameter. */
+POOL_TEST(a_parameter_at_its_bound_is_not_judged)
+{
+    struct wrong wrong;
+    const double x[N] = {1, 10 - 1e-14, 0.4};
+    open_wrong(0, &wrong);
+    wrong.mass = wrong.claimed = 0.1;
+    assert_status(check(&wrong, x), ROTID_OK);
+    for (int k = 0; k < 2 * N; k++) {
+        assert_int_equal(isnan(error[k]) && isnan(doubt[k]), k % N == 1);
+        assert_true(k % N == 1 || !is_wrong(k));
+    }
+}
+
 POOL_TEST(what_the_fit_refuses_is_refused)
 {
     struct wrong wrong;

@@ -11,6 +11,8 @@
 #define INSIDE                                                                                                                   \
     9 /* times the way to the nearest bound, at most, is the scale of a parameter: its longest step is a tenth of that */
 
+#define NARROW 1e-7 /* of x: differences over less, at a bound, are rounding */
+
 /* What rotid_check_jacobian sees: the entries of K or of M as residuals. */
 struct check {
     struct prediction prediction;
@@ -159,6 +161,9 @@ static int run(struct pool *pool, const rotid_model *model, const rotid_paramete
         status = rotid_check_jacobian(m, n, entries, &check, x, scale, failure, error + place, doubt + place, work);
         status = status == ROTID_ERROR_CALLBACK ? check.status : status;
     }
+    for (int q = 0; q < n; q++)
+        if (scale[q] < NARROW * fabs(x[q]))
+            error[q] = error[n + q] = doubt[q] = doubt[n + q] = NAN;
     return status ? status : check_products(pool, p, x, error);
 }
 
