@@ -1134,7 +1134,7 @@ module rotid
   end type rotid_matrix
 
   type, bind(C) :: rotid_model
-    integer(c_size_t) :: size = 104
+    integer(c_size_t) :: size = 112
     integer(c_int) :: n = 0, kd = 0, nfar = 0
     type(c_ptr) :: far = c_null_ptr    ! integer [nfar], from 0; rotid_fit_model takes it as an array
     integer(c_int) :: nparam = 0
@@ -1147,6 +1147,7 @@ module rotid
     integer(c_int) :: nmodes = 0
     type(c_ptr) :: modes = c_null_ptr  ! real [n, nmodes]: vectors near the lowest modes, to begin with
     type(c_funptr) :: derivative_products = c_null_funptr ! rotid_model_derivative_products
+    type(c_ptr) :: sensor = c_null_ptr ! real [n, nmaster]: the motion at a sensor is column times u; null: masters
   end type rotid_model
 
   type, bind(C) :: rotid_measured

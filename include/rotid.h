@@ -1368,6 +1368,9 @@ typedef struct rotid_model {
     /* NULL, or dk_u := dK/dx_p u and dm_u := dM/dx_p u for u [n * count], which takes less time than the matrices: returns 0,
      * anything else where `derivatives` are to be asked for this parameter. */
     int (*derivative_products)(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u);
+    const double *sensor; /* NULL, or [n * nmaster]: the motion at sensor s is column s times u, where a sensor lies between
+                             degrees of freedom or the unknowns are no motions (of modes, say); ROTID_REDUCTION_NONE alone. master
+                             is not read then */
 } rotid_model;
 
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1

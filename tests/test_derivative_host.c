@@ -140,6 +140,84 @@ POOL_TEST(products_give_the_derivatives_that_the_matrices_give)
     }
 }
 
+/* ---- the same model in unknowns q, u = V q, which are no motions of sensors */
+
+struct turned {
+    struct host host;
+    double v[host_n * host_n], work[host_n * host_n];
+    rotid_model model;
+};
+
+static void turn(const struct turned *t, const rotid_matrix *from, rotid_matrix *to)
+{
+    double sum[host_n * host_n] = {0}, work[host_n * host_n];
+    product_congruence(host_n, host_n, dense_of(&test_pool, from), t->v, work, sum);
+    host_put(to, 1, sum);
+}
+
+static int turned_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    struct turned *t = user;
+    rotid_matrix k, m;
+    assert_status(matrix_new(&test_pool, host_n, host_n - 1, 0, NULL, &k), ROTID_OK);
+    assert_status(matrix_new(&test_pool, host_n, host_n - 1, 0, NULL, &m), ROTID_OK);
+    int failed = host_matrices(&t->host, x, &k, &m);
+    turn(t, &k, stiffness);
+    turn(t, &m, mass);
+    return failed;
+}
+
+POOL_TEST(a_model_in_other_unknowns_with_rows_for_its_sensors_fits_the_same)
+{
+    static const double std[6] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+    static const int number[6] = {1, 2, 3, 4, 5, 6};
+    static const rotid_parameter parameter[2] = {{"a", "1", 0.5, 3, 1.2}, {"b", "1", 0.3, 2, 1}};
+    struct turned t;
+    struct prediction p;
+    struct random_stream stream = {77};
+    double hz[6], shape[36], shape_std[36], sensor[6 * host_n];
+    const rotid_model *model = open_host(*state, &t.host);
+    t.host.model.derivatives = NULL; /* those of the turned one come from differences too */
+    for (int i = 0; i < host_n * host_n; i++)
+        t.v[i] = random_normal(&stream);
+    for (int s = 0; s < 6; s++)
+        for (int j = 0; j < host_n; j++)
+            sensor[j + s * host_n] = t.v[model->master[s] + j * host_n];
+    t.model = *model;
+    t.model.master = NULL;
+    t.model.sensor = sensor;
+    t.model.matrices = turned_matrices;
+    t.model.user = &t;
+    assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, 6, 0, &p), ROTID_OK);
+    assert_status(prediction_compute(&p, host_values), ROTID_OK);
+    for (int k = 0; k < 6; k++) {
+        hz[k] = prediction_hz(&p, k) * (1 + 1e-3 * random_normal(&stream));
+        for (int s = 0; s < 6; s++) {
+            shape[s + 6 * k] = prediction_at_sensor(&p, k, s) + 0.01 * random_normal(&stream);
+            shape_std[s + 6 * k] = 0.05;
+        }
+    }
+    const rotid_measured measured = {.size = sizeof measured,
+                                     .nmode = 6,
+                                     .number = number,
+                                     .frequency_hz = hz,
+                                     .frequency_std = std,
+                                     .shape = shape,
+                                     .shape_std = shape_std};
+    rotid_fit_result *fit[2];
+    for (int turned = 0; turned < 2; turned++)
+        assert_status(rotid_fit(turned ? &t.model : model, parameter, &measured, NULL, NULL, NULL, &fit[turned]), ROTID_OK);
+    assert_true(fit[0]->converged && fit[1]->converged);
+    for (int q = 0; q < 2; q++) {
+        assert_close(fit[1]->x[q], fit[0]->x[q], 1e-7, 0);
+        assert_close(fit[1]->std[q], fit[0]->std[q], 1e-5, 0);
+    }
+    for (int k = 0; k < 6; k++)
+        assert_close(fit[1]->mac[k], fit[0]->mac[k], 1e-8, 0);
+    rotid_fit_free(fit[0]);
+    rotid_fit_free(fit[1]);
+}
+
 /* ---- refusals */
 
 /* By differences, of points on both sides or on the one where there is a model. */

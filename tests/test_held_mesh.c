@@ -93,6 +93,8 @@ POOL_TEST(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts)
         measured_job(shapes, &job);
         message_open(&messages, &test_pool);
         assert_status(identify_run(&test_pool, &job, 0, NULL, &messages, &found), ROTID_OK);
+        print_message("%d evaluations, %d Jacobians\n", found.fit->evaluations, found.fit->jacobians);
+        assert_true(found.fit->evaluations <= 12 && found.fit->jacobians <= 7); /* 15 and 13 without a basis to begin in */
         double fine_hz[MODES];
         rotid_fit_result *fine = fit_fine(&job, found.fit->x, fine_hz);
         for (int p = 0; p < 2; p++) {

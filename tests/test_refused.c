@@ -149,6 +149,11 @@ UNIT_TEST(a_fit_names_what_it_refuses)
     refused(f.model.nmaster = 4, "nmaster is 4, expected 0 ... 3");
     refused(f.model.master = NULL, "master is NULL, expected nmaster = 2 indices");
     refused(f.model.master = backwards, "master[1] is 0 behind 2, expected increasing numbers");
+    static const double rows[6] = {1, 0, 0, 0, 0, 1}, poisoned[6] = {1, 0, 0, 0, NAN, 1};
+    refused((f.model.sensor = poisoned, f.model.master = NULL), "model->sensor[4] is nan, expected a number");
+    refused((f.model.sensor = rows, f.model.nmaster = -1), "model->nmaster is -1, expected 0 or more");
+    refused((f.model.sensor = rows, f.options.reduction = ROTID_GUYAN),
+            "model->sensor is not NULL, which options->reduction condenses away, expected ROTID_REDUCTION_NONE");
     refused(f.chain.far[1] = 3, "far[1] is 3, expected 0 ... 2");
     refused(f.parameter[0].start = 10,
             "parameter[0] spring has lower 1, start 10, upper 10, expected numbers with lower < start < "
@@ -509,7 +514,7 @@ POOL_TEST(what_a_newer_host_asks_for_is_refused_and_zeros_are_not)
                    pool_format(&test_pool, "options->size is %zu, expected sizeof(rotid_fit_options), here %zu", SIZE_MAX,
                                sizeof f.options));
     f.model.size = 0;
-    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 104");
+    assert_refused(fit(&f, NULL), "model->size is 0, expected sizeof(rotid_model), here 112");
     f.model.size = sizeof f.model;
     f.measured.size = 1;
     assert_refused(fit(&f, NULL),

@@ -218,6 +218,42 @@ static void check_products(const struct solid *solid, int p, const rotid_matrix 
     }
 }
 
+/* V'A V of the mesh beside that of a basis, a full matrix */
+static void check_congruence(const rotid_matrix *a, int count, const double *v, const rotid_matrix *in_basis)
+{
+    double *image = numbers(&test_pool, (ptrdiff_t)count * a->n), *expected = numbers(&test_pool, (ptrdiff_t)count * count),
+           *full = numbers(&test_pool, (ptrdiff_t)count * count);
+    matrix_multiply(a, count, v, image);
+    product_transposed(count, count, a->n, v, image, expected);
+    matrix_to_dense(in_basis, count, full);
+    assert_true(relative_difference((size_t)count * (size_t)count, full, expected) < 1e-11);
+}
+
+/* The basis made at x, matrices and derivatives where x_p is another one: zones, springs and masses have moved on. */
+static void check_basis(struct solid *solid, int p, double *x)
+{
+    enum { COUNT = 5 };
+    struct random_stream stream = {40 + (unsigned)p};
+    struct solid_basis basis;
+    rotid_matrix a[4], own[4];
+    int n = solid->mesh.ndof, from, end;
+    double *v = random_numbers(&test_pool, &stream, (ptrdiff_t)n * COUNT), at = x[p];
+    for (int i = 0; i < 4; i++) {
+        assert_status(matrix_new(&test_pool, n, solid->mesh.kd, solid->nfar, solid->far, &a[i]), ROTID_OK);
+        assert_status(matrix_new(&test_pool, COUNT, COUNT - 1, 0, NULL, &own[i]), ROTID_OK);
+    }
+    solid_set(solid, x);
+    assert_status(solid_basis_new(&test_pool, solid, COUNT, v, &basis), ROTID_OK);
+    x[p] *= 1.06;
+    solid_assemble(solid, x, &a[0], &a[1]);
+    solid_differentiate(solid, p, &a[2], &a[3], &from, &end);
+    solid_basis_differentiate(&basis, x, p, &own[2], &own[3]);
+    solid_basis_assemble(&basis, x, &own[0], &own[1]);
+    for (int i = 0; i < 4; i++)
+        check_congruence(&a[i], COUNT, v, &own[i]);
+    x[p] = at;
+}
+
 POOL_TEST(derivatives_agree_with_differences)
 {
     static const char *const names[] = {"core.E",
@@ -320,6 +356,7 @@ POOL_TEST(derivatives_agree_with_differences)
         if (!zero_outside(&dk, from, end) || !zero_outside(&dm, from, end))
             fail_msg("parameter %d moves more than rows %d to %d", p, from, end - 1);
         check_products(&solid, p, &dk, &dm);
+        check_basis(&solid, p, x);
         double scale_k = largest_difference(&k[0], NULL) * 1e-9 / h, scale_m = largest_difference(&m[0], NULL) * 1e-9 / h;
         matrix_combine(0.5 / h, &k[1], -0.5 / h, &k[0], &k[0]);
         matrix_combine(0.5 / h, &m[1], -0.5 / h, &m[0], &m[0]);

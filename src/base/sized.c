@@ -32,7 +32,7 @@ ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, after);
 ENDS_WITH(rotid_suggest_options, speed_backward);
 ENDS_WITH(rotid_speeds_options, seed);
-ENDS_WITH(rotid_model, derivative_products);
+ENDS_WITH(rotid_model, sensor);
 ENDS_WITH(rotid_measured, centre_std);
 ENDS_WITH(rotid_state, parameter);
 ENDS_WITH(rotid_fit_options, decrease_least);

@@ -22,10 +22,10 @@ int baseline_count(int nparam)
     return 0;
 }
 
-int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out, int *count)
+int baseline_run(struct pool *keep, struct joint *joint, struct joint *near, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out, int *count)
 {
-    (void)keep, (void)joint, (void)parameter, (void)environment, (void)work, (void)out;
+    (void)keep, (void)joint, (void)near, (void)parameter, (void)environment, (void)work, (void)out;
     *count = 0;
     return ROTID_OK;
 }
@@ -176,8 +176,8 @@ static void judge(int n, struct problem *problem, rotid_baseline *out)
     out->objective = sum / 2;
 }
 
-int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out, int *count)
+int baseline_run(struct pool *keep, struct joint *joint, struct joint *near, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out, int *count)
 {
     int n = joint->nparam, status = ROTID_OK;
     *count = 0;
@@ -193,10 +193,12 @@ int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *
     for (int a = 0; a < ALGORITHMS && !status; a++) {
         if (n < table[a].least || (table[a].costly && is_costly(joint)))
             continue;
+        problem.joint = near ? near : joint;
         out[*count].x = POOL_ARRAY(keep, double, n);
         status = out[*count].x ? run_one(a, n, &problem, space + n, &out[*count]) : ROTID_ERROR_MEMORY;
         if (problem.cancelled)
             return ROTID_STOP_CANCELLED;
+        problem.joint = joint;
         if (!status)
             judge(n, &problem, &out[(*count)++]);
     }

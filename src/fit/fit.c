@@ -150,9 +150,11 @@ struct fit {
     rotid_fit_result *result;
     struct pool *keep;
     int n, named, callback_status, history_rows, history_failed;
+    int beside;    /* evaluations of the states that the minimiser did not ask for */
     char *failure; /* of the host: why the last evaluation failed */
     double *x, *y, *r, *jacobian, *work;
     double *bounded;        /* dr/dx that was asked for last */
+    const double *known;    /* r at the start, where the joint stands there already, until it is asked for */
     const double *accepted; /* y of the last accepted point, NULL before the first */
     double begin;           /* on the clock */
 };
@@ -197,7 +199,12 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
             return 1;
     for (int p = 0; p < n; p++)
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
-    if (r) {
+    if (r && fit->known) {
+        memcpy(r, fit->known, (size_t)m * sizeof *r);
+        fit->known = NULL;
+        fit->beside--;
+        fit->callback_status = ROTID_OK;
+    } else if (r) {
         fit->callback_status = joint_residual(&fit->joint, fit->x, r);
     } else {
         fit->callback_status = joint_jacobian(&fit->joint, fit->x, fit->bounded);
@@ -222,6 +229,15 @@ static void compare_modes(struct functional *f, int first, rotid_fit_result *res
             f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
         result->mac[first + k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
     }
+}
+
+/* A trace that keeps nothing of the models near the start. */
+static int trace_near(void *user, const rotid_lm_iteration *now)
+{
+    struct fit *fit = user;
+    const rotid_environment *environment = fit->environment;
+    fit->accepted = now->x;
+    return environment && environment->cancelled && environment->cancelled(environment->context);
 }
 
 /* Everything that is known of an accepted point while the functional stands there: the host is not asked for it again, as it may
@@ -389,7 +405,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
     result->status = lm->status;
     result->iterations = lm->iterations;
-    result->evaluations = lm->evaluations;
+    result->evaluations = lm->evaluations + fit->beside;
     result->jacobians = lm->jacobians;
     result->objective = 0;
     for (int i = 0; i < m; i++)
@@ -440,6 +456,91 @@ static int compare_only(struct fit *fit, rotid_lm_result *lm)
     return lm->status;
 }
 
+/* *joint: of models near the point that was evaluated last, where there are any, else *there is 0. */
+static int open_near(struct pool *pool, struct fit *fit, const struct fit_problem *problem, int anew, struct joint *joint,
+                     int *there)
+{
+    const rotid_fit_options *options = &fit->options;
+    const struct joint_state *state;
+    int status = problem->near->models(problem->near->user, pool, &fit->joint, anew, &state);
+    if (!status)
+        status = joint_new(pool, options->functional, options->reduction, options->derivative, fit->n, problem->nstate, state,
+                           problem->more, joint);
+    *there = !status;
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+}
+
+#define NEAR_ROUNDS 6
+#define NEAR_AGREES 1e-6 /* of the objective, or a hundredth of the decrease that is worth nothing */
+
+/* r'r/2 of the states at x, infinite where there is none */
+static double objective_at(struct fit *fit, const double *x)
+{
+    int m = fit->joint.nresidual;
+    fit->beside++;
+    double sum = joint_residual(&fit->joint, x, fit->r) ? (double)INFINITY : product_dot(m, fit->r, fit->r) / 2;
+    return isfinite(sum) ? sum : (double)INFINITY;
+}
+
+/* y := the minimum of models near the start, made anew where the last one ended until they agree there with the states: what the
+ * minimiser has to do with the states themselves is a step then. A point that is no better for these is left, but known to the
+ * next models. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int begin_near(struct pool *pool, struct fit *fit, const struct fit_problem *problem, rotid_lm_options *options)
+{
+    int n = fit->n, there = 1, agrees = 0, stands = 0, status = ROTID_OK;
+    double *best = POOL_ARRAY(pool, double, n), *r = POOL_ARRAY(pool, double, fit->joint.nresidual), lowest,
+           worth = options->decrease_least;
+    const struct joint full = fit->joint;
+    rotid_lm_options near_options = *options;
+    struct pool of_round[2]; /* the models of a round go when those of the one behind the next are made */
+    if (!best || !r)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < 2; i++)
+        pool_open(&of_round[i], pool->allocator);
+    near_options.trace = trace_near;
+    memcpy(best, fit->y, (size_t)n * sizeof *best);
+    for (int p = 0; p < n; p++)
+        fit->x[p] = fit->parameter[p].start;
+    lowest = objective_at(fit, fit->x);
+    for (int round = 0; round < NEAR_ROUNDS && isfinite(lowest) && !agrees; round++) {
+        struct joint near;
+        rotid_lm_result lm;
+        struct pool *own = &of_round[round % 2];
+        pool_close(own);
+        pool_open(own, pool->allocator);
+        status = open_near(own, fit, problem, round == 0, &near, &there);
+        if (status || !there)
+            break;
+        memcpy(fit->y, best, (size_t)n * sizeof *best);
+        fit->accepted = NULL;
+        fit->joint = near;
+        int stop = rotid_lm(full.nresidual, n, residual, fit, &near_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm);
+        fit->joint = full;
+        if (stop < 0 || stop == ROTID_STOP_CANCELLED)
+            break;
+        for (int p = 0; p < n; p++)
+            fit->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
+        if (!joint_residual(&near, fit->x, fit->r))
+            problem->near->begin(problem->near->user, &near, &fit->joint);
+        double now = objective_at(fit, fit->x);
+        stands = now < lowest;
+        agrees = fabs(now - lm.objective) <= fmax(worth / 100, NEAR_AGREES * now);
+        if (stands) {
+            lowest = now;
+            memcpy(best, fit->y, (size_t)n * sizeof *best);
+            memcpy(r, fit->r, (size_t)full.nresidual * sizeof *r);
+        }
+    }
+    for (int i = 0; i < 2; i++)
+        pool_close(&of_round[i]);
+    memcpy(fit->y, best, (size_t)n * sizeof *best);
+    fit->accepted = NULL;
+    fit->known = stands ? r : NULL;
+    if (agrees && lowest > 0) /* what a step still promises comes from jumps of the model */
+        options->objective_tolerance = fmax(options->objective_tolerance, worth / lowest);
+    return status;
+}
+
 static int run(struct pool *keep, struct pool *pool, struct fit *fit, const struct fit_problem *problem)
 {
     const rotid_fit_options *options = &fit->options;
@@ -482,6 +583,10 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
                                    .trace_user = fit};
     rotid_lm_result lm;
     fit->begin = clock_seconds();
+    if (n && problem->near)
+        status = begin_near(pool, fit, problem, &lm_options);
+    if (status)
+        return status;
     status = n ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
                : compare_only(fit, &lm);
     fit->result->seconds = clock_seconds() - fit->begin;
@@ -491,8 +596,14 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);
     if (!status && n && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
-        int count;
-        status = baseline_run(keep, &fit->joint, fit->parameter, fit->environment, fit->work, fit->result->baseline, &count);
+        int count, there;
+        struct joint near;
+        there = problem->near && isfinite(objective_at(fit, fit->result->x));
+        if (there)
+            status = open_near(pool, fit, problem, 1, &near, &there);
+        if (!status)
+            status = baseline_run(keep, &fit->joint, there ? &near : NULL, fit->parameter, fit->environment, fit->work,
+                                  fit->result->baseline, &count);
         if (status == ROTID_STOP_CANCELLED)
             status = ROTID_OK;
         else if (!status)
@@ -604,8 +715,8 @@ static int take_states(struct pool *pool, int nstate, const rotid_state *given, 
 }
 
 int fit_states_more(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
-                    const struct joint_more *more, const rotid_fit_options *options, const rotid_environment *environment,
-                    char *failure, rotid_fit_result **result)
+                    const struct joint_more *more, const struct fit_near *near, const rotid_fit_options *options,
+                    const rotid_environment *environment, char *failure, rotid_fit_result **result)
 {
     struct entry entry;
     struct joint_state *own;
@@ -624,7 +735,7 @@ int fit_states_more(int nstate, const rotid_state *state, int nparam, const roti
         status = take_states(&entry.scratch, nstate, state, failure, &own);
     if (!status) {
         const struct fit_problem problem = {
-            .nstate = nstate, .nparam = nparam, .named = 1, .state = own, .parameter = parameter, .more = more};
+            .nstate = nstate, .nparam = nparam, .named = 1, .state = own, .parameter = parameter, .more = more, .near = near};
         status = make_result(&entry, &problem, &own_options, result);
     }
     return entry_close(&entry, status);
@@ -634,7 +745,7 @@ int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rot
                      const rotid_fit_options *options, const rotid_environment *environment, char *failure,
                      rotid_fit_result **result)
 {
-    return fit_states_more(nstate, state, nparam, parameter, NULL, options, environment, failure, result);
+    return fit_states_more(nstate, state, nparam, parameter, NULL, NULL, options, environment, failure, result);
 }
 
 void rotid_fit_free(rotid_fit_result *result)

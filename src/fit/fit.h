@@ -6,6 +6,7 @@
  *
  *   entrance       fit.c (rotid_fit, rotid_fit_states): min f(x) = 1/2 sum r^2 r, dr/dx of modal/joint.c; checks: fit_check.c
  *   bounds         bounds.c: x = alpha + (beta - alpha)/(1 + exp(chi y)) (30); the minimiser works on y
+ *   beginning      fit.c (begin_near): the minimum of models of few unknowns near the start, made anew until they agree
  *   minimiser      lm.c (rotid_lm): (J'J + mu s^2 D^2 + F^2) h = -J'r by QR (linalg/least_squares.c), gain ratio, radius
  *   covariance     fit.c (covariance_compute): C = w^2 (J'J)^-1 J'S J (J'J)^-1 in relative parameters; std of a parameter is
  *                  sqrt(C_pp), w^2 = max(1, chi2/dof) where the noise S is known, else w^2 S = 2f/dof; intervals by 1.96 or
@@ -31,11 +32,12 @@ int baseline_exists(void);
 /* Algorithms: BOBYQA (from two parameters on), Sbplx, and SLSQP with the gradient. 0 where built without NLopt. */
 int baseline_count(int nparam);
 
-/* Minimises the objective with each algorithm in x/|start| within the bounds. out [baseline_count(n)], x of each on `keep`;
+/* Minimises the objective, of `near` where that is not NULL, with each algorithm in x/|start| within the bounds; value and
+ * gradient at the end are of `joint`. out [baseline_count(n)], x of each on `keep`;
  * *count of them are filled: where a model has a wide band, a solid, Sbplx is left out, which takes four times the evaluations of
  * BOBYQA, 0.1 s each. work [nresidual * (n + 1)]. ROTID_OK, MEMORY, or CANCELLED as soon as the environment says so. */
-int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out, int *count);
+int baseline_run(struct pool *keep, struct joint *joint, struct joint *near, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out, int *count);
 
 /* ---------------------------------------------------------------------------------------------------------------- bounds */
 
@@ -87,12 +89,25 @@ struct fit_problem {
     const struct joint_state *state;  /* [nstate] */
     const rotid_parameter *parameter; /* [nparam] */
     const struct joint_more *more;    /* residuals beside those of the modes, or NULL */
+    const struct fit_near *near;      /* or NULL */
 };
 
-/* rotid_fit_states with such residuals, whose unknowns may be others than those of the states. */
+/* Models of few unknowns that stand for those of the states near a point: the minimiser goes through these before it goes on with
+ * the states, and NLopt through these alone. */
+struct fit_near {
+    void *user;
+    /* *state [nstate] on the pool near the point where `joint`, of the states, was evaluated last, and where those of the last
+     * call were, unless `anew`; a status. Anything but ROTID_OK and ROTID_ERROR_MEMORY: there are none */
+    int (*models)(void *user, struct pool *pool, struct joint *joint, int anew, const struct joint_state **state);
+    /* The next solution of `joint` begins with the vectors of `near`, of the last models, where that was evaluated last. */
+    void (*begin)(void *user, const struct joint *near, struct joint *joint);
+};
+
+/* rotid_fit_states with such residuals (or NULL), whose unknowns may be others than those of the states, and such models (or
+ * NULL). */
 int fit_states_more(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
-                    const struct joint_more *more, const rotid_fit_options *options, const rotid_environment *environment,
-                    char *failure, rotid_fit_result **result);
+                    const struct joint_more *more, const struct fit_near *near, const rotid_fit_options *options,
+                    const rotid_environment *environment, char *failure, rotid_fit_result **result);
 
 /* ROTID_OK, or ROTID_ERROR_ARGUMENT or _UNPAIRED with the reason in failure. */
 int fit_check(const struct fit_problem *problem, const rotid_fit_options *options, char *failure);

@@ -22,7 +22,12 @@ int fit_check_model(const rotid_model *model, char *failure)
         return refuse(failure, "model->nrigid is %d, expected 0 or more", model->nrigid);
     if (!model->matrices)
         return refuse(failure, "model->matrices is NULL, expected a function");
-    int status = indices_check("master", model->nmaster, model->master, model->n, failure);
+    if (model->sensor && model->nmaster < 0)
+        return refuse(failure, "model->nmaster is %d, expected 0 or more", model->nmaster);
+    for (ptrdiff_t i = 0; model->sensor && i < (ptrdiff_t)model->n * model->nmaster; i++)
+        if (!isfinite(model->sensor[i]))
+            return refuse(failure, "model->sensor[%td] is %g, expected a number", i, model->sensor[i]);
+    int status = model->sensor ? ROTID_OK : indices_check("master", model->nmaster, model->master, model->n, failure);
     return status ? status : indices_check("far", model->nfar, model->far, model->n, failure);
 }
 
@@ -121,6 +126,9 @@ int fit_check(const struct fit_problem *problem, const rotid_fit_options *option
     for (int s = 0; s < problem->nstate && !status; s++) {
         const struct joint_state *state = &problem->state[s];
         status = check_map(state, problem->nparam, failure);
+        if (!status && state->model->sensor && options->reduction != ROTID_REDUCTION_NONE)
+            status = refuse(failure, "model->sensor is not NULL, which options->reduction condenses away, expected "
+                                     "ROTID_REDUCTION_NONE");
         if (!status)
             status = measured_check(state->model, state->measured, options->functional, options->reduction, failure);
         status = of_state(problem, s, status, failure);

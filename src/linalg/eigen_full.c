@@ -287,6 +287,22 @@ void eigen_full_begin(struct eigen_full *e, const double *phi)
         eigen_band_begin(&e->band, phi);
 }
 
+int eigen_full_correct(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double lambda, int columns, double *x)
+{
+    struct factor *factor = e->wide ? &e->panels.factor : &e->band.factor;
+    int status = ROTID_ERROR_STIFFNESS;
+    if (e->wide)
+        status = factor_compute_pencil(factor, &e->panels.pencil, lambda);
+    else if (!e->dense) {
+        matrix_combine(1, k, -lambda, m, &e->band.shifted);
+        status = factor_compute(factor, &e->band.shifted);
+    }
+    if (status)
+        return ROTID_ERROR_STIFFNESS;
+    factor_solve(factor, columns, x);
+    return ROTID_OK;
+}
+
 int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int n = k->n, count = e->solver.count;

@@ -407,6 +407,10 @@ void eigen_full_begin(struct eigen_full *e, const double *phi);
  * the reduction to standard form costs the lowest pairs of a fine mesh some digits. */
 int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
+/* X [n * columns] := (K - lambda M)^-1 X with the matrices of the last solution, lambda < 0. ROTID_OK, or ROTID_ERROR_STIFFNESS
+ * of few unknowns, where the solver is a dense one. */
+int eigen_full_correct(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double lambda, int columns, double *x);
+
 /* ----------------------------------------------------------------------------------------------------------- eigen guyan */
 
 /* The lowest eigenpairs of a chain of elements condensed by Guyan onto its masters, K~ x = lambda M~ x, without K~ and M~, which
@@ -591,6 +595,8 @@ int basis_extend(int n, int count, double least, double *basis);
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c);
 /* C [n * n] := A' A, both triangles, A [k * n]; sizes >= 1. Half the work of product_transposed. */
 void product_gram(int n, int k, const double *a, double *c);
+/* sum [m * m] := sum + V'A V, A [n * n], V [n * m]; sizes >= 1. work [n * m]. */
+void product_congruence(int n, int m, const double *a, const double *v, double *work, double *sum);
 /* C [m * n] := C - A B, A [m * k], B [k * n]. */
 void product_subtract(int m, int n, int k, const double *a, const double *b, double *c);
 /* y [m] := part A x, A [m * k], x [k]; nothing where m is 0. */

@@ -9,6 +9,7 @@
  *   dphi/dx        eigenvector_derivative.c: Nelson (nelson_dense_solve condensed, nelson_band_solve full), (K - lambda M) V = P
  *                  without the row of the largest component, dphi = V + (Q - phi'MV) phi (34, 35, 38); modal_superposition (37);
  *                  clusters within 1e-6 (eigenvalue_cluster) are taken not to turn in their subspace
+ *   basis          basis.c (prediction_basis): pairs and their derivatives at x, a basis for the modes near x
  *   residuals      functional.c (functional_residual, functional_jacobian): HYBRID 1 - R*_k/w_k^2 (14, 15), HYBRID_F (16),
  *                  LIKELIHOOD (f~/f - 1)/s_k and (a_k phi~_kj - phi_kj)/s_kj, a_k the best scale of the shape; the standard
  *                  deviations s of a measured mode are data (rotid_measured), which src/ema or a deck states
@@ -127,6 +128,7 @@ struct prediction {
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */
     struct eigen_guyan guyan;    /* in place of what follows, where it applies */
+    int with_vectors;            /* there is room for dphi */
     int by_bands;                /* the pairs are those of `guyan`, and K~ and M~ have not been formed */
     int begun;                   /* lambda is near the pairs of the next solution */
     double *full_phi;            /* [n * count] T phi */
@@ -148,7 +150,7 @@ struct prediction {
     double *x, *work;
     int *turned;  /* [count] pairs whose derivatives are those of the last prediction_compute; of the vectors in full, else of
                      lambda */
-    double *here; /* [nparam] x of that */
+    double *here; /* [nparam] x of the last prediction_compute */
 };
 
 /* count <= nmaster (condensed) or n. with_vectors: room for dphi. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT. */
@@ -169,6 +171,22 @@ int prediction_matrix_derivatives(struct prediction *p, const double *x, int q);
  * prediction_compute. Vectors of a cluster (eigenvalue_cluster) are taken not to turn in it, nearly so where it
  * goes on behind the pairs that are known, those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE. */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
+
+/* dK/dx_q phi and dM/dx_q phi [n * count] of the wanted pairs of the full model, at the x of the last prediction_compute, until
+ * the next call. Statuses: CALLBACK, FINITE. */
+int prediction_images(struct prediction *p, const double *x, int q, const int *wanted, const double **dk_phi,
+                      const double **dm_phi);
+
+/* A basis for the modes of the full model near x, that of the last prediction_compute: the `given` vectors `first` [n * given],
+ * which are orthonormal, the pairs, and for each wanted one and parameter dphi/dx_q where there is room for it, else (K + s M)^-1
+ * (dK_q - lambda dM_q) phi with s half of the lowest eigenvalue wanted. V [n * *count] is orthonormal; what is a sum of columns
+ * before, to 1e-6, is left out. Eigenvalues in it are off by the fourth order of the change of x, vectors by the second.
+ * Statuses: MEMORY, CALLBACK, FINITE, CLOSE, STIFFNESS. */
+int prediction_basis(struct pool *pool, struct prediction *p, const double *x, int given, const double *first, const int *wanted,
+                     int *count, double **v);
+
+/* The next solution of the full model begins with V phi, V [n * size], phi the pairs of `near`, of as many. */
+void prediction_begin(struct prediction *p, int size, const double *v, const struct prediction *near);
 
 /* Frequency of pair k [Hz]; 0 where its eigenvalue is not above zero. */
 double prediction_hz(const struct prediction *p, int k);

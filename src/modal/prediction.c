@@ -142,9 +142,9 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
                    struct prediction *p)
 {
     int full = reduction == ROTID_REDUCTION_NONE;
-    *p = (struct prediction){.model = model, .reduction = reduction, .derivative = derivative};
+    *p = (struct prediction){.model = model, .reduction = reduction, .derivative = derivative, .with_vectors = with_vectors};
     p->size = full ? model->n : model->nmaster;
-    if (count < 1 || count > p->size || (full && derivative == ROTID_MODAL))
+    if (count < 1 || count > p->size || (full && derivative == ROTID_MODAL) || (!full && model->sensor))
         return ROTID_ERROR_ARGUMENT;
     p->count = count;
     if (with_vectors && derivative == ROTID_MODAL)
@@ -346,6 +346,14 @@ static int form_images(struct prediction *p, const double *x, int q, const int *
     return ROTID_OK;
 }
 
+int prediction_images(struct prediction *p, const double *x, int q, const int *wanted, const double **dk_phi,
+                      const double **dm_phi)
+{
+    *dk_phi = p->image;
+    *dm_phi = p->image + (ptrdiff_t)p->count * p->size;
+    return form_images(p, x, q, wanted);
+}
+
 /* (36) with the derivatives of the matrices in place */
 static double eigenvalue_derivative(struct prediction *p, int k)
 {
@@ -506,14 +514,21 @@ double prediction_hz(const struct prediction *p, int k)
     return p->lambda[k] > 0 ? sqrt(p->lambda[k]) / 6.28318530717958647692 : 0;
 }
 
+/* Component at sensor s of a vector as long as one of the prediction */
+static double at_sensor(const struct prediction *p, const double *u, int s)
+{
+    const rotid_model *model = p->model;
+    if (model->sensor)
+        return product_dot(model->n, u, model->sensor + (ptrdiff_t)s * model->n);
+    return u[p->reduction == ROTID_REDUCTION_NONE ? model->master[s] : s];
+}
+
 double prediction_at_sensor(const struct prediction *p, int k, int s)
 {
-    int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;
-    return p->phi[row + (ptrdiff_t)k * p->size];
+    return at_sensor(p, p->phi + (ptrdiff_t)k * p->size, s);
 }
 
 double prediction_derivative_at_sensor(const struct prediction *p, int k, int q, int s)
 {
-    int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;
-    return p->dphi[row + prediction_place(p, k, q)];
+    return at_sensor(p, p->dphi + prediction_place(p, k, q), s);
 }

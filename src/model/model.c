@@ -124,6 +124,45 @@ int model_begin_with(struct pool *pool, struct rotor_model *model, const struct 
     return ROTID_OK;
 }
 
+static int basis_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    struct basis_model *model = user;
+    solid_basis_assemble(&model->basis, x, stiffness, mass);
+    return 0;
+}
+
+static int basis_derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    struct basis_model *model = user;
+    solid_basis_differentiate(&model->basis, x, p, stiffness, mass);
+    return 0;
+}
+
+int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x, int count, const double *v,
+                   struct basis_model *out)
+{
+    const rotid_model *of = &model->equations;
+    model_set(model, x);
+    int status = solid_basis_new(pool, &model->discrete.solid, count, v, &out->basis);
+    out->sensor = POOL_ARRAY(pool, double, (size_t)count *(size_t)of->nmaster);
+    if (status || !out->sensor)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < of->nmaster; s++)
+        for (int j = 0; j < count; j++)
+            out->sensor[j + (ptrdiff_t)s * count] = v[of->master[s] + (ptrdiff_t)j * of->n];
+    out->equations = (rotid_model){.size = sizeof out->equations,
+                                   .n = count,
+                                   .kd = count - 1,
+                                   .nparam = of->nparam,
+                                   .nrigid = of->nrigid,
+                                   .nmaster = of->nmaster,
+                                   .matrices = basis_matrices,
+                                   .derivatives = basis_derivatives,
+                                   .user = out,
+                                   .sensor = out->sensor};
+    return ROTID_OK;
+}
+
 double model_master_z(const struct rotor_model *model, int i)
 {
     return model->rotor->nsensor ? discrete_sensor_z(&model->discrete, i) : model->z[i];

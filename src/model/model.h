@@ -11,6 +11,7 @@
  *   rigid modes    discrete.c (discrete_count_rigid): the lowest two, where their eigenvalue is near zero or
  *                  less than half of their potential energy phi'K phi is in bending and shear
  *   mesh limit     discrete.c (discrete_mesh_limit): f - share (g - f) of a mesh f and a refined or coarse one g (Richardson)
+ *   basis          model.c (model_in_basis): a solid for motions u = V q alone, q its unknowns
  *   one run        models.c (models_for_run, models_discretise): meshes, mode counts and vectors are made once and used again;
  *                  models_hold: the ratios f/f_coarse that a fit of a solid holds
  *   deflection     deflection.c: along the axis, at sensors, of members; meridian.c: the solid's mesh and motion for results
@@ -216,6 +217,18 @@ void model_differentiate(const struct rotor_model *model, const double *x, int p
  * of a solid. */
 int model_derivative_products(const struct rotor_model *model, const double *x, int p, int count, const double *u, double *dk_u,
                               double *dm_u, int *from, int *end);
+
+/* A solid for motions u = V q alone: `equations` in q, with rows of V for its sensors. */
+struct basis_model {
+    rotid_model equations; /* user points to this struct: do not copy it */
+    struct solid_basis basis;
+    double *sensor; /* [count * nmaster] */
+};
+
+/* At the values x, near which V [n * count], which is kept, is good; model, of a solid, stays open. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x, int count, const double *v,
+                   struct basis_model *out);
 
 /* m: where master i is. */
 double model_master_z(const struct rotor_model *model, int i);

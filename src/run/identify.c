@@ -155,6 +155,73 @@ static int open_state(struct pool *pool, const struct state *state, const struct
     return status ? status : measured_whole(pool, job, model, measured);
 }
 
+/* The models of solids in a basis, made where the fit asks for them. */
+struct in_basis {
+    int nstate;
+    struct rotor_model *model; /* [nstate] */
+    rotid_state *state;        /* [nstate] */
+    int *count;                /* [nstate] of the columns of the last basis, which the next one holds as well */
+    double **v;
+};
+
+static int state_in_basis(struct pool *pool, const struct in_basis *in, int s, struct joint_part *part, struct joint_state *out)
+{
+    struct rotor_model *model = &in->model[s];
+    const rotid_measured *measured = in->state[s].measured;
+    struct functional *f = &part->functional;
+    int n = model->equations.n, count = in->count[s];
+    double *whole = POOL_ARRAY(pool, double, 2 * (size_t)n), *v = in->v[s];
+    struct basis_model *basis = POOL_NEW(pool, struct basis_model);
+    rotid_measured *own = POOL_NEW(pool, rotid_measured);
+    if (!whole || !basis || !own)
+        return ROTID_ERROR_MEMORY;
+    model_whole(model, whole);
+    if (!count)
+        count = basis_extend(n, basis_extend(n, 0, 0, whole), 0, whole);
+    int status = prediction_basis(pool, &f->prediction, part->x, count, v ? v : whole, f->wanted, &count, &v);
+    if (!status && count > BASIS_MOST)
+        return ROTID_ERROR_RANK;
+    in->count[s] = count;
+    in->v[s] = v;
+    if (!status)
+        status = model_in_basis(pool, model, part->x, count, v, basis);
+    if (status)
+        return status;
+    *own = *measured;
+    if (own->whole) { /* V is orthonormal and holds these motions */
+        double *along = POOL_ARRAY(pool, double, 2 * (size_t)count);
+        if (!along)
+            return ROTID_ERROR_MEMORY;
+        for (int i = 0; i < 2 * count; i++)
+            along[i] = product_dot(n, v + (ptrdiff_t)(i % count) * n, measured->whole + (ptrdiff_t)(i / count) * n);
+        own->whole = along;
+    }
+    *out = (struct joint_state){&basis->equations, own, part->parameter};
+    return ROTID_OK;
+}
+
+static int states_in_basis(void *user, struct pool *pool, struct joint *joint, int anew, const struct joint_state **state)
+{
+    const struct in_basis *in = user;
+    struct joint_state *out = POOL_ARRAY(pool, struct joint_state, in->nstate);
+    int status = out ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < in->nstate && anew; s++) {
+        in->count[s] = 0;
+        in->v[s] = NULL;
+    }
+    for (int s = 0; s < in->nstate && !status; s++)
+        status = state_in_basis(pool, in, s, &joint->part[s], &out[s]);
+    *state = out;
+    return status;
+}
+
+static void begin_in_basis(void *user, const struct joint *near, struct joint *joint)
+{
+    const struct in_basis *in = user;
+    for (int s = 0; s < in->nstate; s++)
+        prediction_begin(&joint->part[s].functional.prediction, in->count[s], in->v[s], &near->part[s].functional.prediction);
+}
+
 static int fit_states(struct pool *pool, const struct states *states, const rotid_parameter *bounds, const struct paired *paired,
                       const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
 {
@@ -162,11 +229,16 @@ static int fit_states(struct pool *pool, const struct states *states, const roti
     struct rotor_model *model = POOL_ARRAY(pool, struct rotor_model, count);
     rotid_measured *measured = POOL_ARRAY(pool, rotid_measured, count);
     rotid_state *state = POOL_ARRAY(pool, rotid_state, count);
-    int status = model && measured && state ? ROTID_OK : ROTID_ERROR_MEMORY;
+    struct in_basis in = {count, model, state, POOL_ARRAY(pool, int, count), POOL_ARRAY(pool, double *, count)};
+    const struct fit_near near = {&in, states_in_basis, begin_in_basis};
+    int status = model && measured && state && in.count && in.v ? ROTID_OK : ROTID_ERROR_MEMORY, in_basis = 1;
+    for (int s = 0; s < count; s++)
+        in_basis &= mesh_is_held(&states->state[s].job);
     for (int s = 0; s < count && !status; s++)
         status = open_state(pool, &states->state[s], &paired[s], &model[s], &measured[s], &state[s]);
     if (!status)
-        status = fit_states_more(count, state, states->nparameter, bounds, states->more, options, environment, NULL, fit);
+        status = fit_states_more(count, state, states->nparameter, bounds, states->more, in_basis ? &near : NULL, options,
+                                 environment, NULL, fit);
     for (int s = 0, mode = 0; s < count && !status; mode += measured[s].nmode, s++)
         for (int k = 0; k < measured[s].nmode; k++) /* as the mesh that counts has it */
             (*fit)->predicted_hz[mode + k] *= states->state[s].job.measurement.frequency_hz[k] / measured[s].frequency_hz[k];

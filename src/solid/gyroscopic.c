@@ -6,7 +6,7 @@
 #include "solid/solid.h"
 
 /* half on (U + V)^2 and on W^2 of the surface, twice: see add_ring of solid.c */
-static void add_ring(const struct solid *solid, const struct effect_point *point, rotid_matrix *p)
+static void add_ring(const struct solid *solid, const struct effect_point *point, const struct target *p)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     int dof[3][SURFACE_MOST];
@@ -25,6 +25,7 @@ void solid_gyroscopic(const struct solid *solid, rotid_matrix *p)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;
+    const struct target target = {.a = p};
     struct effect_point point;
     for (int i = 0; i < mesh->nelement; i++) {
         double mass[SOLID_NODES * SOLID_NODES] = {0}, e[SOLID_DOFS * SOLID_DOFS] = {0};
@@ -42,12 +43,12 @@ void solid_gyroscopic(const struct solid *solid, rotid_matrix *p)
     }
     for (int i = 0; i < rotor->ndisk; i++) {
         const struct motion *theta = &solid->line[solid_mesh_line(mesh, rotor->disk[i].position)].theta;
-        motion_add(p, rotor->disk[i].polar, theta, theta);
+        motion_add(&target, rotor->disk[i].polar, theta, theta);
     }
     for (int effect = 0, i = -1; rotor->neffect && solid_next_point(solid, &effect, &i, &point);)
         if (point.mass != 0 || point.inertia != 0)
-            add_ring(solid, &point, p);
-    members_gyroscopic(solid, p);
+            add_ring(solid, &point, &target);
+    members_gyroscopic(solid, &target);
 }
 
 void solid_spread(const struct solid *solid, int group, double stiffness, rotid_matrix *s)
@@ -59,7 +60,7 @@ void solid_spread(const struct solid *solid, int group, double stiffness, rotid_
         double left = fmax(l > 0 ? (mesh->z[l - 1] + mesh->z[l]) / 2 : 0, from),
                right = fmin(l < mesh->nslice ? (mesh->z[l] + mesh->z[l + 1]) / 2 : mesh->z[l], to);
         if (right > left)
-            motion_add(s, stiffness * (right - left) / (to - from), &solid->line[l].v, &solid->line[l].v);
+            motion_add(&(struct target){.a = s}, stiffness * (right - left) / (to - from), &solid->line[l].v, &solid->line[l].v);
     }
 }
 

@@ -100,7 +100,7 @@ static void end_of(const struct solid *solid, int i, int line, struct end *end)
     }
 }
 
-static void add_between(const struct solid *solid, int i, int line, const double *e, rotid_matrix *a)
+static void add_between(const struct solid *solid, int i, int line, const double *e, const struct target *a)
 {
     struct end ends[2];
     end_of(solid, i, line, &ends[0]);
@@ -111,7 +111,8 @@ static void add_between(const struct solid *solid, int i, int line, const double
 }
 
 /* The rods follow W at both ends, N cos^2 of them N/2, and what lies between them linearly. */
-static void add_stretch(const struct solid *solid, int i, double stiffness, double inertia, rotid_matrix *k, rotid_matrix *m)
+static void add_stretch(const struct solid *solid, int i, double stiffness, double inertia, const struct target *k,
+                        const struct target *m)
 {
     const struct motion *w = &solid->stretch[2 * (ptrdiff_t)i];
     for (int end = 0; end < 2; end++) {
@@ -127,7 +128,8 @@ static void add_stretch(const struct solid *solid, int i, double stiffness, doub
 }
 
 /* rho S, rho I and the tension of rods that follow the section, from half-way to half-way between lines; v' = -theta */
-static void add_following(const struct solid *solid, const struct element *q, int from, int to, rotid_matrix *k, rotid_matrix *m)
+static void add_following(const struct solid *solid, const struct element *q, int from, int to, const struct target *k,
+                          const struct target *m)
 {
     const double *z = solid->mesh.z;
     for (int l = from; l <= to; l++) {
@@ -143,7 +145,7 @@ static void add_following(const struct solid *solid, const struct element *q, in
 }
 
 static void add_chain(const struct solid *solid, const struct member *member, int i, const struct element *d, int from, int to,
-                      rotid_matrix *k, rotid_matrix *m)
+                      const struct target *k, const struct target *m)
 {
     double ek[16], em[16];
     for (int l = from; l < to; l++) {
@@ -158,7 +160,7 @@ static void add_chain(const struct solid *solid, const struct member *member, in
 }
 
 /* In torsion and along the axis: bars between the sections at their ends, or masses at their centre. */
-static void assemble_bundles(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+static void assemble_bundles(const struct solid *solid, int p, const struct target *k, const struct target *m)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;
@@ -176,7 +178,7 @@ static void assemble_bundles(const struct solid *solid, int p, rotid_matrix *k, 
     }
 }
 
-void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+void members_assemble(const struct solid *solid, int p, const struct target *k, const struct target *m)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;
@@ -208,7 +210,7 @@ void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_m
     }
 }
 
-void members_gyroscopic(const struct solid *solid, rotid_matrix *p)
+void members_gyroscopic(const struct solid *solid, const struct target *p)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;

@@ -138,8 +138,25 @@ double motion_value(const struct motion *motion, const double *u)
     return sum;
 }
 
-void motion_add(rotid_matrix *a, double value, const struct motion *x, const struct motion *y)
+/* row [count] := V't */
+static void along_basis(const struct target *target, const struct motion *t, double *row)
 {
+    for (int j = 0; j < target->count; j++)
+        row[j] = motion_value(t, target->v + j * target->n);
+}
+
+void motion_add(const struct target *target, double value, const struct motion *x, const struct motion *y)
+{
+    rotid_matrix *a = target->a;
+    double of_x[BASIS_MOST], of_y[BASIS_MOST];
+    if (target->count) {
+        along_basis(target, x, of_x);
+        along_basis(target, y, of_y);
+        for (int j = 0; j < target->count; j++)
+            for (int i = j; i < target->count; i++)
+                a->band[i - j + (ptrdiff_t)j * (a->kd + 1)] += value * (of_x[i] * of_y[j] + of_x[j] * of_y[i]) / 2;
+        return;
+    }
     for (int i = 0; i < x->count; i++)
         for (int j = 0; j < y->count; j++) {
             double w = value * x->weight[i] * y->weight[j];

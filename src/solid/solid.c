@@ -293,9 +293,8 @@ static int by_effect(const struct solid *solid, const struct solid_element *elem
     return 1;
 }
 
-/* Its derivative with respect to a parameter; returns 0 where that is zero. */
-static int field_derivative(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
-                            struct share *rate)
+int solid_field_rate(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
+                     struct share *rate)
 {
     *rate = (struct share){0};
     if (parameter.kind == PARAMETER_EFFECT)
@@ -329,7 +328,7 @@ static int disk_of(const struct solid *solid, int i, int p, double *mass, double
     return parameter.index == i && *mass + *inertia != 0;
 }
 
-static void add_to_section(rotid_matrix *a, const struct solid_line *line, double v, double theta)
+static void add_to_section(const struct target *a, const struct solid_line *line, double v, double theta)
 {
     if (v != 0)
         motion_add(a, v, &line->v, &line->v);
@@ -343,7 +342,7 @@ static void add_to_section(rotid_matrix *a, const struct solid_line *line, doubl
 
 /* adds a stiffness on v - dz theta of a line and its derivative by dz, and one on theta */
 static void add_carried(const struct solid_line *line, double dz, double lateral, double by_dz, double rotational,
-                        rotid_matrix *k)
+                        const struct target *k)
 {
     motion_add(k, lateral, &line->v, &line->v);
     motion_add(k, -2 * lateral * dz - 2 * by_dz, &line->v, &line->theta);
@@ -351,7 +350,8 @@ static void add_carried(const struct solid_line *line, double dz, double lateral
 }
 
 /* d: NULL, or the rate of the point; then the derivative */
-static void add_ground(const struct solid *solid, const struct effect_point *point, const struct effect_point *d, rotid_matrix *k)
+static void add_ground(const struct solid *solid, const struct effect_point *point, const struct effect_point *d,
+                       const struct target *k)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     double length = mesh->z[mesh->nslice], z = fmin(fmax(point->z, 0), length), moves = d && z == point->z ? d->z : 0;
@@ -368,7 +368,7 @@ static void add_ground(const struct solid *solid, const struct effect_point *poi
     }
 }
 
-static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
+static void add_springs(const struct solid *solid, int p, const struct target *k)
 {
     const struct rotor *rotor = &solid->rotor;
     enum mode_type type = solid->mesh.type;
@@ -401,7 +401,7 @@ int solid_next_point(const struct solid *solid, int *effect, int *i, struct effe
 }
 
 /* d = 0: the mass; 1: its derivative by place; for every component of the motion of the surface */
-static void add_ring(const struct solid *solid, double z, double mass, double inertia, double dz, rotid_matrix *m)
+static void add_ring(const struct solid *solid, double z, double mass, double inertia, double dz, const struct target *m)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     int dof[2][SURFACE_MOST + 3];
@@ -422,7 +422,7 @@ static void add_ring(const struct solid *solid, double z, double mass, double in
 }
 
 /* The masses of effects, and their springs to the ground. */
-static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+static void add_points(const struct solid *solid, int p, const struct target *k, const struct target *m)
 {
     struct effect_point point, d;
     struct parameter parameter = p < 0 ? (struct parameter){.index = 0} : solid->parameter[p];
@@ -446,8 +446,7 @@ static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_
     }
 }
 
-/* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]. k or m may be NULL. */
-static void attached_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+void solid_add_attached(const struct solid *solid, int p, const struct target *k, const struct target *m)
 {
     const struct rotor *rotor = &solid->rotor;
     double a, b;
@@ -660,8 +659,7 @@ static void tie_columns(const struct solid *solid, const struct solid_element *e
     }
 }
 
-/* dof [24]: the unknowns of rows and columns of e, -1 where there is none */
-static void tie_element(const struct solid *solid, const struct solid_element *element, double *e, int *dof)
+void solid_tie_element(const struct solid *solid, const struct solid_element *element, double *e, int *dof)
 {
     tie_columns(solid, element, e, SOLID_DOFS, 1);
     tie_columns(solid, element, e, 1, SOLID_DOFS);
@@ -674,7 +672,7 @@ static void tie_element(const struct solid *solid, const struct solid_element *e
 void solid_add_element(const struct solid *solid, const struct solid_element *element, double *e, rotid_matrix *a)
 {
     int dof[SOLID_DOFS], stride = a->kd + 1;
-    tie_element(solid, element, e, dof);
+    solid_tie_element(solid, element, e, dof);
     for (int j = 0; j < SOLID_DOFS; j++)
         for (int i = 0; i < SOLID_DOFS && dof[j] >= 0; i++)
             if (dof[i] >= dof[j])
@@ -690,34 +688,42 @@ static void spread_mass(const double *m, double *e)
                 e[3 * a + c + SOLID_DOFS * (3 * b + c)] = m[a + SOLID_NODES * b];
 }
 
-/* K and M of an element, or their derivatives; returns whether each is there at all */
-static void element_matrices_of(const struct solid *solid, int index, int p, double *k, double *m, int *has_k, int *has_m)
+void solid_element_matrices(const struct solid *solid, int index, const struct share *field, double *k, double *m, int *has_k,
+                            int *has_m)
 {
-    const struct solid_element *element = &solid->mesh.element[index];
-    struct share share;
     double mass[SOLID_NODES * SOLID_NODES];
     *has_k = *has_m = 0;
     int harmonic = solid->mesh.type == MODE_BENDING;
     for (int s = 0; s < SHARES; s++) {
-        if (p < 0)
-            solid_field_of_share(solid, element, s, &share);
-        else if (!field_derivative(solid, element, s, solid->parameter[p], &share))
-            continue;
-        if (share.elasticity.c33 != 0 || share.elasticity.c44 != 0 || share.stress != 0) {
+        const struct share *share = &field[s];
+        const struct elasticity *c = &share->elasticity;
+        if (c->c11 != 0 || c->c12 != 0 || c->c13 != 0 || c->c33 != 0 || c->c44 != 0 || c->c66 != 0 || share->stress != 0) {
             if (!*has_k)
                 memset(k, 0, sizeof(double[SOLID_DOFS * SOLID_DOFS]));
-            integrals_add_stiffness(&solid->integrals[index], s, harmonic, &share.elasticity, share.stress, k);
+            integrals_add_stiffness(&solid->integrals[index], s, harmonic, c, share->stress, k);
             *has_k = 1;
         }
-        if (share.rho != 0) {
+        if (share->rho != 0) {
             if (!*has_m)
                 memset(mass, 0, sizeof mass);
-            solid_add_mass(&solid->integrals[index], s, harmonic ? share.rho : 2 * share.rho, mass);
+            solid_add_mass(&solid->integrals[index], s, harmonic ? share->rho : 2 * share->rho, mass);
             *has_m = 1;
         }
     }
     if (*has_m)
         spread_mass(mass, m);
+}
+
+/* K and M of an element, or their derivatives; whether each is there at all */
+static void element_matrices_of(const struct solid *solid, int index, int p, double *k, double *m, int *has_k, int *has_m)
+{
+    struct share field[SHARES];
+    for (int s = 0; s < SHARES; s++)
+        if (p < 0)
+            solid_field_of_share(solid, &solid->mesh.element[index], s, &field[s]);
+        else if (!solid_field_rate(solid, &solid->mesh.element[index], s, solid->parameter[p], &field[s]))
+            field[s] = (struct share){.rho = 0};
+    solid_element_matrices(solid, index, field, k, m, has_k, has_m);
 }
 
 static void take_in(int dof, int *from, int *end)
@@ -733,7 +739,7 @@ static void take_in_element(const struct solid *solid, const struct solid_elemen
             take_in(solid->mesh.node[element->node[n]].dof[c], from, end);
 }
 
-/* Rows of what attached_assemble adds for parameter p: those of the sections and of the surface at the points of an effect; all
+/* Rows of what solid_add_attached adds for parameter p: those of the sections and of the surface at the points of an effect; all
  * of them where something else is attached that moves with p. */
 static void take_in_attached(const struct solid *solid, int p, int *from, int *end)
 {
@@ -774,7 +780,7 @@ static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_ma
         if (p >= 0 && (has_k || has_m))
             take_in_element(solid, element, from, end);
     }
-    attached_assemble(solid, p, k, m);
+    solid_add_attached(solid, p, &(struct target){.a = k}, &(struct target){.a = m});
 }
 
 void solid_assemble(struct solid *solid, const double *x, rotid_matrix *k, rotid_matrix *m)
@@ -797,7 +803,7 @@ static void add_product_of_element(const struct solid *solid, const struct solid
                                    const double *u, double *y)
 {
     int dof[SOLID_DOFS];
-    tie_element(solid, element, e, dof);
+    solid_tie_element(solid, element, e, dof);
     for (int c = 0; c < count; c++, u += solid->mesh.ndof, y += solid->mesh.ndof) {
         double sum[SOLID_DOFS] = {0};
         for (int j = 0; j < SOLID_DOFS; j++) {

@@ -12,10 +12,11 @@
  *                  field_of_share: C, rho and axial stress of each share of an element, with the factors of the effects
  *   prestress      solid.c: sigma = share of rotor_axial_force over the area; K += pi sigma int (U,z^2 + V,z^2 + W,z^2) r dr dz
  *   attachments    motion.c (motion_of_section): v = int (U - V)/2 r dr/int r dr, theta = int W r^2 dr/int r^3 dr of a section;
- *                  on these solid.c (attached_assemble) puts springs and disks; point masses are rings of the surface
+ *                  on these solid.c (solid_add_attached) puts springs and disks; point masses are rings of the surface
  *   tie rods, bars members.c (members_assemble): beam elements beside the solid; tension N T of the rods enters their K_G there;
  *                  stretch by W at the pitch radius (motion_axial)
  *   joints         solid.c (joint_compliance): 1/E + c I/t in the slice beside the interface
+ *   basis          basis.c (solid_basis_assemble): V'K V and V'M V of motions u = V q, by classes of equal shares
  *   spin           gyroscopic.c (solid_gyroscopic): P of the first harmonic; solid_spread: a stiffness spread over a group
  *   harmonic 0     the same routines in torsion and along the axis (solid_mesh.type), where a section has one motion, v;
  *                  members.c (assemble_bundles): rods and bars there
@@ -193,8 +194,18 @@ void motion_of_surface(const struct solid_mesh *mesh, double z, int component, i
 
 double motion_value(const struct motion *motion, const double *u);
 
-/* a += value (x y' + y x')/2 */
-void motion_add(rotid_matrix *a, double value, const struct motion *x, const struct motion *y);
+#define BASIS_MOST 160
+
+/* What takes up stiffness and mass: a matrix A of the mesh, or V'A V of the motions u = V q of a basis. */
+struct target {
+    rotid_matrix *a;
+    int count;       /* of the columns of V, up to BASIS_MOST; 0: A itself */
+    ptrdiff_t n;     /* of its rows */
+    const double *v; /* [n * count] */
+};
+
+/* A += value (x y' + y x')/2 */
+void motion_add(const struct target *a, double value, const struct motion *x, const struct motion *y);
 
 /* ----------------------------------------------------------------------------------------------------------------- solid */
 
@@ -276,6 +287,21 @@ struct share { /* one of an element; as a derivative: its rate */
 /* The values of a share of an element, with the factors of the effects. */
 void solid_field_of_share(const struct solid *solid, const struct solid_element *element, int share, struct share *out);
 
+/* Its derivative with respect to a parameter; returns 0 where that is zero. */
+int solid_field_rate(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
+                     struct share *rate);
+
+/* K and M [24 * 24] of element `index` from the fields [SHARES] of its shares, or what these change of them; *has_k, *has_m:
+ * whether each is there at all, or left as it was. */
+void solid_element_matrices(const struct solid *solid, int index, const struct share *field, double *k, double *m, int *has_k,
+                            int *has_m);
+
+/* e [24 * 24] := the element in unknowns of the mesh, dof [24], -1 where there is none. */
+void solid_tie_element(const struct solid *solid, const struct solid_element *element, double *e, int *dof);
+
+/* Adds springs, disks, masses, rods and bars to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]. */
+void solid_add_attached(const struct solid *solid, int p, const struct target *k, const struct target *m);
+
 /* Adds rho times the integrals of mass to m [8 * 8], which stands for each of U, V, W. */
 void solid_add_mass(const struct integrals *integrals, int share, double rho, double *m);
 
@@ -295,6 +321,34 @@ void solid_spread(const struct solid *solid, int group, double stiffness, rotid_
 /* v [ndof], zeros before: v'u is the deflection of the section on which spring i acts. */
 void solid_spring_motion(const struct solid *solid, int i, double *v);
 
+/* ----------------------------------------------------------------------------------------------------------------- basis */
+
+/* Motions u = V q alone: K and M of q, exact for those motions at all values of the parameters. */
+
+struct solid_class {
+    int element, share; /* the first one of it */
+    int moves;          /* with a parameter */
+    struct share now;   /* its field, or rate, at the last assembly; of one that does not move the field */
+    double *part;       /* [8 * count * count] of a unit of each number of the field; of one that does not move K and M */
+};
+
+struct solid_basis {
+    struct solid *solid;
+    int count;       /* up to BASIS_MOST */
+    const double *v; /* [ndof * count] V */
+    int nclass;
+    struct solid_class *class;
+    int *class_of; /* [nelement * SHARES], -1: none */
+    double *work, *sum;
+};
+
+/* At the values of the solid; solid and v are kept. ROTID_OK or ROTID_ERROR_MEMORY. */
+int solid_basis_new(struct pool *pool, struct solid *solid, int count, const double *v, struct solid_basis *basis);
+
+/* Adds V'K V and V'M V at x to k and m, full matrices (kd = count - 1), or their derivatives by parameter p. */
+void solid_basis_assemble(struct solid_basis *basis, const double *x, rotid_matrix *k, rotid_matrix *m);
+void solid_basis_differentiate(struct solid_basis *basis, const double *x, int p, rotid_matrix *dk, rotid_matrix *dm);
+
 /* Places of mesh lines along one coordinate, graded towards some of them. */
 
 struct stop {
@@ -311,10 +365,10 @@ struct stop {
  * and their own bending stiffness, below a thousandth of that of what they press together, is left out. */
 
 /* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]; the matrices may be NULL. */
-void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m);
+void members_assemble(const struct solid *solid, int p, const struct target *k, const struct target *m);
 
 /* Adds to P: twice the inertia of rods and bars about a diameter. */
-void members_gyroscopic(const struct solid *solid, rotid_matrix *p);
+void members_gyroscopic(const struct solid *solid, const struct target *p);
 
 /* Adds moments of mass about the left end, as attached_moments. */
 void members_moments(const struct solid *solid, double moment[3]);
