@@ -144,12 +144,12 @@ int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x
     const rotid_model *of = &model->equations;
     model_set(model, x);
     int status = solid_basis_new(pool, &model->discrete.solid, count, v, &out->basis);
-    out->sensor = POOL_ARRAY(pool, double, (size_t)count *(size_t)of->nmaster);
-    if (status || !out->sensor)
+    double *sensor = POOL_ARRAY(pool, double, (size_t)count *(size_t)of->nmaster);
+    if (status || !sensor)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < of->nmaster; s++)
         for (int j = 0; j < count; j++)
-            out->sensor[j + (ptrdiff_t)s * count] = v[of->master[s] + (ptrdiff_t)j * of->n];
+            sensor[j + (ptrdiff_t)s * count] = v[of->master[s] + (ptrdiff_t)j * of->n];
     out->equations = (rotid_model){.size = sizeof out->equations,
                                    .n = count,
                                    .kd = count - 1,
@@ -159,7 +159,7 @@ int model_in_basis(struct pool *pool, struct rotor_model *model, const double *x
                                    .matrices = basis_matrices,
                                    .derivatives = basis_derivatives,
                                    .user = out,
-                                   .sensor = out->sensor};
+                                   .sensor = sensor};
     return ROTID_OK;
 }
 

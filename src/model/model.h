@@ -222,7 +222,6 @@ int model_derivative_products(const struct rotor_model *model, const double *x, 
 struct basis_model {
     rotid_model equations; /* user points to this struct: do not copy it */
     struct solid_basis basis;
-    double *sensor; /* [count * nmaster] */
 };
 
 /* At the values x, near which V [n * count], which is kept, is good; model, of a solid, stays open. ROTID_OK or

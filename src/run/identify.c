@@ -170,15 +170,19 @@ static int state_in_basis(struct pool *pool, const struct in_basis *in, int s, s
     const rotid_measured *measured = in->state[s].measured;
     struct functional *f = &part->functional;
     int n = model->equations.n, count = in->count[s];
-    double *whole = POOL_ARRAY(pool, double, 2 * (size_t)n), *v = in->v[s];
+    double *v = in->v[s];
     struct basis_model *basis = POOL_NEW(pool, struct basis_model);
     rotid_measured *own = POOL_NEW(pool, rotid_measured);
-    if (!whole || !basis || !own)
+    if (!v) {
+        v = POOL_ARRAY(pool, double, 2 * (size_t)n);
+        if (!v)
+            return ROTID_ERROR_MEMORY;
+        model_whole(model, v);
+        count = basis_extend(n, basis_extend(n, 0, 0, v), 0, v);
+    }
+    if (!basis || !own)
         return ROTID_ERROR_MEMORY;
-    model_whole(model, whole);
-    if (!count)
-        count = basis_extend(n, basis_extend(n, 0, 0, whole), 0, whole);
-    int status = prediction_basis(pool, &f->prediction, part->x, count, v ? v : whole, f->wanted, &count, &v);
+    int status = prediction_basis(pool, &f->prediction, part->x, count, v, f->wanted, &count, &v);
     if (!status && count > BASIS_MOST)
         return ROTID_ERROR_RANK;
     in->count[s] = count;

@@ -13,19 +13,6 @@ enum {
     CLASS_MOST = 48 /* shares of further ones are added element by element at all values */
 };
 
-/* field [SHARES] of an element, or the rates for p >= 0; where the element before it has the same, it is left as it is. */
-static void fields_of(const struct solid *solid, int e, int p, struct share *field)
-{
-    const struct solid_element *now = &solid->mesh.element[e], *last = e ? now - 1 : NULL;
-    if (last && last->slice == now->slice && last->group == now->group && last->segment == now->segment)
-        return;
-    for (int s = 0; s < SHARES; s++)
-        if (p < 0)
-            solid_field_of_share(solid, now, s, &field[s]);
-        else
-            (void)solid_field_rate(solid, now, s, solid->parameter[p], &field[s]);
-}
-
 /* k += V'E_k V and m += V'E_m V [count * count] of an element with this field */
 static void add_element(const struct solid_basis *basis, int e, const struct share *field, double *k, double *m)
 {
@@ -56,7 +43,7 @@ static int classify(struct pool *pool, struct solid_basis *basis)
         return ROTID_ERROR_MEMORY;
     for (int e = 0; e < solid->mesh.nelement; e++) {
         for (size_t p = 0; p < probes; p++)
-            fields_of(solid, e, (int)p - 1, now + p * SHARES);
+            solid_fields_of(solid, e, (int)p - 1, now + p * SHARES);
         for (int s = 0; s < SHARES; s++) {
             int c = 0, moves = 0;
             for (size_t p = 0; p < probes; p++) {
@@ -180,7 +167,7 @@ static void assemble(struct solid_basis *basis, int p, rotid_matrix *k, rotid_ma
     struct target target[2];
     sum_of_classes(basis, p);
     for (int e = 0; e < solid->mesh.nelement; e++) {
-        fields_of(solid, e, p, field);
+        solid_fields_of(solid, e, p, field);
         if (beside_class(basis, e, p, field, rest))
             add_element(basis, e, rest, basis->sum, basis->sum + (ptrdiff_t)count * count);
     }

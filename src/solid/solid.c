@@ -714,16 +714,16 @@ void solid_element_matrices(const struct solid *solid, int index, const struct s
         spread_mass(mass, m);
 }
 
-/* K and M of an element, or their derivatives; whether each is there at all */
-static void element_matrices_of(const struct solid *solid, int index, int p, double *k, double *m, int *has_k, int *has_m)
+void solid_fields_of(const struct solid *solid, int index, int p, struct share *field)
 {
-    struct share field[SHARES];
+    const struct solid_element *now = &solid->mesh.element[index], *last = index ? now - 1 : NULL;
+    if (last && last->slice == now->slice && last->group == now->group && last->segment == now->segment)
+        return;
     for (int s = 0; s < SHARES; s++)
         if (p < 0)
-            solid_field_of_share(solid, &solid->mesh.element[index], s, &field[s]);
-        else if (!solid_field_rate(solid, &solid->mesh.element[index], s, solid->parameter[p], &field[s]))
-            field[s] = (struct share){.rho = 0};
-    solid_element_matrices(solid, index, field, k, m, has_k, has_m);
+            solid_field_of_share(solid, now, s, &field[s]);
+        else
+            (void)solid_field_rate(solid, now, s, solid->parameter[p], &field[s]);
 }
 
 static void take_in(int dof, int *from, int *end)
@@ -769,10 +769,12 @@ static void take_in_attached(const struct solid *solid, int p, int *from, int *e
 static void assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m, int *from, int *end)
 {
     double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS];
+    struct share field[SHARES];
     int has_k, has_m;
     for (int e = 0; e < solid->mesh.nelement; e++) {
         const struct solid_element *element = &solid->mesh.element[e];
-        element_matrices_of(solid, e, p, ek, em, &has_k, &has_m);
+        solid_fields_of(solid, e, p, field);
+        solid_element_matrices(solid, e, field, ek, em, &has_k, &has_m);
         if (has_k)
             solid_add_element(solid, element, ek, k);
         if (has_m)
@@ -821,6 +823,7 @@ int solid_derivative_products(const struct solid *solid, int p, int count, const
                               int *end)
 {
     double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS];
+    struct share field[SHARES];
     int has_k, has_m, attached_end = 0;
     *from = solid->mesh.ndof;
     take_in_attached(solid, p, from, &attached_end);
@@ -831,7 +834,8 @@ int solid_derivative_products(const struct solid *solid, int p, int count, const
     memset(dm_u, 0, (size_t)count * (size_t)solid->mesh.ndof * sizeof *dm_u);
     for (int e = 0; e < solid->mesh.nelement; e++) {
         const struct solid_element *element = &solid->mesh.element[e];
-        element_matrices_of(solid, e, p, ek, em, &has_k, &has_m);
+        solid_fields_of(solid, e, p, field);
+        solid_element_matrices(solid, e, field, ek, em, &has_k, &has_m);
         if (has_k)
             add_product_of_element(solid, element, ek, count, u, dk_u);
         if (has_m)
@@ -918,9 +922,11 @@ void solid_rigid_motions(const struct solid *solid, double *u)
 void solid_strain_energy(const struct solid *solid, const double *u, double *energy)
 {
     double ek[SOLID_DOFS * SOLID_DOFS], em[SOLID_DOFS * SOLID_DOFS], local[SOLID_DOFS];
+    struct share field[SHARES];
     int has_k, has_m;
     for (int e = 0; e < solid->mesh.nelement; e++) {
-        element_matrices_of(solid, e, -1, ek, em, &has_k, &has_m);
+        solid_fields_of(solid, e, -1, field);
+        solid_element_matrices(solid, e, field, ek, em, &has_k, &has_m);
         solid_element_motion(solid, &solid->mesh.element[e], u, local);
         energy[e] = 0;
         if (!has_k)

@@ -291,6 +291,10 @@ void solid_field_of_share(const struct solid *solid, const struct solid_element 
 int solid_field_rate(const struct solid *solid, const struct solid_element *element, int share, struct parameter parameter,
                      struct share *rate);
 
+/* field [SHARES] of element `index`, or for p >= 0 the rates; left as it is where the element before has the same: elements are
+ * gone through in their order. */
+void solid_fields_of(const struct solid *solid, int index, int p, struct share *field);
+
 /* K and M [24 * 24] of element `index` from the fields [SHARES] of its shares, or what these change of them; *has_k, *has_m:
  * whether each is there at all, or left as it was. */
 void solid_element_matrices(const struct solid *solid, int index, const struct share *field, double *k, double *m, int *has_k,
