@@ -210,6 +210,35 @@ POOL_TEST(a_cause_is_left_at_the_test)
     assert_close(speed[1], speed[2], 1e-9, 0);
 }
 
+/* A support or a disk that is left at the test leaves nothing behind: no stiffness about or along the axis, no hub, no cause of
+ * its own. */
+POOL_TEST(what_is_left_at_the_test_is_left_with_all_of_it)
+{
+    static const char *const had[4] =
+        {"*SPRING, NAME=held\nend, 1e6, 1e5, 1e7, 1e9\n*DISK, NAME=hub\n1, 20, 0.1, 0.2, 0.3, 0.3\n*CAUSE, NAME=fit, "
+         "TYPE=hub_stiffness\nshare, 1\n",
+         "*DISK, NAME=hub\n0.6, 20\n*CAUSE, NAME=more, TYPE=added_inertia, AT=hub\ninertia, 2\n", "*CLAMP, NAME=held, AT=end\n",
+         ""},
+                             *const gone[4] = {"f, held, hub", "f, hub", "f, held", "f"};
+    double speed[4], torsion[4], count[4];
+    for (int i = 0; i < 4; i++) {
+        struct running_case c;
+        char *text =
+            pool_format(&test_pool, SHAFT "%s*RUNNING\n%s\n*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n", had[i], gone[i]);
+        assert_int_equal(running_case_open(text, 9000, 9, 0, &c), ROTID_OK);
+        count[i] = c.speeds.ncritical_speeds;
+        assert_true(count[i] > 0 && c.speeds.ntorsion > 0);
+        speed[i] = c.speeds.critical_speeds[0].speed_rpm;
+        torsion[i] = c.speeds.torsion[0].frequency_hz;
+        running_case_close(&c);
+    }
+    for (int i = 0; i < 3; i++) {
+        assert_close(count[i], count[3], 0, 0);
+        assert_close(speed[i], speed[3], 1e-4, 0); /* a hub has nodes of its own */
+        assert_close(torsion[i], torsion[3], 1e-2, 0);
+    }
+}
+
 #define MODES "*NOISE, FREQUENCY=1e-3\n*MODES\n1, 100\n*IDENTIFY\na.E, 1e10, 1e12, 2e11\n" /* five lines */
 
 POOL_TEST(a_run_up_that_cannot_be_is_refused_with_its_place)

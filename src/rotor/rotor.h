@@ -225,6 +225,7 @@ struct effect_kind {
     int nparameter;
     struct effect_parameter_name parameter[EFFECT_MOST_PARAMETERS];
     int at_sensor; /* nonzero: the target is a sensor */
+    int at_disk;   /* nonzero: the target is a disk, with which it is left out */
     int (*field)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *field);
     int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,

@@ -71,6 +71,13 @@ int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_
     return ROTID_OK;
 }
 
+/* By its name, or with the disk that it belongs to. */
+static int is_gone(const struct machine *machine, const struct rotor *rotor, int effect)
+{
+    const struct effect *own = &rotor->effect[effect];
+    return machine->without_effect[effect] || (own->kind->at_disk && machine->without_disk[own->target]);
+}
+
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p)
 {
     if (p >= job->unknowns.nparameter)
@@ -80,7 +87,7 @@ int machine_has_unknown(const struct machine *machine, const struct job *job, in
         disk = parameter->kind == PARAMETER_DISK_MASS || parameter->kind == PARAMETER_DISK_INERTIA;
     int cause = parameter->kind == PARAMETER_EFFECT;
     return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]) &&
-           !(cause && machine->without_effect[parameter->index]);
+           !(cause && is_gone(machine, &job->rotor, parameter->index));
 }
 
 /* A cause that is gone. */
@@ -97,14 +104,14 @@ static int add_parts(struct pool *pool, const struct machine *machine, struct ro
     for (int i = 0; i < disks; i++) {
         disk[i] = rotor->disk[i];
         if (machine->without_disk[i])
-            disk[i].mass = disk[i].diametral = disk[i].polar = 0;
+            disk[i] = (struct disk){.name = disk[i].name, .position = disk[i].position};
     }
     for (int i = 0; i < machine->ndisk; i++)
         disk[disks + i] = machine->disk[i];
     for (int i = 0; i < springs; i++) {
         spring[i] = rotor->spring[i];
         if (machine->without_spring[i])
-            spring[i].lateral = spring[i].rotational = 0;
+            spring[i] = (struct spring){.name = spring[i].name, .position = spring[i].position};
     }
     for (int i = 0; i < machine->nbearing; i++)
         spring[springs++].position = machine->bearing[i].z;
@@ -113,7 +120,7 @@ static int add_parts(struct pool *pool, const struct machine *machine, struct ro
     for (int i = 0; i < machine->nprobe; i++)
         spring[springs++].position = machine->probe[i].z;
     for (int i = 0; i < rotor->neffect; i++)
-        if (machine->without_effect[i])
+        if (is_gone(machine, rotor, i))
             rotor->effect[i].kind = &nothing; /* which keeps its place and its parameters */
     rotor->disk = disk;
     rotor->ndisk = disks + machine->ndisk;

@@ -21,7 +21,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 }
 
 static const struct effect_kind kind = {
-    .id = "added_inertia", .nparameter = 1, .parameter = {{"inertia", "kg.m2"}}, .point = point};
+    .id = "added_inertia", .nparameter = 1, .parameter = {{"inertia", "kg.m2"}}, .at_disk = 1, .point = point};
 
 const struct cause_kind cause_added_inertia = {
     .id = "added_inertia",
