@@ -160,6 +160,35 @@ POOL_TEST(the_response_has_the_band_of_its_stiffness)
     running_case_close(&c);
 }
 
+/* A permitted unbalance is that of the mass that was found, not of the deck's; by the mass the amplitude has the derivative with
+ * it. */
+POOL_TEST(a_grade_follows_an_identified_mass)
+{
+    static const double of_deck[4] = {10, 30, 30 * 0.999, 30 * 1.001};
+    double peak[4], slope = 0;
+    for (int i = 0; i < 4; i++) {
+        struct running_case c;
+        double x[1] = {30}, std[1] = {3}, covariance[1] = {9};
+        const rotid_fit_result fit = {.n = 1, .x = x, .std = std, .covariance = covariance};
+        char *text =
+            pool_format(&test_pool,
+                        "*MATERIAL, NAME=s\n*ELASTIC\n1e12, 0.3\n*DENSITY\n1\n*SHAFT, NAME=a, MATERIAL=s\n1, 0.2, 0, 8\n*DISK, "
+                        "NAME=d\n0.5, %.9g, 2, 4\n%s*RUNNING\n*BEARING\nstart, 1e6, 300\n*BEARING\nend, 1e6, 300\n*UNBALANCE, "
+                        "G=2.5\n0.5, 1\n*PROBE, NAME=x\n0.5\n*OPERATION\n2500, 3000\n",
+                        of_deck[i], i ? "" : "*IDENTIFY\nd.mass, 1, 100, 30\n");
+        assert_int_equal(running_case_open(text, 4000, 9, 0, &c), ROTID_OK);
+        if (!i)
+            assert_int_equal(running_case_run(&c, &fit, 4000, 9, 50), ROTID_OK);
+        const rotid_critical_speed *w = forward(&c);
+        assert_int_equal(w->npeaks, 1);
+        peak[i] = w->peaks[0].amplitude_m;
+        slope = i ? slope : by(w, "d.mass")->amplitude;
+        running_case_close(&c);
+    }
+    assert_close(peak[0], peak[1], 1e-9, 0);
+    assert_close(slope, log(peak[3] / peak[2]) / log(of_deck[3] / of_deck[2]), 1e-4, 0);
+}
+
 #define BY_DIFFERENCES 1e-3
 static double changed(double one, int which, int number)
 {

@@ -572,8 +572,10 @@ static void scale_unbalances(struct deck_reader *reader, const struct place runn
     if (status)
         return;
     for (int i = 0; i < machine->nunbalance; i++)
-        if (machine->unbalance[i].grade > 0)
+        if (machine->unbalance[i].grade > 0) {
             machine->unbalance[i].value *= machine->unbalance[i].grade * mass.mass / machine->high;
+            machine->unbalance[i].mass = mass.mass;
+        }
 }
 
 /* Whether a *FIT holds out the run-up; its place. */

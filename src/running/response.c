@@ -7,19 +7,26 @@
 #define GRAVITY 9.80665
 #define HALF    0.70710678118654752
 
-/* m e W^2 (cos(W t + p), sin(W t + p)) = Re (1, -i) m e W^2 e^{ip} e^{iWt} */
-int response_at(struct system *s, double speed, double complex *q)
+/* q += factor times m e W^2 (cos(W t + p), sin(W t + p)) = Re (1, -i) m e W^2 e^{ip} e^{iWt}; a grade permits m e in proportion
+ * to the mass of the machine, which identified masses change */
+static void add_force(const struct system *s, double speed, double factor, double complex *q)
 {
-    const struct machine *machine = s->machine;
-    memset(q, 0, (size_t)s->size * sizeof *q);
-    system_at(s, speed);
-    for (int i = 0; i < machine->nunbalance; i++) {
-        double complex force = machine->unbalance[i].value * speed * speed * cexp(I * machine->unbalance[i].phase);
+    for (int i = 0; i < s->machine->nunbalance; i++) {
+        const struct unbalance *own = &s->machine->unbalance[i];
+        double size = own->grade > 0 ? own->value * (s->total_mass / own->mass) : own->value;
+        double complex force = factor * size * speed * speed * cexp(I * own->phase);
         for (int j = 0; j < s->columns; j++) {
             q[j] += force * s->unbalance[j + (ptrdiff_t)s->columns * i];
             q[s->plane + j] -= I * force * s->unbalance[j + (ptrdiff_t)s->columns * i];
         }
     }
+}
+
+int response_at(struct system *s, double speed, double complex *q)
+{
+    memset(q, 0, (size_t)s->size * sizeof *q);
+    system_at(s, speed);
+    add_force(s, speed, 1, q);
     system_dynamic(s, I * speed, 0, s->d);
     if (complex_factor(s->size, s->d, s->pivot))
         return 1;
@@ -49,6 +56,8 @@ double response_rate(struct system *nominal, struct system side[2], double apart
         system_dynamic(&side[i], I * speed, 0, i ? above : below);
     }
     memset(change, 0, n * sizeof *change);
+    for (int i = 0; i < 2; i++)
+        add_force(&side[i], speed, (i ? 1 : -1) / apart, change);
     for (size_t col = 0; col < n; col++)
         for (size_t row = 0; row < n; row++)
             change[row] -= (above[row + n * col] - below[row + n * col]) / apart * q[col];

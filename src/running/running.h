@@ -80,6 +80,7 @@ struct change { /* from rest to operation: a factor on a parameter */
 struct unbalance {
     double z, value, phase; /* m, kg.m, rad from x in the direction of spin */
     double grade;           /* m/s of ISO 21940-11, of which `value` was a share in the deck; 0: none */
+    double mass;            /* kg of the machine by the values of the deck, to which `value` of a grade belongs */
 };
 
 struct probe {
