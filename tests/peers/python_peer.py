@@ -116,6 +116,8 @@ def from_ross_refuses(checks, folder):
         "L null": ({"ShaftElement_a": element(0, L=None)}, "ShaftElement_a.L: is null, expected a number above 0"),
         "L as text": ({"ShaftElement_a": element(0, L="one")}, "ShaftElement_a.L: is the text 'one'"),
         "L 1e999": ({"ShaftElement_a": element(0, L="1e999")}, "ShaftElement_a.L: is inf"),
+        "L of 400 digits": ({"ShaftElement_a": element(0, L=10**400)}, "ShaftElement_a.L: is inf"),
+        "a bearing of 400 digits": ({"BearingElement_b": bearing(0, [1e6, -10**400])}, "BearingElement_b.kxx: has -inf"),
         "L missing": ({"ShaftElement_a": {k: v for k, v in element(0).items() if k != "L"}}, "ShaftElement_a.L: is missing"),
         "density null": ({"ShaftElement_a": element(0, material=material(rho=None))}, "ShaftElement_a.material.rho: is null"),
         "E null": ({"ShaftElement_a": element(0, material=material(E=None))}, "ShaftElement_a.material.E: is null"),

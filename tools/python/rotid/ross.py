@@ -86,6 +86,11 @@ def no_constant(text):
     raise ValueError(f"{text} is no JSON")
 
 
+def integer(text):
+    """An integer beyond all doubles is infinite, as 1e999 is, and refused with its place where a number is expected."""
+    return int(text) if len(text) < 300 else float(text)
+
+
 def unique(pairs):
     keys = dict(pairs)
     if len(keys) < len(pairs):
@@ -96,7 +101,7 @@ def unique(pairs):
 
 def load(path):
     try:
-        root = json.loads(Path(path).read_bytes().decode("utf-8"), parse_constant=no_constant, object_pairs_hook=unique)
+        root = json.loads(Path(path).read_bytes().decode("utf-8"), parse_constant=no_constant, parse_int=integer, object_pairs_hook=unique)
     except OSError as error:
         refuse(path, None, f"cannot be read: {error.strerror or error}")
     except json.JSONDecodeError as error:
