@@ -211,11 +211,45 @@ static void wrong_input_is_refused(void **state)
     assert_int_equal(rotid_diagnose_model(&host.model, beam_parameters, &data.measured, 0, cause, NULL, NULL, failure, &d),
                      ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(failure, "ncause is 0"));
+    assert_int_equal(rotid_diagnose_model(&host.model, NULL, &data.measured, CAUSES, cause, NULL, NULL, failure, &d),
+                     ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(failure, "parameter is NULL"));
+    host.model.nparam = -2;
+    REFUSED(ROTID_ERROR_ARGUMENT, "model->nparam is -2");
+    host.model.nparam = 2;
     const rotid_environment ends = {.size = sizeof ends, .cancelled = stop};
     assert_int_equal(rotid_diagnose_model(&host.model, beam_parameters, &data.measured, CAUSES, cause, NULL, &ends, failure, &d),
                      ROTID_STOP_CANCELLED);
     assert_null(d);
     rotid_host_diagnosis_free(NULL);
+}
+
+static int asked, misled;
+
+static int products(void *user, const double *x, int p, int count, const double *u, double *dk_u, double *dm_u)
+{
+    (void)x, (void)count, (void)u, (void)dk_u, (void)dm_u;
+    asked++;
+    misled += user != host.model.user || p >= host.model.nparam;
+    return 1; /* the derivatives are to be asked */
+}
+
+/* Callbacks of the host's model see its own user and its own parameters, with causes in the model as well. */
+static void the_callbacks_of_a_model_have_its_own_user(void **state)
+{
+    rotid_host_diagnosis *d;
+    (void)state;
+    hidden_cause[0] = &cause[2];
+    hidden_value[0] = 0.5;
+    measure(7);
+    host.model.derivative_products = products;
+    asked = misled = 0;
+    assert_status(rotid_diagnose_model(&host.model, beam_parameters, &data.measured, 3, cause, NULL, NULL, failure, &d),
+                  ROTID_OK);
+    assert_true(asked > 0);
+    assert_int_equal(misled, 0);
+    assert_true(d->probability[2] > 0.95);
+    rotid_host_diagnosis_free(d);
 }
 
 /* Failing allocations throughout a small diagnosis, frequencies and two causes. */
@@ -248,6 +282,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {TEST(what_is_hidden_is_named_with_its_size),
                                        TEST(nothing_hidden_is_nothing_and_what_is_no_cause_is_something_else),
-                                       TEST(wrong_input_is_refused), TEST(without_memory_there_is_no_diagnosis)};
+                                       TEST(wrong_input_is_refused), TEST(the_callbacks_of_a_model_have_its_own_user),
+                                       TEST(without_memory_there_is_no_diagnosis)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,7 +125,8 @@ static int enter(struct host *h, rotid_host_explanation set, const double *x, in
     model.nparam = n;
     if (set.ncause) {
         model.matrices = matrices;
-        model.derivatives = NULL;
+        model.derivatives = NULL; /* both are of the host's model alone, and of its user */
+        model.derivative_products = NULL;
         model.user = &composed;
     }
     status = rotid_fit(&model, parameter, h->measured, &options, h->environment, h->failure, &fit);
@@ -365,7 +366,11 @@ static int run(struct entry *entry, struct pool *keep, struct host *h, const rot
     h->keep = keep;
     if (!status && !h->set)
         status = ROTID_ERROR_MEMORY;
-    if (!status) /* the data as rotid_fit judges them, before anything is made of them */
+    if (!status) /* all as rotid_fit judges it, before anything is made of it */
+        status = fit_check_model(h->model, entry->failure);
+    if (!status)
+        status = fit_check_parameters("model->nparam", h->model->nparam, h->parameter, entry->failure);
+    if (!status)
         status = measured_check(h->model, h->measured, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, entry->failure);
     if (!status)
         status =
