@@ -1,9 +1,11 @@
 /* rotid ema as its users see it: the modes of a real bar as JSON and as a file for a deck, and what is refused. */
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 
+#include "base/base.h"
 #include "deck/deck.h"
 #include "json_value.h"
 #include "one_state.h"
@@ -319,6 +321,43 @@ static void put_two_parts(const char *name, int tied)
         (void)fputc('\n', out);
     }
     assert_int_equal(fclose(out), 0);
+}
+
+/* A table of four points over one reference, one line for each of two modes; files of one test differ in order and digits, in
+ * which noise is that of `seed`. */
+static void put_table(const char *name, int seed, int last, int digits)
+{
+    const double phi[2][4] = {{1, 0.5, -0.4, -0.9}, {-1, 0.3, 0.8, -0.6}}, at_hz[2] = {80, 130};
+    struct random_stream random = {(uint64_t)seed};
+    FILE *out = create(name);
+    (void)fputs("frequency [Hz]", out);
+    for (int c = 0; c < 4; c++)
+        (void)fprintf(out, ";%d/1 real;%d/1 imaginary", (c + last) % 4 + 1, (c + last) % 4 + 1);
+    (void)fputc('\n', out);
+    for (int i = 0; i < 400; i++) {
+        double f = 50 + 0.25 * i;
+        double complex h[4] = {0};
+        for (int c = 0; c < 4; c++) {
+            for (int k = 0; k < 2; k++)
+                h[c] += phi[k][c] * phi[k][0] * f * f / (at_hz[k] * at_hz[k] - f * f + I * 0.02 * at_hz[k] * f);
+            h[c] += 1e-2 * (random_normal(&random) + I * random_normal(&random));
+        }
+        (void)fprintf(out, "%g", f);
+        for (int c = 0; c < 4; c++)
+            (void)fprintf(out, ";%.*g;%.*g", digits, creal(h[(c + last) % 4]), digits, cimag(h[(c + last) % 4]));
+        (void)fputc('\n', out);
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
+/* The same records in another order, or with other digits, have no scatter either. */
+UNIT_TEST(two_files_of_one_test_are_no_two_tests)
+{
+    put_table("first.csv", 1, 0, 12);
+    put_table("again.csv", 1, 1, 6);
+    put_table("second.csv", 2, 0, 12);
+    ema_says("first.csv second.csv -o both.unv", 0, "the means of 2 tests");
+    ema_says("first.csv second.csv again.csv -o all.unv", 2, "/1 is that of first.csv, expected another test");
 }
 
 UNIT_TEST(points_that_nothing_ties_to_the_others_are_told)

@@ -9,6 +9,8 @@
 #include "import/import.h"
 #include "report/report.h"
 
+#define DIGITS 1e-5 /* of a function: what six digits in a file leave of it */
+
 /* Whole or not there. */
 static int write_modes(struct command *command, const struct measurement *measurement, const struct ema *ema)
 {
@@ -159,6 +161,29 @@ static int is_same_test(const struct ema *a, const struct ema *b)
     return same;
 }
 
+/* A transfer function of b that is one of a but for the digits in which files are written: parts of one test, in another order or
+ * format. NULL: there is none, as of two tests, whose noise differs. */
+static const struct frf *shared(const struct frf_set *a, const struct frf_set *b)
+{
+    int lines = a->nline == b->nline && fabs(a->frequency_hz[0] - b->frequency_hz[0]) <= DIGITS * b->frequency_hz[b->nline - 1] &&
+                fabs(a->frequency_hz[a->nline - 1] - b->frequency_hz[b->nline - 1]) <= DIGITS * b->frequency_hz[b->nline - 1];
+    for (int i = 0; i < a->nfrf && lines; i++)
+        for (int j = 0; j < b->nfrf; j++) {
+            const struct frf *one = &a->frf[i], *other = &b->frf[j];
+            double apart = 0, whole = 0;
+            if (one->response_node != other->response_node || one->response_direction != other->response_direction ||
+                one->reference_node != other->reference_node || one->reference_direction != other->reference_direction)
+                continue;
+            for (int k = 0; k < a->nline; k++) {
+                apart += creal((one->h[k] - other->h[k]) * conj(one->h[k] - other->h[k]));
+                whole += creal(one->h[k] * conj(one->h[k]));
+            }
+            if (whole > 0 && apart <= DIGITS * DIGITS * whole)
+                return other;
+        }
+    return NULL;
+}
+
 /* Several tests of one structure: their mean, and the scatter between them. */
 static int command_ema_tests(struct command *command)
 {
@@ -177,10 +202,17 @@ static int command_ema_tests(struct command *command)
         if (failed)
             return failed;
         code = is_doubtful(&test[t]) ? EXIT_DOUBTFUL : code;
-        for (int before = 0; before < t; before++)
+        for (int before = 0; before < t; before++) {
+            const struct frf *twice = shared(&measurement[before].set, &measurement[t].set);
             if (is_same_test(&test[before], &test[t]))
                 return arguments_wrong("%s: has the modes of a file before it to the last digit, expected another test",
                                        command->file[t]);
+            const char *which = twice ? pool_format(&command->pool, "%s: transfer function %d/%d is that of %s", command->file[t],
+                                                    twice->response_node, twice->reference_node, command->file[before])
+                                      : NULL;
+            if (which)
+                return arguments_wrong("%s, expected another test", which);
+        }
     }
     command->deck = command->file[0];
     int status = ema_average(&command->pool, count, test, &mean, &scatter);
