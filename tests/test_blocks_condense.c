@@ -184,6 +184,22 @@ POOL_TEST(derivatives_of_irs_match_differences)
         }
 }
 
+/* Two springs and masses whose condensation leaves the doubles: T'KT and its derivative. */
+POOL_TEST(what_leaves_the_doubles_is_no_result)
+{
+    const int master[1] = {0};
+    double k_band[4] = {1, -1e200, 1, 0}, m_band[4] = {1, 0, 1, 0}, kc[1], mc[1];
+    const rotid_matrix k = {2, 1, 0, NULL, k_band, NULL}, m = {2, 1, 0, NULL, m_band, NULL};
+    (void)state;
+    assert_status(rotid_condense(&k, &m, 1, master, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_ERROR_FINITE);
+    k_band[1] = -1;
+    m_band[2] = 1e200;
+    assert_status(rotid_condense(&k, &m, 1, master, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_OK);
+    double large_band[4] = {1e308, 1e308, 1e308, 0};
+    const rotid_matrix large = {2, 1, 0, NULL, large_band, NULL};
+    assert_status(rotid_condense_derivative(&k, &m, &large, &m, 1, master, ROTID_GUYAN, NULL, NULL, kc, mc), ROTID_ERROR_FINITE);
+}
+
 POOL_TEST(what_cannot_be_condensed_is_named)
 {
     struct random_stream stream = {5};

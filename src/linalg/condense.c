@@ -1,4 +1,5 @@
 /* Condensation of a host's matrices. */
+#include <math.h>
 #include <string.h>
 
 #include "base/base.h"
@@ -20,6 +21,15 @@ static int check(int count, const rotid_matrix *const *a, int nmaster, const int
     return indices_check("master", nmaster, master, a[0]->n, failure);
 }
 
+/* Entries near the ends of the doubles leave none behind. */
+static int are_numbers(size_t count, const double *a)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(a[i]))
+            return 0;
+    return 1;
+}
+
 static int condense(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
                     double *kc, double *mc, double *t)
 {
@@ -34,7 +44,9 @@ static int condense(struct pool *pool, const rotid_matrix *k, const rotid_matrix
     memcpy(mc, r.mc, square * sizeof *mc);
     if (t)
         memcpy(t, r.t, (size_t)k->n * (size_t)nmaster * sizeof *t);
-    return ROTID_OK;
+    return are_numbers(square, kc) && are_numbers(square, mc) && are_numbers((size_t)k->n * (size_t)nmaster, r.t)
+               ? ROTID_OK
+               : ROTID_ERROR_FINITE;
 }
 
 int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
@@ -79,7 +91,8 @@ static int differentiate(struct pool *pool, const rotid_matrix *const *a, int nm
         symmetrise(nmaster, dkc);
         symmetrise(nmaster, dmc);
     }
-    return status;
+    size_t square = (size_t)nmaster * (size_t)nmaster;
+    return !status && !(are_numbers(square, dkc) && are_numbers(square, dmc)) ? ROTID_ERROR_FINITE : status;
 }
 
 int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,
