@@ -278,10 +278,10 @@ figures: all
 LONGEST := $(addprefix $(BUILD)/tests/test_,diagnose_cases tutorial worked diagnose embedding evidence suggest diagnose_states page_browser \
            hidden_effects solid_frequencies limits chain runup weighed api_memory hidden_faults wrong_decks \
            api_cancel diagnose_model page_input host held_mesh diagnose_solid accelerometer study_program study_run install \
-           running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run)
+           running_bands fortran solid_attached diagnose_bounds api_diagnosis terminal ema_statistics deck_write command_ema run search)
 # Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
 # rows of LONGER.
-LONGER := hidden_effects hidden_faults chain diagnose_cases diagnose api_cancel api_memory solid_frequencies held_mesh worked run deck_write
+LONGER := hidden_effects hidden_faults chain diagnose_cases diagnose api_cancel api_memory solid_frequencies held_mesh worked run deck_write search
 LONG := hidden_numbers hidden_rivals hidden_pairs hidden_shifts stiff_supports power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: test-programs

@@ -769,7 +769,7 @@ typedef struct rotid_verdict {
     int adequate_after; /* the model with the causes that were named is adequate for these data */
     double p_value;     /* of the base model: the smallest of the tests */
     int ncauses;
-    rotid_cause *causes; /* named, as they stand in the extended model */
+    rotid_cause *causes; /* named, as they stand in the extended model, which may hold likely ones beside them (sentence) */
     int nalternatives;
     const char **alternatives; /* ids of the candidates that cannot be told apart, best first */
     int nalternative_causes;

@@ -137,7 +137,7 @@ POOL_TEST(what_nothing_explains_says_so)
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "unexplained");
     page_says(html, "class=\"answer bad\"");
     page_says(html, "<p class=\"tone\">Unexplained: something outside of the catalogue with ");
-    page_says(html, "\">unlikely: ");
+    page_says(html, "\">possible (");
     cJSON_Delete(json);
 }
 

@@ -38,13 +38,38 @@ static int solid_unknowns(struct pool *pool, const struct job *solid, int *unkno
 }
 
 /* Holds the coarse mesh of a solid at x to the one that counts. */
-static int hold_mesh(struct pool *pool, const struct job *solid, const double *x)
+static int hold_mesh(struct pool *pool, struct job *solid, const double *x, double *moved)
 {
     struct spectrum spectrum;
-    double moved;
     int status = spectrum_compute_parts(pool, solid->models, &solid->rotor, solid->unknowns.nparameter, solid->unknowns.parameter,
                                         x, ROTID_GUYAN, comparison_candidates(solid), SPECTRUM_MESH, &spectrum);
-    return status ? status : mesh_hold(pool, solid, &spectrum, &moved);
+    return status ? status : mesh_hold(pool, solid, &spectrum, moved);
+}
+
+#define HELD_ROUNDS 4
+#define HELD_LEAST  0.1 /* of the noise of a frequency */
+
+int refit_held(struct pool *pool, const int *number, const int *holdout, const rotid_environment *environment,
+               struct refit *refit)
+{
+    int status = ROTID_OK, moves = refit->fit != NULL;
+    for (int round = 0; round < HELD_ROUNDS && moves && !status; round++) {
+        rotid_fit_result *fit = NULL;
+        moves = 0;
+        for (int s = 0; s < refit->states.nstate && !status; s++) {
+            struct job *job = &refit->states.state[s].job;
+            double *own = state_values(pool, &refit->states.state[s], refit->fit->x), moved = 0, least = INFINITY;
+            for (int k = 0; k < job->measurement.nmode; k++)
+                least = fmin(least, job->measurement.frequency_std[k]);
+            status = own ? hold_mesh(pool, job, own, &moved) : ROTID_ERROR_MEMORY;
+            moves |= moved > HELD_LEAST * least;
+        }
+        if (!status && moves)
+            status = refit_states(pool, &refit->states, number, holdout, environment, &fit);
+        if (!status && moves)
+            status = refit_keep(pool, &refit->states, fit, refit);
+    }
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK; /* the fit before stands */
 }
 
 #define HOPELESS                                                                                                                 \
@@ -96,10 +121,10 @@ static int open_solids(struct pool *pool, const struct states *states, struct st
     return status;
 }
 
-int scan_solid(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+int scan_solid(struct pool *pool, struct states *states, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes)
 {
-    double left, before = product_dot(scan->nrow, scan->r, scan->r);
+    double left, moved, before = product_dot(scan->nrow, scan->r, scan->r);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
         struct states solids;
@@ -122,7 +147,7 @@ int scan_solid(struct pool *pool, const struct states *states, const int *number
         if (!status && left < HOPELESS * before) {
             for (int s = 0; s < solids.nstate && !status; s++) {
                 double *own = state_values(pool, &solids.state[s], x);
-                status = own ? hold_mesh(pool, &solids.state[s].job, own) : ROTID_ERROR_MEMORY;
+                status = own ? hold_mesh(pool, &solids.state[s].job, own, &moved) : ROTID_ERROR_MEMORY;
             }
             if (!status)
                 status = chi2_left(pool, &solids, number, holdout, x, scan, &left);
@@ -130,6 +155,8 @@ int scan_solid(struct pool *pool, const struct states *states, const int *number
         if (status) /* the rotor can be no solid: nothing to propose */
             return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
         c->promise = fmax(0, before - left);
+        for (int s = 0; s < solids.nstate; s++)
+            states->state[s].job.held = solids.state[s].job.held;
     }
     return ROTID_OK;
 }

@@ -242,11 +242,14 @@ static int take_numbers(struct engine *engine)
 }
 
 /* Measured modes keep the numbers that they have beside the base: a spring that a candidate adds or stiffens makes its suspension
- * modes bend, and counting them anew would turn every number into that of another mode. */
+ * modes bend, and counting them anew would turn every number into that of another mode. A solid keeps what its mesh is held to. */
 static void settle_numbers(struct engine *engine)
 {
-    for (int s = 0; s < engine->states.nstate; s++)
-        engine->states.state[s].job.rotor.settled_rigid = 1 + engine->out->state_base[s].spectrum.nrigid;
+    for (int s = 0; s < engine->states.nstate; s++) {
+        struct job *job = &engine->states.state[s].job;
+        job->rotor.settled_rigid = 1 + engine->out->state_base[s].spectrum.nrigid;
+        job->held = job->options.solid ? engine->out->state_base[s].held : job->held;
+    }
 }
 
 /* say: the notes of the fit */

@@ -70,7 +70,7 @@ struct diagnosis_round {
 #define MOST_MEMBERS  3
 #define VERDICT_NAMED 0.95 /* probability of a name */
 #define SEARCH_PASSES 4
-#define SEARCH_FITS   40 /* of all passes, at most */
+#define SEARCH_FITS   48 /* of all passes, at most */
 
 struct evidence {
     double log_z;       /* over the noise's factors too */
@@ -137,6 +137,9 @@ struct diagnosis {
     struct diagnosis_round *round; /* the last one names nothing more */
     int ncause;
     struct candidate *cause; /* [ncause] as they stand in the final model */
+    int nlikely;
+    struct candidate *likely;  /* [nlikely] that stand in the final model beside those, without being named, */
+    double likely_probability; /* and how probable the model with all of them is */
     int nalternative;        /* ambiguous: the causes of candidates that cannot be told apart, best first */
     struct candidate *alternative;
     struct states extended_states;  /* without states where nothing was named */
@@ -313,6 +316,15 @@ struct scan {
 /* The candidates: every physical cause of the catalogue at every target where it applies and is not in the model yet, and the
  * user's suspects; of several states then those of them in one state alone. */
 int scan_list(struct pool *pool, const struct states *states, struct scan *scan);
+
+struct scan_pair {
+    int item[2];
+    double amplitude[2], drop;
+};
+
+/* The best items of two candidates each whose columns together promise most, with the largest drop first: list [most], *count.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int scan_pairs(struct pool *pool, const struct scan *scan, int most, struct scan_pair *list, int *count);
 
 /* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
@@ -535,10 +547,15 @@ void round_free(struct round_result *result);
  * may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
 int job_as_solid(struct pool *pool, const struct job *from, struct job *to);
 
+/* A fit of a solid again, its mesh held where that ended, until what is held moves by a tenth of the least noise of a frequency
+ * at most. Statuses of memory and cancellation only. */
+int refit_held(struct pool *pool, const int *number, const int *holdout, const rotid_environment *environment,
+               struct refit *refit);
+
 /* What the rotor as a solid in all states promises, by its residual at x, from which the beam's columns take what is fitted
- * anyway: to the first order in a change of the moduli. 0 where the rotor can be no solid, or one that is too large, as is noted
+ * anyway: to the first order in a change of the moduli; its mesh is held there. 0 where the rotor can be no solid, or one that is too large, as is noted
  * where notes is not NULL. Statuses of memory only. */
-int scan_solid(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+int scan_solid(struct pool *pool, struct states *states, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes);
 
 /* ------------------------------------------------------------------------------------------------------------------ base */

@@ -1,6 +1,7 @@
 #include "diagnose/diagnose.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/base.h"
 #include "run/run.h"
@@ -10,6 +11,7 @@
 #define PLACES    16   /* along the rotor */
 #define SIZES     12   /* at most, of each candidate */
 #define MOST_FITS 6    /* of the trials that come nearest */
+#define ROUNDS    4    /* of a fit with its pairs */
 #define OFF_HZ    0.02 /* of a frequency, and */
 #define OFF_SHAPE 0.05 /* of 1 - MAC: what the parameters of the deck still put right */
 #define STEPS     6    /* of the way from no effect to a bound; and with a place */
@@ -122,40 +124,68 @@ static int try_candidate(void *context, int index, int worker)
     return status;
 }
 
-/* The fit from a trial with the pairing beside it; *rate INFINITY where there is none. */
+/* The modes of the job paired with those of its model at x, its effects as they stand. */
+static int pair_at(struct engine *engine, const struct job *job, const double *x, struct comparison *compared)
+{
+    struct job own = *job;
+    struct spectrum spectrum;
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    own.unknowns.nparameter = engine->job->unknowns.nparameter;
+    int status = spectrum_compute_parts(engine->pool, own.models, &own.rotor, own.unknowns.nparameter, own.unknowns.parameter, x,
+                                        ROTID_GUYAN, comparison_candidates(&own), SPECTRUM_REDUCED, &spectrum);
+    return status ? status : comparison_make(engine->pool, &own, &spectrum, &quiet, compared);
+}
+
+/* The fit from a trial with the numbers as measured, as a mode may have crossed another on the way there, and with the pairing
+ * beside it, then again from there with that beside the fit, until the pairs stay; *rate of the best, INFINITY where there is
+ * none. */
 static int fit_trial(struct engine *engine, const struct scan_candidate *c, const struct trial *trial,
                      const struct job_measurement *measured, double *rate, int **number, struct effect *effect)
 {
-    struct job job, with;
+    struct job with, job;
     struct state state;
-    struct spectrum spectrum;
-    struct comparison compared;
-    struct message_list quiet;
-    rotid_fit_result *fit = NULL;
+    struct comparison compared = {.number = measured->number};
+    const double *x = engine->fit->x;
     *rate = INFINITY;
-    message_open(&quiet, engine->pool);
-    int status = job_with_effect(engine->pool, engine->job, engine->fit->x, &trial->effect, c->cause, NULL, &job);
+    int nmode = measured->nmode, status = job_with_effect(engine->pool, engine->job, x, &trial->effect, c->cause, NULL, &with);
     if (status)
         return status;
-    job.measurement = *measured;
-    with = job;
-    with.unknowns.nparameter = engine->job->unknowns.nparameter;
-    status = spectrum_compute_parts(engine->pool, with.models, &with.rotor, with.unknowns.nparameter, with.unknowns.parameter,
-                                    engine->fit->x, ROTID_GUYAN, comparison_candidates(&with), SPECTRUM_REDUCED, &spectrum);
-    if (!status)
-        status = comparison_make(engine->pool, &with, &spectrum, &quiet, &compared);
-    if (!status)
+    with.measurement = *measured;
+    job = with;
+    for (int round = 0; round < ROUNDS && !status; round++) {
+        const int *before = compared.number;
+        rotid_fit_result *fit = NULL;
+        if (round == 1) { /* from the trial again */
+            job = with;
+            job.rotor.effect[job.rotor.neffect - 1] = trial->effect;
+            x = engine->fit->x;
+        }
+        if (round)
+            status = pair_at(engine, &job, x, &compared);
+        if (status || (round && !memcmp(before, compared.number, (size_t)nmode * sizeof *before)))
+            break;
         status = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    if (!status && fit->dof > 0) {
+        if (status)
+            continue;
         const struct states states = states_of(&job, &state);
-        *rate = fit->chi2 / fit->dof;
-        *number = compared.number;
-        effect_at(states.state, job.rotor.neffect - 1, fit->x, effect);
+        struct effect now;
+        effect_at(states.state, job.rotor.neffect - 1, fit->x, &now);
+        job.rotor.effect[job.rotor.neffect - 1] = now;
+        if (fit->dof > 0 && fit->chi2 / fit->dof < *rate) {
+            *rate = fit->chi2 / fit->dof;
+            *number = compared.number;
+            *effect = now;
+        }
+        status = job_started_at(engine->pool, &job, fit->x, &job);
+        double *own = POOL_ARRAY(engine->pool, double, fit->n);
+        if (!own)
+            status = ROTID_ERROR_MEMORY;
+        else
+            x = memcpy(own, fit->x, (size_t)fit->n * sizeof *own);
+        rotid_fit_free(fit);
     }
-    rotid_fit_free(fit);
-    return ROTID_OK;
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
 static double least_rate(const struct engine *engine, const struct round_result *result)

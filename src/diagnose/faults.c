@@ -351,7 +351,9 @@ static int offer_line(struct fault_list *list)
         }
         turned -= square > 0 ? product * product / square : 0;
     }
-    int status = offer(list, "sensor_line", -1, -1, (const double[]){0, 1, 1}, (const int[]){1, 1, 1}, 0, (stated - turned) / 2);
+    /* a model that was fitted to positions from the wrong end may be none at all: all that there is to gain */
+    double gain = fmax(stated - turned, list->scan->chi2 - list->scan->dof) / 2;
+    int status = offer(list, "sensor_line", -1, -1, (const double[]){0, 1, 1}, (const int[]){1, 1, 1}, 0, gain);
     for (int b = 0; b < 2 * list->scan->nbasis; b++) { /* twice */
         const double *q = list->scan->basis + (ptrdiff_t)(b / 2) * d->nrow;
         for (int p = 0; p < 2; p++) {

@@ -133,8 +133,8 @@ static int cause_intervals(const struct engine *engine)
     struct diagnosis *out = engine->out;
     rotid_fit_result *fit = out->extended.fit;
     int status = ROTID_OK;
-    for (int c = 0; c < out->ncause && !status; c++) {
-        struct candidate *cause = &out->cause[c];
+    for (int c = 0; c < out->ncause + out->nlikely && !status; c++) {
+        struct candidate *cause = c < out->ncause ? &out->cause[c] : &out->likely[c - out->ncause];
         const struct state *state = &out->extended_states.state[cause->home];
         const struct job *job = &state->job;
         int e = effect_named(state, cause->effect.name);
@@ -316,8 +316,8 @@ static const char *open_parameters(struct engine *engine)
 }
 
 /* The same where the question is what changed: the parts of the sentence, and what it ends with. */
-static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
-                                   const char *end)
+static const char *change_sentence(const struct engine *engine, const char *causes, const char *likely, const char *others,
+                                   const char *chance, const char *end)
 {
     const rotid_verdict *verdict = &engine->out->result.verdict;
     struct pool *pool = engine->pool;
@@ -326,7 +326,7 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     case ROTID_ADEQUATE:
         return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
     case ROTID_NAMED:
-        return pool_format(pool, "Between %s and %s changed: %s; %s (%s before).%s", from, to, causes,
+        return pool_format(pool, "Between %s and %s changed: %s%s; %s (%s before).%s", from, to, causes, likely,
                            verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
                                                    : "the rest still exceeds the noise",
                            chance, end);
@@ -363,7 +363,10 @@ static const char *verdict_sentence(struct engine *engine)
     const rotid_verdict *verdict = &out->result.verdict;
     struct pool *pool = engine->pool;
     const struct job_units *units = &engine->states.state[0].job.units;
-    const char *causes = list(pool, units, out->ncause, out->cause), *others = shares(pool, units, &out->posterior);
+    const char *causes = list(pool, units, out->ncause, out->cause), *others = shares(pool, units, &out->posterior),
+               *likely = out->nlikely ? list(pool, units, out->nlikely, out->likely) : "";
+    if (likely && out->nlikely)
+        likely = pool_format(pool, ", and with %.0f %% %s", 100 * out->likely_probability, likely);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
                *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit) : "",
@@ -384,20 +387,21 @@ static const char *verdict_sentence(struct engine *engine)
                                                                  : "p = %.2g",
                                      verdict->p_value);
     const char *weigh = weigh_first(engine);
-    if (!causes || !others || !open || !faults || !chance || !weigh)
+    if (!causes || !others || !likely || !open || !faults || !chance || !weigh)
         return NULL;
     if (engine->before) {
         const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
-        return end ? change_sentence(engine, causes, others, chance, end) : NULL;
+        return end ? change_sentence(engine, causes, likely, others, chance, end) : NULL;
     }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
-        return pool_format(
-            pool, "The model lacks %s; with %s %s (%s before).%s%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
-            verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
-            chance, solid, faults, open);
+        return pool_format(pool, "The model lacks %s%s; with %s %s (%s before).%s%s%s", causes, likely,
+                           out->ncause + out->nlikely > 1 ? "these causes" : "this cause",
+                           verdict->adequate_after ? "the model explains the data within their noise"
+                                                   : "the residual still exceeds the noise",
+                           chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
         return pool_format(pool,
                            "The data cannot tell what the model lacks (%s): %s. The probability that nothing is wrong and chance "

@@ -102,18 +102,17 @@ int hidden_shifts(struct engine *engine, const struct round_result *last)
     return fill(&from, &out->nhidden, &out->hidden);
 }
 
-/* The scan of a solid on its coarse mesh, which the fit has held to the one that counts. */
+/* The scan of a solid on its coarse mesh, held as its fit held it. */
 static int scan_fit(struct pool *pool, const struct states *given, const struct identification *found, const int *number,
                     const int *holdout, const double *x, struct scan *scan)
 {
     struct states states;
     int begun = 0, status = states_copy(pool, given, &states);
-    for (double moved; begun < states.nstate && !status; begun++) {
+    for (; begun < states.nstate && !status; begun++) {
         struct job *job = &states.state[begun].job;
         job->models = models_for_run(pool, job->models);
-        status = !job->models         ? ROTID_ERROR_MEMORY
-                 : job->options.solid ? mesh_hold(pool, job, &found[begun].spectrum, &moved)
-                                      : ROTID_OK;
+        job->held = found[begun].held;
+        status = job->models ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
     if (!status)
         status = scan_run(pool, &states, number, holdout, x, SCAN_ALL, scan);

@@ -3,9 +3,10 @@
  *   prior    nothing 0.50, one cause 0.45, two 0.035, three 0.001; alike over the kinds of causes, then over the targets of a
  *            kind, then over all states (1/2) and each alone; something else: a factor 0.05
  *   search   a beam: the most probable sets that were not expanded yet are scanned for one more cause, each addition is scored
- *            by the evidence of its columns, the most promising are fitted, as is the set with one cause less, and scored by
- *            laplace.c, until none is left within WITHIN of the best; what was not fitted enters by its columns; widths that are
- *            free are integrated at last (over_width.c)
+ *            by the evidence of its columns, the most promising are fitted, as is the set with one cause less and, where no
+ *            single cause leaves nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within
+ *            WITHIN of the best; what was not fitted enters by its columns; widths that are free are integrated at last
+ *            (over_width.c); something else comes beside the likeliest, where it leads beside every single cause
  *   run-up   measured critical speeds multiply each of the likeliest by their probability under it (runup_learn)
  *   verdict  UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval;
  *            ADEQUATE: nothing leads, no cause above HARMLESS, the odds of the rest less than ODDS times those before; else
@@ -22,7 +23,8 @@
 #define DATA_KINDS     7   /* of faults of channels: gain, sign, place, line, swap, copy, dead */
 #define FAULTS         24  /* proposed beside a set */
 #define BEAM           4   /* sets expanded in a pass */
-#define FITTED         8   /* fits of a pass, the first twice as many */
+#define FITTED         8   /* fits of a pass, the first three times as many */
+#define PAIRS          8   /* of causes that are proposed together */
 #define WITHIN         7.0 /* of the best, in ln P */
 #define ELSE_MOST      3   /* sets of a size */
 #define ELSE_PRIOR     0.05
@@ -35,6 +37,7 @@
 #define ODDS           3.0   /* of anything over nothing, times those before */
 #define SUSPECTED      10.0  /* times: a cause that the user suspects */
 #define RUNUP_MOST     12    /* explanations that measured critical speeds judge, those within WITHIN */
+#define EXCLUDED       0.05  /* of the probability of another explanation */
 #define NEAR_PLACE     0.125 /* of the length: half of the interval of a place that is named */
 
 static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
@@ -246,10 +249,11 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
 
 /* ---- proposals */
 
-enum { ADDS_FAULT = -1, REMOVES = -2 };
+enum { ADDS_FAULT = -1, ANEW = -2 };
 
 struct proposal {
-    int parent, candidate; /* number in the list; of the parent's scan; ADDS_FAULT: of the measurement; REMOVES: one cause less */
+    int parent, candidate; /* number in the list; of the parent's scan; ADDS_FAULT: of the measurement; ANEW: from
+                             the base, one cause less or two */
     struct scan *scan;
     double gain; /* of ln Z over the parent, linear */
     struct explanation set;
@@ -327,6 +331,21 @@ static int is_common(const struct engine *engine, const struct scan *scan, int i
     return all && !others;
 }
 
+static double best_stated(const struct posterior *p)
+{
+    double best = -INFINITY;
+    for (int i = 0; i < p->count; i++)
+        if (p->item[i].refit || !p->item[i].nmember)
+            best = fmax(best, p->item[i].evidence.log_exact + p->item[i].log_prior);
+    return best;
+}
+
+/* All positions count from the other end. */
+static int is_turned(const struct candidate *c)
+{
+    return is_fault(c) && !c->sensor[0] && c->effect.value[2] >= 0.5;
+}
+
 /* A channel has one fault. */
 static int has_fault_there(const struct explanation *e, const struct candidate *c)
 {
@@ -348,7 +367,7 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
     for (int i = 0; i < found && *count < most && !status; i++) {
         struct proposal one = {.parent = parent, .candidate = ADDS_FAULT, .scan = scan, .gain = fault[i].gain, .set = *from};
         struct explanation *set = &one.set;
-        if (has_fault_there(from, &fault[i].fault))
+        if (has_fault_there(from, &fault[i].fault) || (parent && is_turned(&fault[i].fault))) /* others are added to that */
             continue;
         set->member[set->nmember++] = fault[i].fault;
         set->outside += fault[i].outside;
@@ -372,7 +391,7 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
 {
     const struct explanation *from = &p->item[parent];
     for (int m = 0; m < from->nmember && from->nmember > 1 && *count < most; m++) {
-        struct proposal one = {.parent = parent, .candidate = REMOVES, .set = *from};
+        struct proposal one = {.parent = parent, .candidate = ANEW, .set = *from};
         struct explanation *set = &one.set;
         int physical = 1;
         set->nmember--;
@@ -437,6 +456,46 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
     return ROTID_OK;
 }
 
+/* The cause of an item of the scan at this amplitude. */
+static struct candidate cause_of_item(const struct scan *scan, int item, double amplitude)
+{
+    const struct scan_item *i = &scan->item[item];
+    struct candidate c = candidate_listed(scan, i->candidate);
+    const char *name = c.effect.name;
+    c.effect = i->effect;
+    c.effect.name = name;
+    if (!c.fixed[c.cause->size])
+        c.effect.value[c.cause->size] += amplitude * i->unit;
+    return c;
+}
+
+/* Two causes at once beside the base, behind the *count there are. */
+static int propose_pairs(struct engine *engine, struct posterior *p, struct scan *scan, struct proposal *proposal, int most,
+                         int *count)
+{
+    const struct explanation *from = &p->item[0];
+    struct scan_pair pair[PAIRS];
+    int found, status = scan_pairs(engine->pool, scan, PAIRS, pair, &found);
+    for (int i = 0; i < found && *count < most && !status; i++) {
+        struct proposal one = {.parent = 0, .candidate = ANEW, .scan = scan, .gain = pair[i].drop / 2, .set = *from};
+        struct explanation *set = &one.set;
+        for (int m = 0; m < 2; m++)
+            set->member[set->nmember++] = cause_of_item(scan, pair[i].item[m], pair[i].amplitude[m]);
+        struct effect *second = &set->member[1].effect;
+        if (!strcmp(second->name, set->member[0].effect.name) &&
+            !(second->name = pool_format(engine->pool, "%s_2", second->name)))
+            return ROTID_ERROR_MEMORY;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = prior_of(p, set);
+        set->log_posterior = from->evidence.log_exact + one.gain + set->log_prior;
+        if (!find(p, set))
+            proposal[(*count)++] = one;
+    }
+    return status;
+}
+
 struct task {
     const struct engine *engine;
     struct posterior *p;
@@ -477,7 +536,7 @@ static int fit_task(void *context, int index, int worker)
     if (!deck)
         return ROTID_ERROR_MEMORY;
     t->data[index] = parent->data;
-    if (proposal->candidate == REMOVES)
+    if (proposal->candidate == ANEW)
         return refit_set(&t->pool[index], e, &proposal->set, fit_of(e, parent)->x, &t->refit[index]);
     if (proposal->candidate == ADDS_FAULT)
         return fault_refit(&t->pool[index], states, e->nown, e->number, e->holdout, fit_of(e, parent), e->environment,
@@ -535,39 +594,47 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
 
 /* ---- the search */
 
-static double best_stated(const struct posterior *p)
-{
-    double best = -INFINITY;
-    for (int i = 0; i < p->count; i++)
-        if (p->item[i].refit || !p->item[i].nmember)
-            best = fmax(best, p->item[i].evidence.log_exact + p->item[i].log_prior);
-    return best;
-}
-
 static int explains(const struct engine *engine, const struct posterior *p, const struct explanation *e)
 {
     return fit_explains(p->base, e->data, fit_of(engine, e));
 }
 
-/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too.
- */
+/* Whether a single cause or none leaves no more than noise. */
+static int is_explained(const struct engine *engine, const struct posterior *p)
+{
+    int any = 0;
+    for (int i = 0; i < p->count && !any; i++)
+        any = (p->item[i].refit || !p->item[i].nmember) && explains(engine, p, &p->item[i]);
+    return any;
+}
+
+static int has_fit(const struct explanation *e)
+{
+    return (e->refit || !e->nmember) && !e->something_else;
+}
+
+/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too,
+ * but solids, whose scans and fits take their time. */
 static int next_parent(const struct engine *engine, const struct posterior *p, int taken)
 {
     int best = -1, lead = -1;
+    for (int i = 0; i < p->count; i++)
+        if (has_fit(&p->item[i]) && (lead < 0 || p->item[i].log_posterior > p->item[lead].log_posterior))
+            lead = i;
+    if (lead < 0)
+        return -1;
+    int explained = explains(engine, p, &p->item[lead]);
+    double least = p->item[lead].log_posterior - WITHIN;
     for (int i = 0; i < p->count; i++) {
         const struct explanation *e = &p->item[i];
-        if ((!e->refit && e->nmember) || e->something_else)
-            continue;
-        if (lead < 0 || e->log_posterior > p->item[lead].log_posterior)
-            lead = i;
-        if (!e->expanded && !(e->nmember && e->member[e->nmember - 1].cause->solid) &&
+        int solid = 0;
+        for (int m = 0; m < e->nmember; m++)
+            solid |= e->member[m].cause->solid;
+        if (has_fit(e) && !e->expanded && !(solid && (explained || e->log_posterior < least)) &&
             (best < 0 || e->log_posterior > p->item[best].log_posterior))
             best = i;
     }
-    if (best < 0 || lead < 0)
-        return -1;
-    double behind = p->item[lead].log_posterior - p->item[best].log_posterior;
-    return behind <= WITHIN || (taken < BEAM && !explains(engine, p, &p->item[lead])) ? best : -1;
+    return best >= 0 && (p->item[best].log_posterior >= least || (taken < BEAM && !explained)) ? best : -1;
 }
 
 static int enter_singles(struct engine *engine, const struct round_result *result, struct posterior *p)
@@ -617,7 +684,7 @@ static int keep_first(struct proposal *proposal, int count)
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
 {
     struct pool *pool = engine->pool;
-    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + MOST_MEMBERS),
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + MOST_MEMBERS) + PAIRS,
                 status = ROTID_OK;
     struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
     if (!proposal)
@@ -641,18 +708,20 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         if (!status)
             status = propose_faults(engine, p, parent, scan, proposal, most, &count);
     }
+    if (!status && !pass && !is_explained(engine, p))
+        status = propose_pairs(engine, p, &result->scan, proposal, most, &count);
     if (status || !count)
         return status;
     qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
     count = keep_first(proposal, count);
     double best = best_stated(p);
-    while (fits < count && fits < (pass ? FITTED : 2 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN &&
+    while (fits < count && fits < (pass ? FITTED : 3 * FITTED) && proposal[fits].set.log_posterior > best - WITHIN &&
            !is_inseparable(&proposal[fits]))
         fits++;
     status = fit_proposals(engine, result, p, proposal, fits);
     for (int i = fits; i < count && !status; i++) {
         struct explanation *e = &proposal[i].set;
-        if (proposal[i].candidate == REMOVES || proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
+        if (proposal[i].candidate == ANEW || proposal[i].gain > LINEAR || !explains(engine, p, &p->item[proposal[i].parent]))
             continue;
         e->log_posterior = e->evidence.log_z + e->log_prior;
         if (!find(p, e))
@@ -718,30 +787,44 @@ static int integrate_widths(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
-/* Something else beside the likeliest sets. */
+/* Something else beside set i of the list; *best: raised to its ln P. */
+static int add_else_beside(struct engine *engine, struct posterior *p, int i, double *best)
+{
+    struct explanation e = p->item[i];
+    int status = ROTID_OK;
+    e.evidence = (struct evidence){0};
+    if (!e.scan) {
+        struct scan *scan = POOL_NEW(engine->pool, struct scan);
+        status = scan ? scan_run(engine->pool, states_of_explanation(engine, &e), engine->number, engine->holdout,
+                                 fit_of(engine, &e)->x, SCAN_FIELDS, scan)
+                      : ROTID_ERROR_MEMORY;
+        e.scan = scan;
+    }
+    if (!status)
+        status = score(engine, p, e.scan, &e);
+    e.something_else = 1;
+    e.log_prior = prior_of(p, &e);
+    e.log_posterior = e.evidence.log_else + e.log_prior;
+    if (status || !isfinite(e.log_posterior))
+        return status;
+    *best = fmax(*best, e.log_posterior);
+    append(p, &e);
+    return ROTID_OK;
+}
+
+/* Something else beside the likeliest sets; where it leads, beside every cause that was fitted, as what is likely alone need not
+ * be so beside it. */
 static int add_something_else(struct engine *engine, struct posterior *p)
 {
     int listed = p->count, status = ROTID_OK, tried[MOST_MEMBERS + 1] = {0};
-    for (int i = 0; i < listed && !status; i++) {
-        struct explanation e = p->item[i];
-        if ((!e.refit && e.nmember) || (e.nmember && (tried[e.nmember] >= ELSE_MOST)))
-            continue;
-        tried[e.nmember]++;
-        e.evidence = (struct evidence){0};
-        if (!e.scan) {
-            struct scan *scan = POOL_NEW(engine->pool, struct scan);
-            status = scan ? scan_run(engine->pool, states_of_explanation(engine, &e), engine->number, engine->holdout,
-                                     fit_of(engine, &e)->x, SCAN_FIELDS, scan)
-                          : ROTID_ERROR_MEMORY;
-            e.scan = scan;
+    double best = -INFINITY;
+    for (int pass = 0; pass < 2 && !status && (!pass || best > p->item[0].log_posterior); pass++) {
+        memset(tried, 0, sizeof tried);
+        for (int i = 0; i < listed && !status; i++) {
+            int n = p->item[i].nmember, rank = !n || p->item[i].refit ? tried[n]++ : -1;
+            if (pass ? n == 1 && rank >= ELSE_MOST : rank >= 0 && rank < ELSE_MOST)
+                status = add_else_beside(engine, p, i, &best);
         }
-        if (!status)
-            status = score(engine, p, e.scan, &e);
-        e.something_else = 1;
-        e.log_prior = prior_of(p, &e);
-        e.log_posterior = e.evidence.log_else + e.log_prior;
-        if (!status && isfinite(e.log_posterior))
-            append(p, &e);
     }
     return status;
 }
@@ -1045,15 +1128,28 @@ int posterior_take_faults(struct engine *engine, const struct posterior *p, int 
     return status;
 }
 
-/* What was named becomes part of the model. */
-static int accept(struct engine *engine, const struct explanation *model)
+/* The model of what was named: with nothing else, unless that is next to excluded beside the likeliest one that has it all. */
+static const struct explanation *model_of(const struct posterior *p, int count, const struct candidate *named)
+{
+    const struct explanation *whole = count ? model_with(p, count, named, 0) : NULL,
+                             *alone = count ? model_with(p, count, named, 1) : NULL;
+    return alone && alone->probability > EXCLUDED * whole->probability ? alone : whole;
+}
+
+/* What was named, and what stands beside it, becomes part of the model. */
+static int accept(struct engine *engine, const struct posterior *p, const struct explanation *model, int count,
+                  const struct candidate *named)
 {
     struct diagnosis *out = engine->out;
     struct states states = model->refit->states;
     rotid_fit_result *fit = NULL;
     int status = ROTID_OK;
+    out->likely_probability = model->probability;
     for (int m = 0; m < model->nmember && !status; m++) {
-        struct candidate *cause = &out->cause[out->ncause++];
+        int is_named = 0;
+        for (int i = 0; i < count; i++)
+            is_named |= same_name(p, &named[i], &model->member[m]);
+        struct candidate *cause = is_named ? &out->cause[out->ncause++] : &out->likely[out->nlikely++];
         *cause = model->member[m];
         cause->result.refitted = 1;
         status = discrepancy_add(engine->pool, cause, &states);
@@ -1144,15 +1240,15 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     struct candidate named[MOST_MEMBERS];
     int count = 0, status = ROTID_OK;
     out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
+    out->likely = POOL_ARRAY(engine->pool, struct candidate, MOST_MEMBERS);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
-    if (!out->cause || !out->alternative)
+    if (!out->cause || !out->likely || !out->alternative)
         return ROTID_ERROR_MEMORY;
     if (verdict->confident)
         status = choose_names(engine, p, named, &count);
     if (status)
         return status;
-    if (count && !(model = model_with(p, count, named, 1)))
-        model = model_with(p, count, named, 0);
+    model = model_of(p, count, named);
     verdict->something_else = p->something_else;
     verdict->kind = posterior_kind(p->something_else, model != NULL, !lead->nmember && !lead->something_else,
                                    p->nmarginal ? p->marginal[0].probability : 0, p->nothing, p->nothing_prior);
@@ -1161,6 +1257,6 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
         list_alternatives(out, p);
     if (!verdict->adequate_after && !(verdict->next_measurement = advice(engine, p)))
         return ROTID_ERROR_MEMORY;
-    status = verdict->kind == ROTID_NAMED && model ? accept(engine, model) : ROTID_OK;
+    status = verdict->kind == ROTID_NAMED && model ? accept(engine, p, model, count, named) : ROTID_OK;
     return status ? status : list_faults(engine, p);
 }

@@ -5,6 +5,7 @@
 
 #include "fit/fit.h"
 
+#define PROMISES   10.0 /* drop of chi2 from which the mesh of a solid is worth another fit */
 #define STARTS     3    /* places a candidate is fitted from */
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
@@ -386,6 +387,8 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
             continue;
         }
         status = refit_keep(pool, &extended, fit, refit);
+        if (!status && c->cause->solid && refit->chi2 < scan->chi2 - PROMISES)
+            status = refit_held(pool, number, holdout, environment, refit);
         if (status)
             return status;
     }

@@ -164,21 +164,6 @@ int models_discretise(struct pool *pool, struct models *models, const struct rot
 /* Keeps what somebody has counted. */
 void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid);
 
-/* What a fit holds its coarse mesh to, for `count` elastic modes. Both change by a tenth of their distance to 1 and to 0 where E
- * and G change by half. */
-struct held_modes {
-    int count, nmaster;
-    const double *ratio; /* [count] frequencies that count over those of the coarse mesh */
-    const double *shape; /* [nmaster * count] of the mesh that counts, largest component 1; NULL: shapes are not held */
-    const double *shift; /* [nmaster * count] that shape less the one of the coarse mesh */
-};
-
-/* Keeps a copy. ROTID_OK or ROTID_ERROR_MEMORY; with models that take up no others nothing happens. */
-int models_hold(struct models *models, const struct rotor *rotor, const struct held_modes *modes);
-
-/* What is held for rotors of this shape, whatever causes are in them; NULL: nothing. */
-const struct held_modes *models_held(struct models *models, const struct rotor *rotor);
-
 /* Keeps a copy of vectors phi [n * count] near the lowest modes, for models of that size to begin with; those kept before stay
  * where they are as many. From one thread alone: which vectors are met must not depend on who comes first. With models that take
  * up no others nothing happens. ROTID_OK or ROTID_ERROR_MEMORY. */

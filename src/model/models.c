@@ -10,12 +10,6 @@ struct built_model {
     struct discrete discrete; /* only what does not depend on values is used */
 };
 
-struct held {
-    struct held *next;
-    struct rotor rotor; /* without causes */
-    struct held_modes modes;
-};
-
 struct near {
     struct near *next;
     int n, count;
@@ -30,8 +24,7 @@ struct models {
     const struct models *older;
     struct models *solids; /* of the same run */
     struct built_model *first;
-    struct held *held; /* the newest first */
-    struct near *near; /* the same */
+    struct near *near; /* the newest first */
 };
 
 /* Causes have no part in the mesh of a solid. */
@@ -207,44 +200,6 @@ static const double *copied(struct pool *pool, int n, const double *from, int *s
     for (int i = 0; i < n && copy; i++)
         copy[i] = from[i];
     return copy;
-}
-
-int models_hold(struct models *models, const struct rotor *rotor, const struct held_modes *modes)
-{
-    if (!models || !models->takes_up)
-        return ROTID_OK;
-    struct rotor bare = *rotor;
-    bare.neffect = 0;
-    (void)pthread_mutex_lock(&models->lock);
-    struct held *held = POOL_NEW(&models->pool, struct held);
-    int status = held ? rotor_copy(&models->pool, &bare, &held->rotor) : ROTID_ERROR_MEMORY, n = modes->nmaster * modes->count;
-    if (!status) {
-        held->rotor.nspring = rotor->nspring; /* without those of the sling */
-        held->modes =
-            (struct held_modes){modes->count, modes->nmaster, copied(&models->pool, modes->count, modes->ratio, &status),
-                                copied(&models->pool, n, modes->shape, &status), copied(&models->pool, n, modes->shift, &status)};
-    }
-    if (!status) {
-        held->next = models->held;
-        models->held = held;
-    }
-    (void)pthread_mutex_unlock(&models->lock);
-    return status;
-}
-
-const struct held_modes *models_held(struct models *models, const struct rotor *rotor)
-{
-    struct rotor bare;
-    const struct held *held;
-    if (!models || !models->takes_up)
-        return NULL;
-    bare = *rotor;
-    bare.neffect = 0;
-    (void)pthread_mutex_lock(&models->lock);
-    for (held = models->held; held && !rotor_same_shape(&held->rotor, &bare); held = held->next)
-        ;
-    (void)pthread_mutex_unlock(&models->lock);
-    return held ? &held->modes : NULL;
 }
 
 int models_keep_modes(struct models *models, int n, int count, const double *phi)

@@ -13,15 +13,40 @@ static int mesh_is_held(const struct job *job)
     return job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE;
 }
 
-int mesh_hold_as_it_is(struct pool *pool, const struct job *job, int count)
+/* What is held for this job, NULL: nothing. */
+static const struct held_modes *held_of(const struct job *job)
 {
-    double *ratio = POOL_ARRAY(pool, double, count);
-    if (!ratio)
+    struct rotor bare = job->rotor;
+    bare.neffect = 0;
+    return job->held && rotor_same_shape(&job->held->rotor, &bare) ? job->held : NULL;
+}
+
+/* Room for `count` modes; with: shapes as well. */
+static struct held_modes *new_held(struct pool *pool, const struct job *job, int count, int with)
+{
+    struct held_modes *held = POOL_NEW(pool, struct held_modes);
+    struct rotor bare = job->rotor;
+    bare.neffect = 0;
+    if (!held || rotor_copy(pool, &bare, &held->rotor))
+        return NULL;
+    held->rotor.nspring = bare.nspring; /* without those of the sling */
+    held->count = count;
+    held->ratio = POOL_ARRAY(pool, double, count);
+    held->shift = with ? POOL_ARRAY(pool, double, (size_t)job->rotor.nsensor *(size_t)count) : NULL;
+    return held->ratio && (!with || held->shift) ? held : NULL;
+}
+
+int mesh_hold_as_it_is(struct pool *pool, struct job *job, int count)
+{
+    struct held_modes *held = held_of(job) ? NULL : new_held(pool, job, count, 0);
+    if (held_of(job))
+        return ROTID_OK;
+    if (!held)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < count; j++)
-        ratio[j] = 1;
-    const struct held_modes modes = {.count = count, .ratio = ratio};
-    return models_held(job->models, &job->rotor) ? ROTID_OK : models_hold(job->models, &job->rotor, &modes);
+        held->ratio[j] = 1;
+    job->held = held;
+    return ROTID_OK;
 }
 
 /* shift [n] = shape - a other, a the least-squares scale */
@@ -36,28 +61,25 @@ static void shape_shift(int n, const double *shape, const double *other, double 
         shift[i] = shape[i] - (square > 0 ? product / square : 0) * other[i];
 }
 
-int mesh_hold(struct pool *pool, const struct job *job, const struct spectrum *s, double *moved)
+int mesh_hold(struct pool *pool, struct job *job, const struct spectrum *s, double *moved)
 {
-    const struct held_modes *before = models_held(job->models, &job->rotor);
-    int held = before ? before->count : 0;
-    double *ratio = POOL_ARRAY(pool, double, s->count), *shift = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)s->count);
-    if (!ratio || !shift)
+    const struct held_modes *before = held_of(job);
+    int known = before ? before->count : 0, shapes = s->other_shape && s->nmaster == job->rotor.nsensor;
+    struct held_modes *held = new_held(pool, job, s->count, shapes);
+    if (!held)
         return ROTID_ERROR_MEMORY;
-    *moved = held < s->count ? INFINITY : 0;
+    *moved = known < s->count ? INFINITY : 0;
+    held->shape = shapes ? s->shape : NULL;
     for (int j = 0; j < s->count; j++) {
         ptrdiff_t at = (ptrdiff_t)j * s->nmaster;
-        ratio[j] = s->full_hz[j] / s->other_hz[j];
-        if (j < held)
-            *moved = fmax(*moved, fabs(ratio[j] / before->ratio[j] - 1));
-        if (s->other_shape)
-            shape_shift(s->nmaster, s->shape + at, s->other_shape + at, shift + at);
+        held->ratio[j] = s->full_hz[j] / s->other_hz[j];
+        if (j < known)
+            *moved = fmax(*moved, fabs(held->ratio[j] / before->ratio[j] - 1));
+        if (shapes)
+            shape_shift(s->nmaster, s->shape + at, s->other_shape + at, held->shift + at);
     }
-    const struct held_modes modes = {.count = s->count,
-                                     .nmaster = s->nmaster,
-                                     .ratio = ratio,
-                                     .shape = s->other_shape ? s->shape : NULL,
-                                     .shift = s->other_shape ? shift : NULL};
-    return models_hold(job->models, &job->rotor, &modes);
+    job->held = held;
+    return ROTID_OK;
 }
 
 /* The measured shape less the shift at its scale, by the components that are measured. */
@@ -78,11 +100,11 @@ int mesh_of_fit(struct pool *pool, const struct job *job, const int *number, int
 {
     const struct job_measurement *measured = &job->measurement;
     int nmode = measured->nmode, n = job->rotor.nsensor;
-    const struct held_modes *held = mesh_is_held(job) ? models_held(job->models, &job->rotor) : NULL;
+    const struct held_modes *held = mesh_is_held(job) ? held_of(job) : NULL;
     for (int k = 0; k < nmode && held; k++)
         if (number[k] > held->count)
             held = NULL;
-    int shifts = held && held->shift && held->nmaster == n && measured->shape;
+    int shifts = held && held->shift && measured->shape;
     double *shifted = shifts ? POOL_ARRAY(pool, double, (size_t)n *(size_t)nmode) : NULL;
     *frequency_hz = POOL_ARRAY(pool, double, nmode);
     *refine = held ? COARSE_MESH : 1;
@@ -357,7 +379,7 @@ static void pass_on(const struct message_list *from, const char *name, struct me
 
 /* A state while it is fitted. */
 struct running {
-    const struct state *state;
+    struct state *state;
     struct comparison before;
     struct message_list quiet;
     struct identification *out;
@@ -469,6 +491,7 @@ static int pair_after_fit(struct pool *pool, struct running *run, const double *
                             &run->out->compared);
     if (!status && run->held)
         status = mesh_hold(pool, &run->state->job, &run->out->spectrum, &ratio);
+    run->out->held = run->state->job.held;
     if (!status)
         *moved |= pairs_moved(run);
     *apart = fmax(*apart, ratio);

@@ -173,6 +173,7 @@ struct job {
                           stated */
     struct job_place measured; /* card of the measured modes, file NULL where there is none */
     struct models *models;     /* of it, as far as they are built, or NULL */
+    const struct held_modes *held; /* what fits of the rotor as a solid hold their mesh to (mesh_hold), or NULL */
     struct job_measurement measurement;
     struct job_unknowns unknowns;
     struct job_options options;
@@ -402,6 +403,7 @@ struct identification {
     int shapes_fitted;          /* they took part in the residual or in the quotient */
     struct mass_properties mass;
     double *baseline_hz; /* [nmode * fit->nbaseline] predicted at the points of NLopt, NaN where there is no model */
+    const struct held_modes *held; /* of a solid: what the last fit held its mesh to, from there on */
 };
 
 /* One fit of several states together with the pairing number and the modes holdout left out, [nmode] of all one behind the other;
@@ -643,14 +645,22 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
 
 /* A fit of a solid runs on the coarse mesh, whose frequencies are held in ratio to the limit that this mesh and the one that
  * counts lead to, and whose shapes at their distance from the shapes of the latter: both hardly depend on E and G. Condensed
- * matrices have no such ratio. What is held lies with the models of the run (models_hold). */
+ * matrices have no such ratio. Both change by a tenth of their distance to 1 and to 0 where E and G change by half. What is held
+ * goes with the job, for its outline and sensors, whatever causes are in it. */
+struct held_modes {
+    struct rotor rotor;  /* without causes */
+    int count;           /* elastic modes */
+    double *ratio;       /* [count] frequencies that count over those of the coarse mesh */
+    const double *shape; /* [nsensor * count] of the mesh that counts, largest component 1; NULL: shapes are not held */
+    double *shift;       /* [nsensor * count] that shape less the one of the coarse mesh */
+};
 
 /* Takes the coarse mesh as it stands for the first `count` modes, unless something is held. ROTID_OK or ROTID_ERROR_MEMORY. */
-int mesh_hold_as_it_is(struct pool *pool, const struct job *job, int count);
+int mesh_hold_as_it_is(struct pool *pool, struct job *job, int count);
 
-/* Holds ratio and distance at the parameters of a spectrum with SPECTRUM_MESH; *moved: by how much the ratio differs from what
- * was held. ROTID_OK or ROTID_ERROR_MEMORY. */
-int mesh_hold(struct pool *pool, const struct job *job, const struct spectrum *spectrum, double *moved);
+/* Holds ratio and distance at the parameters of a spectrum with SPECTRUM_MESH, which stays; *moved: by how much the ratio differs
+ * from what was held. ROTID_OK or ROTID_ERROR_MEMORY. */
+int mesh_hold(struct pool *pool, struct job *job, const struct spectrum *spectrum, double *moved);
 
 /* The mesh for fits with this pairing [nmode], model_open's refine, and the measured frequencies and shapes as that mesh has
  * them, frequency_hz [nmode], shape [nsensor * nmode] (NULL where none are measured). ROTID_OK or ROTID_ERROR_MEMORY. */

@@ -1,0 +1,194 @@
+/* What the search once missed: decks of tests/data/search, whose data another program made or whose truth was drawn (their
+ * headings). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api_bench.h"
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "support.h"
+
+static rotid_diagnosis *diagnosed(const char *name)
+{
+    char path[512], failure[ROTID_FAILURE_LENGTH];
+    rotid_diagnosis *d;
+    (void)snprintf(path, sizeof path, "%s/tests/data/search/%s.inp", ROTID_SOURCE_DIR, name);
+    rotid_deck *deck = bench_deck(path);
+    assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
+    rotid_deck_free(deck);
+    return d;
+}
+
+static double value_of(const rotid_cause *cause, const char *name)
+{
+    for (int i = 0; i < cause->nparameters; i++)
+        if (!strcmp(cause->parameters[i].name, name))
+            return cause->parameters[i].value;
+    return NAN;
+}
+
+static void names(const rotid_diagnosis *d, const char *id, const char *target)
+{
+    assert_int_equal(d->verdict.kind, ROTID_NAMED);
+    assert_int_equal(d->verdict.ncauses, 1);
+    assert_string_equal(d->verdict.causes[0].id, id);
+    assert_string_equal(d->verdict.causes[0].target, target);
+}
+
+/* A model that is fitted to positions from the wrong end has frequencies that are half as high again; no line leads from there.
+ */
+UNIT_TEST(sensors_are_counted_from_the_other_end_of_a_model_that_fits_nothing)
+{
+    rotid_diagnosis *d = diagnosed("turned");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_int_equal(d->ndata_findings, 1);
+    assert_string_equal(d->data_findings[0].id, "sensor_line");
+    assert_close(d->data_findings[0].parameters[2].value, 1, 0, 0);
+    rotid_diagnosis_free(d);
+}
+
+/* The shapes beside the trial exchange two modes that cross on the way to the cause. */
+UNIT_TEST(modes_that_cross_on_the_way_to_a_far_cause_keep_their_numbers)
+{
+    rotid_diagnosis *d = diagnosed("far_support");
+    names(d, "support", "rear");
+    assert_close(value_of(&d->verdict.causes[0], "factor"), 0.064052, 0.005, 0);
+    assert_true(d->verdict.adequate_after);
+    rotid_diagnosis_free(d);
+}
+
+/* What the mesh of a solid is held to is that of the fit, not of the beam's moduli, which are four times off. */
+UNIT_TEST(a_solid_far_from_the_beams_moduli_explains_all)
+{
+    rotid_diagnosis *d = diagnosed("soft_solid");
+    names(d, "beam_theory", "");
+    assert_true(d->verdict.adequate_after);
+    rotid_diagnosis_free(d);
+}
+
+/* Only with ROTID_LONG: scans and fits of solids take their time. */
+UNIT_TEST(a_cause_is_found_beside_beam_theory)
+{
+    if (!getenv("ROTID_LONG"))
+        return;
+    rotid_diagnosis *d = diagnosed("solid_and_spring");
+    const rotid_explanation *lead = &d->verdict.explanations[0];
+    assert_int_equal(d->verdict.kind, ROTID_NAMED);
+    assert_int_equal(lead->ncauses, 2);
+    assert_true(lead->probability > 0.95 && !lead->something_else);
+    assert_string_equal(lead->causes[0].id, "beam_theory");
+    assert_string_equal(lead->causes[1].id, "support_rotation");
+    assert_close(value_of(&lead->causes[1], "stiffness"), 2084.9, 0.1, 0);
+    assert_close(value_of(&lead->causes[1], "z"), 0.48848, 0.02, 0);
+    rotid_diagnosis_free(d);
+}
+
+/* One of two is certain, the other is stiffness or density: the place of the first is that beside the second. */
+UNIT_TEST(what_is_named_has_the_place_that_it_has_in_the_likeliest_model)
+{
+    rotid_diagnosis *d = diagnosed("two_named_one");
+    names(d, "support_rotation", "");
+    assert_close(value_of(&d->verdict.causes[0], "z"), 0.117401, 0.05, 0);
+    assert_close(value_of(&d->verdict.causes[0], "stiffness"), 552.412, 0.15, 0);
+    assert_true(d->verdict.adequate_after);
+    assert_true(strstr(d->verdict.sentence, " %% stiffness of left (") || strstr(d->verdict.sentence, " % stiffness of left ("));
+    rotid_diagnosis_free(d);
+}
+
+/* Beside none of the single causes, each of which leaves a thousand, the other one shows. */
+UNIT_TEST(two_causes_that_hide_each_other_are_an_explanation)
+{
+    rotid_diagnosis *d = diagnosed("hidden_pair");
+    double share = 0, mass = NAN, place = NAN, factor = NAN;
+    for (int i = 0; i < d->verdict.nexplanations; i++) {
+        const rotid_explanation *e = &d->verdict.explanations[i];
+        if (e->ncauses != 2 || strcmp(e->causes[0].id, "added_mass") != 0 || strcmp(e->causes[1].id, "density") != 0)
+            continue;
+        share = e->probability;
+        mass = value_of(&e->causes[0], "mass");
+        place = value_of(&e->causes[0], "z");
+        factor = value_of(&e->causes[1], "factor");
+    }
+    assert_true(share > 0.1);
+    assert_close(mass, 0.0699613, 0.05, 0);
+    assert_close(place, 0.0770071, 0.05, 0);
+    assert_close(factor, 1.04699, 0.005, 0);
+    rotid_diagnosis_free(d);
+}
+
+/* Alone the cone at the steps is the eighth of the causes. */
+UNIT_TEST(what_leads_beside_something_else_need_not_lead_alone)
+{
+    rotid_diagnosis *d = diagnosed("step_and_more");
+    const rotid_explanation *lead = &d->verdict.explanations[0];
+    assert_int_equal(d->verdict.kind, ROTID_UNEXPLAINED);
+    assert_true(lead->something_else && lead->ncauses == 1);
+    assert_string_equal(lead->causes[0].id, "step_stiffness");
+    rotid_diagnosis_free(d);
+}
+
+#define COLUMNS 6
+#define ROWS    8
+
+/* |r + s a + t b|^2 by all s and t of a grid within the bounds. */
+static double least_on_a_grid(const double *a, const double *b, const double *r, const struct scan_item *one,
+                              const struct scan_item *two)
+{
+    enum { POINTS = 400 };
+    double least = INFINITY;
+    for (int i = 0; i <= POINTS; i++)
+        for (int j = 0; j <= POINTS; j++) {
+            double s = one->norm * (one->lower + (one->upper - one->lower) * i / POINTS),
+                   t = two->norm * (two->lower + (two->upper - two->lower) * j / POINTS), sum = 0;
+            for (int k = 0; k < ROWS; k++) {
+                double left = r[k] + s * a[k] + t * b[k];
+                sum += left * left;
+            }
+            least = fmin(least, sum);
+        }
+    return least;
+}
+
+POOL_TEST(the_drop_of_a_pair_is_the_least_within_the_bounds)
+{
+    struct random_stream random = {5};
+    struct scan_item item[COLUMNS];
+    struct scan_candidate candidate[COLUMNS];
+    double column[ROWS * COLUMNS], r[ROWS], square = 0, best = -INFINITY;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = random_normal(&random);
+        square += r[i] * r[i];
+    }
+    for (int c = 0; c < COLUMNS; c++) {
+        double *own = column + c * ROWS, length = 0;
+        for (int i = 0; i < ROWS; i++) {
+            own[i] = random_normal(&random);
+            length += own[i] * own[i];
+        }
+        for (int i = 0; i < ROWS; i++)
+            own[i] /= sqrt(length);
+        item[c] = (struct scan_item){.candidate = c, .usable = 1, .norm = 2, .lower = c % 2 ? 0 : -0.3, .upper = 0.4};
+        candidate[c] = (struct scan_candidate){.state = -1, .first = c, .count = 1, .best = c};
+    }
+    const struct scan scan = {
+        .nrow = ROWS, .nitem = COLUMNS, .item = item, .ncandidate = COLUMNS, .candidate = candidate, .column = column, .r = r};
+    struct scan_pair pair[4];
+    int count;
+    assert_status(scan_pairs(&test_pool, &scan, 4, pair, &count), ROTID_OK);
+    assert_int_equal(count, 4);
+    for (int c = 0; c < COLUMNS; c++)
+        for (int d = c + 1; d < COLUMNS; d++)
+            best = fmax(best, square - least_on_a_grid(column + c * ROWS, column + d * ROWS, r, &item[c], &item[d]));
+    for (int i = 0; i < count; i++) {
+        const struct scan_pair *p = &pair[i];
+        double drop = square - least_on_a_grid(column + p->item[0] * ROWS, column + p->item[1] * ROWS, r, &item[p->item[0]],
+                                               &item[p->item[1]]);
+        assert_close(p->drop, drop, 0, 1e-4);
+        assert_true(!i || pair[i - 1].drop >= p->drop);
+        for (int k = 0; k < 2; k++)
+            assert_true(p->amplitude[k] >= item[p->item[k]].lower && p->amplitude[k] <= item[p->item[k]].upper);
+    }
+    assert_close(pair[0].drop, best, 0, 1e-4);
+}
