@@ -129,6 +129,16 @@ UNIT_TEST(what_leads_beside_something_else_need_not_lead_alone)
     rotid_diagnosis_free(d);
 }
 
+/* Chance leaves as much in one of a thousand cases. */
+UNIT_TEST(an_improbable_misfit_that_no_cause_explains_is_no_explained_one)
+{
+    rotid_diagnosis *d = diagnosed("improbable");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_true(d->verdict.p_value < 0.01);
+    assert_true(!strncmp(d->verdict.sentence, "Nothing is wrong with 44 %, more than with any cause, though", 60));
+    rotid_diagnosis_free(d);
+}
+
 #define COLUMNS 6
 #define ROWS    8
 

@@ -395,6 +395,11 @@ static const char *verdict_sentence(struct engine *engine)
     }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
+        if (verdict->p_value < BLOCK_LEVEL)
+            return pool_format(pool,
+                               "Nothing is wrong with %.0f %%, more than with any cause, though the misfit is larger than the "
+                               "stated noise makes it (%s).%s%s",
+                               100 * out->posterior.nothing, chance, faults, open);
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
         return pool_format(pool, "The model lacks %s%s; with %s %s (%s before).%s%s%s", causes, likely,
