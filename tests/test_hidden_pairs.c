@@ -32,7 +32,8 @@ static const struct {
     {ALONE, 6, {"stiffness_gradient:group=core,slope=0.4"}},
     {ALONE, 7, {"stiffness_local:depth=0.6,z=0.857,width=0.04,shape=gaussian"}},
     {ALONE, 8, {"stiffness:group=left,factor=2.2"}}, /* beyond the usual bounds */
-    {NO_PAIR, 12, {"outside:kind=density_zone,factor=1.5,z=0.6,width=0.2"}},
+    {NO_PAIR, 12, {"outside:kind=density_zone,factor=1.5,z=0.6,width=0.5"}}, /* two masses stand for a shorter one */
+    {NO_PAIR, 12, {"outside:kind=inertia,z=0.6,inertia=3"}},
 };
 
 #define COUNT ((int)(sizeof table / sizeof *table))
