@@ -271,7 +271,7 @@ POOL_TEST(a_mode_out_is_a_fit_without_it)
         double error, difference;
         held[k] = 1;
         rotid_fit_result *fit = fit_job(&job, held);
-        assert_status(mode_out_fit(of(&job), number, holdout, k, NULL, NULL, &error, &difference), ROTID_OK);
+        assert_status(mode_out_fit(of(&job), NULL, number, holdout, k, NULL, NULL, &error, &difference), ROTID_OK);
         assert_close(error, 100 * (fit->predicted_hz[k] / hz[k] - 1), 1e-5, 1e-6);
         assert_close(difference, shape_by_definition(&job, fit->x, k), 1e-4, 0);
         rotid_fit_free(fit);
@@ -279,11 +279,38 @@ POOL_TEST(a_mode_out_is_a_fit_without_it)
     struct failing_allocator failing;
     double error, difference;
     failing_allocator_open(&failing, 0);
-    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_OK);
     assert_int_equal(failing.in_use, 0);
     failing_allocator_open(&failing, 5);
-    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_ERROR_MEMORY);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 0, NULL, &failing.allocator, &error, &difference),
+                  ROTID_ERROR_MEMORY);
     assert_int_equal(failing.in_use, 0);
+}
+
+/* One step from the fit of all, beside noise and beside a misfit that no step follows. */
+POOL_TEST(a_mode_out_is_one_step_from_the_fit_of_all)
+{
+    for (int far = 0; far < 2; far++) {
+        struct job job = make_job(0.02);
+        rotid_fit_result *all;
+        hz[1] *= far ? 1.05 : 1;
+        struct state only;
+        holdout[4] = 1;
+        all = fit_job(&job, holdout);
+        struct states started = states_of(&job, &only);
+        assert_status(states_started_at(&test_pool, &started, all->x, &started), ROTID_OK);
+        for (int k = 0; k < MODES; k++) {
+            double error[2], difference[2];
+            for (int from = 0; from < 2; from++)
+                assert_status(
+                    mode_out_fit(&started, from ? all : NULL, number, holdout, k, NULL, NULL, &error[from], &difference[from]),
+                    ROTID_OK);
+            assert_close(error[1], error[0], 0, 0.05 * 100 * job.measurement.frequency_std[k]);
+            assert_close(difference[1], difference[0], 0.02, 0);
+            assert_true(fabs(error[0]) > job.measurement.frequency_std[k]);
+        }
+        rotid_fit_free(all);
+    }
 }
 
 POOL_TEST(a_mode_out_leaves_enough_or_nothing_is_said)
@@ -292,12 +319,12 @@ POOL_TEST(a_mode_out_leaves_enough_or_nothing_is_said)
     double error = 0, difference = 0;
     job.measurement.shape = NULL;
     holdout[2] = holdout[3] = holdout[4] = 1; /* two frequencies for two moduli; one of them left out is too few */
-    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isnan(error) && isnan(difference));
-    assert_status(mode_out_fit(of(&job), number, holdout, 2, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 2, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isfinite(error) && isnan(difference));
     holdout[1] = 1; /* the last one */
-    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isnan(error));
 }
 
@@ -312,5 +339,6 @@ POOL_TEST(a_host_can_cancel)
     struct job job = make_job(0.02);
     double error, difference;
     const rotid_environment environment = {.size = sizeof environment, .cancelled = at_once};
-    assert_status(mode_out_fit(of(&job), number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
+    assert_status(mode_out_fit(of(&job), NULL, number, holdout, 0, &environment, NULL, &error, &difference),
+                  ROTID_STOP_CANCELLED);
 }

@@ -669,8 +669,10 @@ int fit_explains(const struct scan *scan, const struct evidence_data *data, cons
 /* The candidates of the search, the most probable first. ROTID_OK or ROTID_ERROR_MEMORY. */
 int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,
                      struct diagnosis_round *round);
-/* Prediction of modes left out in turn, for several models at once: error [models] in percent, shape [models]. */
-int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape);
+/* Prediction of modes left out in turn beside the fit of states that start where it ended: rms of *error in percent, and of
+ * *shape. Statuses of memory and cancellation only. */
+int modes_in_turn(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, double *error,
+                  double *shape);
 
 /* ------------------------------------------------------------------------------------------------------------ far starts */
 
@@ -754,9 +756,10 @@ int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit
  * holdout. */
 
 /* Predicts mode k by a fit of all fitted modes but it: error of its frequency and rms difference of its shape, NaN where there is
- * no such fit. May run in several threads. Statuses of memory and cancellation only. */
-int mode_out_fit(const struct states *states, const int *number, const int *holdout, int k, const rotid_environment *environment,
-                 const rotid_allocator *allocator, double *error_percent, double *shape);
+ * no such fit. from: the fit with it, from which one step leads there where the model follows it, or NULL. May run in several
+ * threads. Statuses of memory and cancellation only. */
+int mode_out_fit(const struct states *states, const rotid_fit_result *from, const int *number, const int *holdout, int k,
+                 const rotid_environment *environment, const rotid_allocator *allocator, double *error_percent, double *shape);
 
 /* From the fit of the job: rms over the sensors of the standardised residual that each has when it is not fitted, and of the
  * difference of shapes; NaN without shapes. ROTID_OK, ROTID_ERROR_MEMORY. */

@@ -140,21 +140,19 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
 
 struct leave_out {
     const struct engine *engine;
-    const struct states *const *model; /* [models] */
-    int nmode;                         /* of all states */
-    double *error, *shape;             /* [nmode * models] */
+    const struct states *states;
+    const rotid_fit_result *fit;
+    double *error, *shape; /* [nmode] of all states */
 };
 
-static int leave_out_task(void *context, int index, int worker)
+static int leave_out_task(void *context, int k, int worker)
 {
     struct leave_out *out = context;
     const struct engine *e = out->engine;
-    int k = index % out->nmode;
     (void)worker;
-    if (e->holdout[k])
-        return ROTID_OK;
-    return mode_out_fit(out->model[index / out->nmode], e->number, e->holdout, k, e->environment, e->pool->allocator,
-                        &out->error[index], &out->shape[index]);
+    return e->holdout[k] ? ROTID_OK
+                         : mode_out_fit(out->states, out->fit, e->number, e->holdout, k, e->environment, e->pool->allocator,
+                                        &out->error[k], &out->shape[k]);
 }
 
 static double rms(int n, const double *value)
@@ -169,21 +167,19 @@ static double rms(int n, const double *value)
     return count ? sqrt(sum / count) : NAN;
 }
 
-int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape)
+int modes_in_turn(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, double *error,
+                  double *shape)
 {
     int nmode = states_modes(&engine->states, engine->states.nstate);
-    size_t cells = (size_t)models * (size_t)nmode;
-    struct leave_out out = {engine, model, nmode, POOL_ARRAY(engine->pool, double, cells),
-                            POOL_ARRAY(engine->pool, double, cells)};
+    struct leave_out out = {engine, states, fit, POOL_ARRAY(engine->pool, double, nmode),
+                            POOL_ARRAY(engine->pool, double, nmode)};
     if (!out.error || !out.shape)
         return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < cells; i++)
-        out.error[i] = out.shape[i] = NAN;
-    int status = parallel_for(engine->threads, (int)cells, leave_out_task, &out);
-    for (int m = 0; m < models && !status; m++) {
-        error[m] = rms(nmode, out.error + (ptrdiff_t)m * nmode);
-        shape[m] = rms(nmode, out.shape + (ptrdiff_t)m * nmode);
-    }
+    for (int k = 0; k < nmode; k++)
+        out.error[k] = out.shape[k] = NAN;
+    int status = parallel_for(engine->threads, nmode, leave_out_task, &out);
+    *error = status ? (double)NAN : rms(nmode, out.error);
+    *shape = status ? (double)NAN : rms(nmode, out.shape);
     return status;
 }
 

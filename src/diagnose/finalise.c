@@ -198,9 +198,8 @@ static int quality(struct engine *engine, const struct states *states, const str
                 *nco_min = fmin(isfinite(*nco_min) ? *nco_min : 2, each[s].compared.nco[k]);
     struct states started;
     int status = states_started_at(engine->pool, states, fit->x, &started);
-    const struct states *models[1] = {&started};
     if (!status)
-        status = modes_in_turn(engine, 1, models, side(&gain->mode_out_frequency_rms_percent, is_after),
+        status = modes_in_turn(engine, &started, fit, side(&gain->mode_out_frequency_rms_percent, is_after),
                                side(&gain->mode_out_shape_rms, is_after));
     return status ? status
                   : sensor_out(engine->pool, states, engine->holdout, fit, &standardised,
@@ -419,13 +418,15 @@ static const char *verdict_sentence(struct engine *engine)
     }
 }
 
-/* A fit that was not ended is none of the results. */
-static int identify_whole(struct engine *engine, const struct states *states, struct identification **each,
+/* A fit that was not ended is none of the results. A solid keeps what its mesh is held to. */
+static int identify_whole(struct engine *engine, struct states *states, struct identification **each,
                           struct identification *first)
 {
     struct message_list quiet;
     message_open(&quiet, engine->pool);
     int status = base_identify(engine, states, &quiet, each, first);
+    for (int s = 0; s < states->nstate && !status; s++)
+        states->state[s].job.held = (*each)[s].held;
     if (status || first->fit->status != ROTID_STOP_CANCELLED)
         return status;
     rotid_fit_free(first->fit);
