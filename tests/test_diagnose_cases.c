@@ -102,8 +102,10 @@ static void check_extended(struct run *r)
             message_open(&messages, &pool);
             assert_status(deck_write(&pool, &d->given, &d->extended_states, &options, &messages, &text), ROTID_OK);
             read_deck(&pool, &messages, folder_write("extended.inp", text), &job);
-        } else
+        } else {
             job = d->extended_job;
+            job.held = NULL; /* a solid's mesh, from the beginning */
+        }
         assert_status(identify_run(&pool, &job, 0, NULL, &quiet, &again), ROTID_OK);
         assert_int_equal(again.fit->n, found->n);
         for (int p = 0; p < found->n; p++)

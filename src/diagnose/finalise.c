@@ -418,12 +418,15 @@ static const char *verdict_sentence(struct engine *engine)
     }
 }
 
-/* A fit that was not ended is none of the results. A solid keeps what its mesh is held to. */
+/* A fit that was not ended is none of the results. What the mesh of a solid is held to begins anew, as where somebody runs the
+ * deck that is written of it, and stays. */
 static int identify_whole(struct engine *engine, struct states *states, struct identification **each,
                           struct identification *first)
 {
     struct message_list quiet;
     message_open(&quiet, engine->pool);
+    for (int s = 0; s < states->nstate; s++)
+        states->state[s].job.held = NULL;
     int status = base_identify(engine, states, &quiet, each, first);
     for (int s = 0; s < states->nstate && !status; s++)
         states->state[s].job.held = (*each)[s].held;
