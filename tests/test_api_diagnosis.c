@@ -178,6 +178,27 @@ static void a_diagnosis_agrees_with_its_fits(const rotid_diagnosis *d)
 }
 
 /* Data made by the library itself from a deck that says what is wrong, given to one that does not. */
+/* One mode in each of two states, two moduli: the fit creeps along a valley to the limit of iterations, and the verdict says so.
+ */
+UNIT_TEST(a_verdict_on_a_fit_that_did_not_end_says_so)
+{
+    static const char *const text =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=steel\n0.3076, 0.100, 0, 40\n"
+        "*SHAFT, NAME=b, MATERIAL=steel\n0.2570, 0.050, 0, 40\n*SPRING\nstart, 1.12652e7\n*SPRING\nend, 2.83768e6\n"
+        "*SENSORS\n1, 0.31515\n2, 0.37338\n*NOISE, FREQUENCY=0.0001, SHAPE=0.01\n*IDENTIFY\na.E, 1e10, 1e12, 1.8e11\n"
+        "b.E, 1e10, 1e12, 1.8e11\n*STATE, NAME=st0\n*MODES\n1, 106.799489901\n*SHAPE, MODE=1\n1, 0.931894\n2, 1.00742\n"
+        "*STATE, NAME=st1\n*MODES\n1, 106.807294634\n*SHAPE, MODE=1\n1, 0.937621\n2, 0.987944\n";
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    rotid_deck *deck;
+    rotid_diagnosis *d;
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
+    assert_string_equal(d->base->status, "not_converged");
+    assert_non_null(strstr(d->verdict.sentence, "The fit ended before a minimum ("));
+    rotid_diagnosis_free(d);
+    rotid_deck_free(deck);
+}
+
 UNIT_TEST(what_was_hidden_is_named)
 {
     rotid_diagnosis *d;

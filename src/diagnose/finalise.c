@@ -286,7 +286,11 @@ static const char *open_parameters(struct engine *engine)
     const struct job_units *units = &engine->states.state[0].job.units;
     const rotid_fit_result *fit = out->extended.fit ? out->extended.fit : out->base.fit;
     const rotid_parameter *parameter = out->extended.fit ? out->extended_states.bounds : out->judged.bounds;
-    const char *text = "";
+    const char *text =
+        fit->converged || fit->status == ROTID_STOP_CANCELLED
+            ? ""
+            : pool_format(engine->pool, " The fit ended before a minimum (%s): values and intervals are those of its last point.",
+                          rotid_status_text(fit->status));
     for (int p = 0; p < fit->n && p < out->judged.nparameter && text; p++) {
         if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->result.verdict.kind != ROTID_ADEQUATE)
             text = pool_format(engine->pool, "%s %s ends at its %s bound %s, which may be the cause itself: widen it.", text,
