@@ -110,11 +110,9 @@ static int tie_groups(struct deck_reader *reader, const struct parameter *young,
         struct group *group = &job->rotor.group[g];
         if (!parameter_is_of_group(young, g))
             continue;
-        if (group->material.laminated) {
-            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
-                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
-            return 1;
-        }
+        if (group->material.laminated)
+            return deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
+                              "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
         group->material.isotropic = 1;
         for (int q = job->unknowns.nparameter - 1; q >= 0; q--)
             if (job->unknowns.parameter[q].kind == PARAMETER_G && parameter_is_of_group(&job->unknowns.parameter[q], g)) {

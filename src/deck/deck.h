@@ -214,7 +214,8 @@ struct deck_reader {
     int out_of_memory;
 };
 
-void deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* Returns 1, as what it is the error of does. */
+int deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* pool_add; without memory the reader has out_of_memory. */

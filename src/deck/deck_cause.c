@@ -72,19 +72,15 @@ static int read_between(struct cause_card *c, const struct card_option *option)
         return 1;
     }
     const char *behind = comma ? comma + 1 + strspn(comma + 1, " \t") : item ? item->name : NULL;
-    if (!behind) {
-        deck_error(c->reader, place, "BETWEEN=%s names one group, expected %s", option->value,
-                   target_of[TARGET_INTERFACE].expected);
-        return 1;
-    }
+    if (!behind)
+        return deck_error(c->reader, place, "BETWEEN=%s names one group, expected %s", option->value,
+                          target_of[TARGET_INTERFACE].expected);
     if (find_group(c, first ? first : option->value, place, &left) | find_group(c, behind, second, &right))
         return 1;
     int last = rotor_axis_groups(&c->reader->job->rotor) - 1;
-    if ((right != left + 1 && left != right + 1) || left > last || right > last) {
-        deck_error(c->reader, place, "groups %s and %s do not meet, expected %s", c->reader->job->rotor.group[left].name,
-                   c->reader->job->rotor.group[right].name, target_of[TARGET_INTERFACE].expected);
-        return 1;
-    }
+    if ((right != left + 1 && left != right + 1) || left > last || right > last)
+        return deck_error(c->reader, place, "groups %s and %s do not meet, expected %s", c->reader->job->rotor.group[left].name,
+                          c->reader->job->rotor.group[right].name, target_of[TARGET_INTERFACE].expected);
     c->effect.target = left < right ? left : right;
     return 0;
 }
@@ -94,10 +90,8 @@ static int read_interface(struct cause_card *c)
     const struct rotor *rotor = &c->reader->job->rotor;
     const struct card_option *between = card_option(c->card, "BETWEEN"), *at = card_option(c->card, "AT");
     double z, from, to;
-    if (between && at) {
-        deck_error(c->reader, at->place, "BETWEEN and AT are both given, expected one of them");
-        return 1;
-    }
+    if (between && at)
+        return deck_error(c->reader, at->place, "BETWEEN and AT are both given, expected one of them");
     if (!at)
         return !deck_option(c->reader, c->card, "BETWEEN", target_of[TARGET_INTERFACE].expected) || !between ||
                read_between(c, between);
@@ -110,9 +104,8 @@ static int read_interface(struct cause_card *c)
             return 0;
         }
     }
-    deck_error(c->reader, at->value_place, "no two groups meet at AT=%s (%.6g m), expected a position where they do", at->value,
-               z);
-    return 1;
+    return deck_error(c->reader, at->value_place, "no two groups meet at AT=%s (%.6g m), expected a position where they do",
+                      at->value, z);
 }
 
 /* A spring, disk or tie rod by name. */
@@ -151,25 +144,19 @@ static int read_sensors(struct cause_card *c)
         int bad = end == text || id < 1 || id > 1000000000 || c->correction.nsensor == wanted;
         end += strspn(end, " \t");
         bad |= (*end && *end != ',') || (!*end && c->correction.nsensor + 1 < wanted);
-        if (bad) {
-            deck_error(c->reader, place, "SENSOR=%s is not what TYPE=%s takes, expected %s",
-                       card_option(c->card, "SENSOR")->value, c->kind->id, target_of[c->kind->target].expected);
-            return 1;
-        }
+        if (bad)
+            return deck_error(c->reader, place, "SENSOR=%s is not what TYPE=%s takes, expected %s",
+                              card_option(c->card, "SENSOR")->value, c->kind->id, target_of[c->kind->target].expected);
         c->effect.target = sensor_find(c->reader->job, (int)id);
-        if (c->effect.target < 0) {
-            deck_error(c->reader, place, "sensor %ld is not among the sensors, expected one that is", id);
-            return 1;
-        }
+        if (c->effect.target < 0)
+            return deck_error(c->reader, place, "sensor %ld is not among the sensors, expected one that is", id);
         c->correction.sensor[c->correction.nsensor++] = (int)id;
         if (!*end)
             break;
         text = end + 1;
     }
-    if (wanted == 2 && c->correction.sensor[0] == c->correction.sensor[1]) {
-        deck_error(c->reader, place, "SENSOR names sensor %d twice, expected two sensors", c->correction.sensor[0]);
-        return 1;
-    }
+    if (wanted == 2 && c->correction.sensor[0] == c->correction.sensor[1])
+        return deck_error(c->reader, place, "SENSOR names sensor %d twice, expected two sensors", c->correction.sensor[0]);
     return 0;
 }
 
@@ -278,17 +265,13 @@ static int check_options(const struct cause_card *c)
         const char *own = target_of[c->kind->target].option;
         for (size_t p = 0; p < sizeof places / sizeof *places; p++)
             if (same_text(option->name, places[p]) && !(own && same_text(own, places[p])) &&
-                !(c->kind->target == TARGET_INTERFACE && same_text(option->name, "AT"))) {
-                deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s%s%s", option->name,
-                           c->kind->id, own ? own : "", own ? "=" : "", target_of[c->kind->target].expected);
-                bad = 1;
-            }
+                !(c->kind->target == TARGET_INTERFACE && same_text(option->name, "AT")))
+                bad = deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s%s%s",
+                                 option->name, c->kind->id, own ? own : "", own ? "=" : "", target_of[c->kind->target].expected);
         if ((same_text(option->name, "SHAPE") || same_text(option->name, "MOUNT")) &&
-            !(c->kind->variant_option && same_text(option->name, c->kind->variant_option))) {
-            deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s", option->name,
-                       c->kind->id, c->kind->variant_option ? c->kind->variant_option : "a card without it");
-            bad = 1;
-        }
+            !(c->kind->variant_option && same_text(option->name, c->kind->variant_option)))
+            bad = deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s", option->name,
+                             c->kind->id, c->kind->variant_option ? c->kind->variant_option : "a card without it");
     }
     return bad;
 }
@@ -337,18 +320,15 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
         return bad;
     bound[0] *= si;
     bound[1] *= si;
-    if (c->kind->class != CAUSE_PHYSICAL || p != c->kind->size) {
-        deck_error(c->reader, field[1].place, "%s has bounds, expected them for the size of TYPE=%s alone", known[p].name,
-                   c->kind->id);
-        return 1;
-    }
+    if (c->kind->class != CAUSE_PHYSICAL || p != c->kind->size)
+        return deck_error(c->reader, field[1].place, "%s has bounds, expected them for the size of TYPE=%s alone", known[p].name,
+                          c->kind->id);
     cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
     if (bound[0] < bound[1] && deck_clip(lower, upper, &bound[0]) && deck_clip(lower, upper, &bound[1]))
         return 0;
-    deck_error(c->reader, field[1].place,
-               "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g", known[p].name,
-               field[1].text, field[2].text, lower / si, upper / si);
-    return 1;
+    return deck_error(c->reader, field[1].place,
+                      "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g", known[p].name,
+                      field[1].text, field[2].text, lower / si, upper / si);
 }
 
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
@@ -385,11 +365,9 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
         bad |= check_value(c, p, &known[p], &line->field[1], &value[p]);
     }
     for (int p = 0; p < count && !c->suspect && !bad; p++)
-        if (!given[p]) {
-            deck_error(c->reader, c->card->place, "*CAUSE has no value of %s [%s], expected a line '%s, value'", known[p].name,
-                       known[p].unit, known[p].name);
-            bad = 1;
-        }
+        if (!given[p])
+            bad = deck_error(c->reader, c->card->place, "*CAUSE has no value of %s [%s], expected a line '%s, value'",
+                             known[p].name, known[p].unit, known[p].name);
     return bad;
 }
 
@@ -561,18 +539,15 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
     char *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - parameter), parameter) : NULL;
     reader->out_of_memory |= dot && !name;
     for (int i = 0; i < job->unknowns.nsuspect && name; i++)
-        if (same_text(job->unknowns.suspect[i].effect.name, name)) {
-            deck_error(reader, place, "%s is of a suspect, expected a *CAUSE that is part of the model, without SUSPECT",
-                       parameter);
-            return 1;
-        }
+        if (same_text(job->unknowns.suspect[i].effect.name, name))
+            return deck_error(reader, place, "%s is of a suspect, expected a *CAUSE that is part of the model, without SUSPECT",
+                              parameter);
     for (int i = 0; i < job->measurement.ncorrection && name; i++)
-        if (same_text(job->measurement.correction[i].name, name)) {
-            deck_error(reader, place,
-                       "%s is of a fault of the measured data, which is stated and not identified, expected a cause in the rotor",
-                       parameter);
-            return 1;
-        }
+        if (same_text(job->measurement.correction[i].name, name))
+            return deck_error(
+                reader, place,
+                "%s is of a fault of the measured data, which is stated and not identified, expected a cause in the rotor",
+                parameter);
     for (int c = 0; c < reader->text.ncard && name; c++) {
         const struct card_option *option = card_option(&reader->text.card[c], "NAME");
         if (!strcmp(reader->text.card[c].name, "CAUSE") && option && same_text(option->value, name))

@@ -25,12 +25,13 @@ static void add(struct deck_reader *reader, enum severity severity, struct place
         message_add(reader->messages, severity, place.file, place.line, place.column, "%s", text);
 }
 
-void deck_error(struct deck_reader *reader, struct place place, const char *format, ...)
+int deck_error(struct deck_reader *reader, struct place place, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
     add(reader, SEVERITY_ERROR, place, format, values);
     va_end(values);
+    return 1;
 }
 
 void deck_note(struct deck_reader *reader, struct place place, const char *format, ...)
@@ -130,18 +131,14 @@ static int parse_number(struct deck_reader *reader, const struct field *field, c
     struct place place = field->place;
     char *end;
     double number = strtod(text, &end);
-    if (end == text || *end) {
-        deck_error(reader, place, "'%s' is not a number, expected one for %s", text, what);
-        return 1;
-    }
-    if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0)) {
-        deck_error(reader, place, "%s is %s, expected %s", what, text, isfinite(number) ? range_text(range) : "a finite number");
-        return 1;
-    }
+    if (end == text || *end)
+        return deck_error(reader, place, "'%s' is not a number, expected one for %s", text, what);
+    if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0))
+        return deck_error(reader, place, "%s is %s, expected %s", what, text,
+                          isfinite(number) ? range_text(range) : "a finite number");
     if (!deck_is_usual(number) && (range != ANY || fabs(number) > DECK_MOST)) { /* a component of a shape may be rounding */
-        deck_error(reader, place, "%s is %s, expected a size from %g to %g%s", what, text, DECK_LEAST, DECK_MOST,
-                   range == POSITIVE ? "" : ", or zero");
-        return 1;
+        return deck_error(reader, place, "%s is %s, expected a size from %g to %g%s", what, text, DECK_LEAST, DECK_MOST,
+                          range == POSITIVE ? "" : ", or zero");
     }
     *value = number * (field->in_si > 0
                            ? field->in_si
@@ -158,10 +155,8 @@ int deck_has(const struct data_line *line, int i)
 int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
                 double *value)
 {
-    if (!deck_has(line, i)) {
-        deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
-        return 1;
-    }
+    if (!deck_has(line, i))
+        return deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
     return parse_number(reader, &line->field[i], what, range, value);
 }
 
@@ -171,11 +166,9 @@ int deck_integer(struct deck_reader *reader, const struct data_line *line, int i
     double number;
     if (deck_number(reader, line, i, what, ANY, &number))
         return 1;
-    if (number != floor(number) || number < least || number > most) {
-        deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what, line->field[i].text,
-                   least, most);
-        return 1;
-    }
+    if (number != floor(number) || number < least || number > most)
+        return deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what,
+                          line->field[i].text, least, most);
     *value = (int)number;
     return 0;
 }
@@ -184,8 +177,7 @@ int deck_count(struct deck_reader *reader, const struct data_line *line, int mos
 {
     if (line->count <= most)
         return 0;
-    deck_error(reader, line->field[most].place, "'%s' is one value too many, expected %s", line->field[most].text, layout);
-    return 1;
+    return deck_error(reader, line->field[most].place, "'%s' is one value too many, expected %s", line->field[most].text, layout);
 }
 
 int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length)
@@ -231,21 +223,17 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
             which = dot + 1;
         }
         int is_start = same_text(which, "start"), is_end = same_text(which, "end");
-        if (!is_start && !is_end) {
-            deck_error(reader, place,
-                       "'%s' is no position, expected %s: metres from the left end, start, end, or GROUP.start, GROUP.end", text,
-                       what);
-            return 1;
-        }
+        if (!is_start && !is_end)
+            return deck_error(reader, place,
+                              "'%s' is no position, expected %s: metres from the left end, start, end, or GROUP.start, GROUP.end",
+                              text, what);
         *z = is_start ? from : to;
     }
     /* a coordinate with six digits may end a little beyond the end of the rotor */
-    if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5)) {
-        deck_error(reader, place, "%s %s %s lies outside the rotor, expected 0 to %.6g %s", what, text,
-                   field->in_si > 0 ? "in the unit of its column" : deck_unit_name(reader, "m"), reader->length / in_si,
-                   field->in_si > 0 ? "in that unit" : deck_unit_name(reader, "m"));
-        return 1;
-    }
+    if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5))
+        return deck_error(reader, place, "%s %s %s lies outside the rotor, expected 0 to %.6g %s", what, text,
+                          field->in_si > 0 ? "in the unit of its column" : deck_unit_name(reader, "m"), reader->length / in_si,
+                          field->in_si > 0 ? "in that unit" : deck_unit_name(reader, "m"));
     *z = fmin(fmax(*z, 0), reader->length);
     return 0;
 }
@@ -288,11 +276,9 @@ static int deck_option_integer(struct deck_reader *reader, const struct card_opt
     double number;
     if (deck_option_number(reader, option, "", ANY, &number))
         return 1;
-    if (number != floor(number) || number < least || number > most) {
-        deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name, option->value,
-                   least, most);
-        return 1;
-    }
+    if (number != floor(number) || number < least || number > most)
+        return deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name,
+                          option->value, least, most);
     *value = (int)number;
     return 0;
 }

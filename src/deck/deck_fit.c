@@ -170,11 +170,9 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
         }
         while (*end == ' ')
             end++;
-        if (bad || (*end && *end != ',') || first < 1 || last > DECK_MOST_MODES) {
-            deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6",
-                       option->name, option->value);
-            return 1;
-        }
+        if (bad || (*end && *end != ',') || first < 1 || last > DECK_MOST_MODES)
+            return deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6",
+                              option->name, option->value);
         for (long number = first; number <= last; number++) {
             int found = 0;
             for (int k = 0; k < job->measurement.nmode; k++)
@@ -338,11 +336,9 @@ static void read_pairs(struct deck_reader *reader, const struct card *card)
         bad |= deck_integer(reader, line, 0, "response sensor id", 1, 1000000000, &pair.response);
         bad |= deck_integer(reader, line, 1, "reference sensor id", 1, 1000000000, &pair.reference);
         for (int f = 0; f < 2 && !bad && !card_option(card, "FILE"); f++)
-            if (sensor_find(reader->job, f ? pair.reference : pair.response) < 0) {
-                deck_error(reader, line->field[f].place, "sensor %d is not among *SENSORS, expected one that is",
-                           f ? pair.reference : pair.response);
-                bad = 1;
-            }
+            if (sensor_find(reader->job, f ? pair.reference : pair.response) < 0)
+                bad = deck_error(reader, line->field[f].place, "sensor %d is not among *SENSORS, expected one that is",
+                                 f ? pair.reference : pair.response);
         if (bad)
             continue;
         (void)DECK_ADD(reader, frf->pair, frf->npair, &pair);

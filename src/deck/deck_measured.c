@@ -36,11 +36,9 @@ static int read_reference(struct deck_reader *reader, const struct data_line *li
         reference->values[i] = strtod(text, &rest);
         while (*rest == ' ' || (!i && *rest == ','))
             rest = *rest == ',' ? "" : rest + 1;
-        if (rest == text || *rest || !isfinite(reference->values[i])) {
-            deck_error(reader, line->field[i].place,
-                       "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
-            return 1;
-        }
+        if (rest == text || *rest || !isfinite(reference->values[i]))
+            return deck_error(reader, line->field[i].place,
+                              "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
     }
     reference->nvalues = line->count;
     job->nreference++;
@@ -447,32 +445,24 @@ static int identify(struct extra *extra, int count, const struct uff_shape *cons
             extra->mode = k;
             matches++;
         }
-    if (!number || matches != 1) {
-        deck_error(extra->reader, id_line(extra, 0), "'%s' names %s, expected the number of one mode of this file", text,
-                   !number   ? "no mode"
-                   : matches ? "a number that several modes have"
-                             : "a mode that is not there");
-        return 1;
-    }
-    if (extra->seen[extra->kind + UFF_EXTRAS * extra->mode]++) {
-        deck_error(extra->reader, id_line(extra, 0), "'%s' is given twice, expected once", text);
-        return 1;
-    }
+    if (!number || matches != 1)
+        return deck_error(extra->reader, id_line(extra, 0), "'%s' names %s, expected the number of one mode of this file", text,
+                          !number   ? "no mode"
+                          : matches ? "a number that several modes have"
+                                    : "a mode that is not there");
+    if (extra->seen[extra->kind + UFF_EXTRAS * extra->mode]++)
+        return deck_error(extra->reader, id_line(extra, 0), "'%s' is given twice, expected once", text);
     return 0;
 }
 
 static int check_form(const struct extra *extra)
 {
     const struct uff_shape *set = extra->set;
-    if (set->imag) {
-        deck_error(extra->reader, id_line(extra, 0), "the values of '%s' are complex, expected real ones", set->id[0]);
-        return 1;
-    }
-    if (extra->component >= set->component_count) {
-        deck_error(extra->reader, id_line(extra, 0), "'%s' has %d values a node, expected DIRECTION to be one of them",
-                   set->id[0], set->component_count);
-        return 1;
-    }
+    if (set->imag)
+        return deck_error(extra->reader, id_line(extra, 0), "the values of '%s' are complex, expected real ones", set->id[0]);
+    if (extra->component >= set->component_count)
+        return deck_error(extra->reader, id_line(extra, 0), "'%s' has %d values a node, expected DIRECTION to be one of them",
+                          set->id[0], set->component_count);
     return 0;
 }
 
@@ -640,36 +630,27 @@ static int import_sensors(struct import *import)
     if (!file->node_count) {
         if (rotor->nsensor)
             return 0;
-        deck_error(reader, in_file(import, 1),
-                   "the file has no nodes (sets 15, 2411), expected them, or a *SENSORS card in the deck");
-        return 1;
+        return deck_error(reader, in_file(import, 1),
+                          "the file has no nodes (sets 15, 2411), expected them, or a *SENSORS card in the deck");
     }
-    if (rotor->nsensor) {
-        deck_error(reader, import->card->place, "sensors are given by *SENSORS and by the nodes of %s, expected one of them",
-                   import->path);
-        return 1;
-    }
+    if (rotor->nsensor)
+        return deck_error(reader, import->card->place,
+                          "sensors are given by *SENSORS and by the nodes of %s, expected one of them", import->path);
     rotor->sensor = POOL_ARRAY(reader->pool, struct sensor, file->node_count);
-    if (!rotor->sensor) {
-        reader->out_of_memory = 1;
-        return 1;
-    }
+    if (!rotor->sensor)
+        return reader->out_of_memory = 1;
     size_t carried;
     const int *carrying = shape_nodes(reader->pool, file, &carried);
-    if (!carrying) {
-        reader->out_of_memory = 1;
-        return 1;
-    }
+    if (!carrying)
+        return reader->out_of_memory = 1;
     int outside = 0, first = 0;
     double at = 0;
     for (int i = 0; i < file->node_count; i++) {
         if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, compare_ids))
             continue;
-        if (rotor->nsensor == DECK_MOST_LINES) {
-            deck_error(reader, in_file(import, 1), "the shapes have more than %d nodes, expected those of sensors on a rotor",
-                       DECK_MOST_LINES);
-            return 1;
-        }
+        if (rotor->nsensor == DECK_MOST_LINES)
+            return deck_error(reader, in_file(import, 1),
+                              "the shapes have more than %d nodes, expected those of sensors on a rotor", DECK_MOST_LINES);
         double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
             if (!outside++) {
@@ -724,32 +705,25 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
 {
     struct deck_reader *reader = import->reader;
     int component = shape->component_count == 1 ? 0 : import->component;
-    if (component >= shape->component_count) {
-        deck_error(reader, in_file(import, shape->line), "the shape has %d values a node, expected DIRECTION to be one of them",
-                   shape->component_count);
-        return 1;
-    }
+    if (component >= shape->component_count)
+        return deck_error(reader, in_file(import, shape->line),
+                          "the shape has %d values a node, expected DIRECTION to be one of them", shape->component_count);
     double *value = POOL_ARRAY(reader->pool, double, shape->node_count);
-    if (!value) {
-        reader->out_of_memory = 1;
-        return 1;
-    }
+    if (!value)
+        return reader->out_of_memory = 1;
     double largest = 0;
     for (int i = 0; i < shape->node_count; i++) {
         int at = i * shape->component_count + component;
         largest = fmax(largest, hypot(shape->real[at], shape->imag ? shape->imag[at] : 0));
     }
-    if (!deck_is_usual(largest) || !deck_is_usual(shape->frequency_hz)) {
-        deck_error(reader, in_file(import, shape->line),
-                   "the shape has a frequency of %.6g Hz and a largest component of %.6g, expected sizes from %g to %g",
-                   shape->frequency_hz, largest, DECK_LEAST, DECK_MOST);
-        return 1;
-    }
-    if (largest == 0) {
-        deck_error(reader, in_file(import, shape->line),
-                   "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION", shape->frequency_hz);
-        return 1;
-    }
+    if (!deck_is_usual(largest) || !deck_is_usual(shape->frequency_hz))
+        return deck_error(reader, in_file(import, shape->line),
+                          "the shape has a frequency of %.6g Hz and a largest component of %.6g, expected sizes from %g to %g",
+                          shape->frequency_hz, largest, DECK_LEAST, DECK_MOST);
+    if (largest == 0)
+        return deck_error(reader, in_file(import, shape->line),
+                          "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION",
+                          shape->frequency_hz);
     double left = uff_real_shape(shape, component, value);
     if (left > 0.05)
         deck_note(reader, in_file(import, shape->line),
@@ -775,9 +749,8 @@ static int import_hammer(struct import *import, const struct uff_shape *mode)
         job->measurement.hammer = (int)id;
         return 0;
     }
-    deck_error(import->reader, option->value_place, "HAMMER is %s, expected the id of a sensor of %s", option->value,
-               import->path);
-    return 1;
+    return deck_error(import->reader, option->value_place, "HAMMER is %s, expected the id of a sensor of %s", option->value,
+                      import->path);
 }
 
 static int import_modes(struct import *import)
@@ -786,10 +759,8 @@ static int import_modes(struct import *import)
     struct job *job = reader->job;
     const struct uff_shape **chosen = POOL_ARRAY(reader->pool, const struct uff_shape *, import->file.shape_count);
     int count = chosen ? choose_modes(import, chosen) : 0;
-    if (chosen && !count) {
-        deck_error(reader, in_file(import, 1), "the file has no mode shapes, expected sets 55 of normal or complex modes");
-        return 1;
-    }
+    if (chosen && !count)
+        return deck_error(reader, in_file(import, 1), "the file has no mode shapes, expected sets 55 of normal or complex modes");
     size_t components = (size_t)job->rotor.nsensor * (size_t)count;
     job->measurement.number = POOL_ARRAY(reader->pool, int, import->file.shape_count);
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, count);
@@ -798,10 +769,8 @@ static int import_modes(struct import *import)
     job->measurement.shape = deck_new_values(reader, components);
     job->measurement.shape_std = deck_new_values(reader, components);
     if (!chosen || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
-        !job->measurement.frequency_std || !job->measurement.shape || !job->measurement.shape_std) {
-        reader->out_of_memory = 1;
-        return 1;
-    }
+        !job->measurement.frequency_std || !job->measurement.shape || !job->measurement.shape_std)
+        return reader->out_of_memory = 1;
     int bad = 0;
     uff_mode_numbers(&import->file, count, chosen, job->measurement.number);
     for (int k = 0; k < count; k++) {

@@ -329,11 +329,10 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
 int deck_check_tierod(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
     const struct tierod *rod = item;
-    if (rod->from >= rod->to) {
-        deck_error(reader, card_option(card, "TO")->value_place, "TO=%s is not behind FROM=%s, expected a position further right",
-                   card_option(card, "TO")->value, card_option(card, "FROM")->value);
-        return 1;
-    }
+    if (rod->from >= rod->to)
+        return deck_error(reader, card_option(card, "TO")->value_place,
+                          "TO=%s is not behind FROM=%s, expected a position further right", card_option(card, "TO")->value,
+                          card_option(card, "FROM")->value);
     if (rod->elements > 1)
         deck_note(reader, line->field[4].place,
                   "rods in %d elements have modes of their own, which may lie among those of the rotor and shift the mode "
@@ -346,18 +345,14 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
 {
     const struct bars *bars = item;
     double half = bars->length / 2, over = 1e-5 * reader->length, radius = bars->diameter / 4, hz;
-    if (bars->elements % 2) {
-        deck_error(reader, line->field[3].place,
-                   "number of elements is %d, expected an even number: half to either side of the centre", bars->elements);
-        return 1;
-    }
-    if (bars->center - half < -over || bars->center + half > reader->length + over) {
-        deck_error(reader, card_option(card, "LENGTH")->value_place,
-                   "bars of %.9g %s reach beyond the rotor, expected them inside 0 to %.6g %s",
-                   bars->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"), reader->length / deck_in_si(reader, "m"),
-                   deck_unit_name(reader, "m"));
-        return 1;
-    }
+    if (bars->elements % 2)
+        return deck_error(reader, line->field[3].place,
+                          "number of elements is %d, expected an even number: half to either side of the centre", bars->elements);
+    if (bars->center - half < -over || bars->center + half > reader->length + over)
+        return deck_error(reader, card_option(card, "LENGTH")->value_place,
+                          "bars of %.9g %s reach beyond the rotor, expected them inside 0 to %.6g %s",
+                          bars->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"),
+                          reader->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"));
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
     hz = 0.5596 * sqrt(bars->material.e / bars->material.rho) * radius / (half * half);
     if (bars->model == BUNDLE_RODS && hz < 5000)
@@ -376,11 +371,9 @@ int deck_check_disk(struct deck_reader *reader, const struct card *card, const s
     const struct disk *disk = item;
     double from = disk->position - disk->hub_length / 2, to = disk->position + disk->hub_length / 2, z = 0, outer, inner;
     (void)card;
-    if ((disk->hub_length > 0) != (disk->hub_outer > 0)) {
-        deck_error(reader, line->field[deck_has(line, 5) ? 5 : 4].place,
-                   "a hub has a length and an outer diameter above zero, expected both or neither");
-        return 1;
-    }
+    if ((disk->hub_length > 0) != (disk->hub_outer > 0))
+        return deck_error(reader, line->field[deck_has(line, 5) ? 5 : 4].place,
+                          "a hub has a length and an outer diameter above zero, expected both or neither");
     for (int s = 0; s < rotor->nsegment && disk->hub_length > 0; s++) {
         const struct segment *segment = &rotor->segment[s];
         int under = z < to && z + segment->length > from;
@@ -398,11 +391,10 @@ int deck_check_disk(struct deck_reader *reader, const struct card *card, const s
     }
     for (int d = 0; d < rotor->ndisk && disk->hub_length > 0; d++) {
         double other = rotor->disk[d].hub_length / 2, apart = fabs(rotor->disk[d].position - disk->position);
-        if (other > 0 && apart < (other + disk->hub_length / 2) * (1 - 1e-9)) {
-            deck_error(reader, line->field[4].place, "the hub overlaps that of the disk at %.6g m, expected one after the other",
-                       rotor->disk[d].position);
-            return 1;
-        }
+        if (other > 0 && apart < (other + disk->hub_length / 2) * (1 - 1e-9))
+            return deck_error(reader, line->field[4].place,
+                              "the hub overlaps that of the disk at %.6g m, expected one after the other",
+                              rotor->disk[d].position);
     }
     if (disk->diametral > 0 && disk->polar > 2 * MORE_THAN_ROUNDING * disk->diametral)
         deck_note(reader, line->field[3].place,

@@ -164,26 +164,22 @@ static int bearing_values(struct deck_reader *reader, const struct data_line *li
     int count = line->count - first, bad = 0;
     const int *place = count == 2 ? of_two : count == 4 ? of_four : of_all;
     double value[COEFFICIENTS] = {0};
-    if (count != 2 && count != 4 && count != COEFFICIENTS) {
-        deck_error(
+    if (count != 2 && count != 4 && count != COEFFICIENTS)
+        return deck_error(
             reader, line->place,
             "the bearing has %d coefficients, expected 2 (k, c), 4 (kxx, kyy, cxx, cyy) or 8 by rows (kxx, kxy, kyx, kyy, cxx, "
             "cxy, cyx, cyy)",
             count > 0 ? count : 0);
-        return 1;
-    }
     for (int i = 0; i < count; i++)
         bad |= deck_number(reader, line, first + i, what[place[i]], ANY, &value[place[i]]);
     if (count == 2) {
         value[3] = value[0];
         value[7] = value[4];
     }
-    if (!bad && (value[0] < 0 || value[3] < 0)) {
-        deck_error(reader, line->field[first].place,
-                   "the direct stiffness of a bearing is below zero, expected *PULL for a magnetic "
-                   "pull");
-        bad = 1;
-    }
+    if (!bad && (value[0] < 0 || value[3] < 0))
+        bad = deck_error(reader, line->field[first].place,
+                         "the direct stiffness of a bearing is below zero, expected *PULL for a magnetic "
+                         "pull");
     memcpy(b->k, value, 4 * sizeof *value);
     memcpy(b->c, value + 4, 4 * sizeof *value);
     return bad;
@@ -239,18 +235,14 @@ static int read_coefficients(struct deck_reader *reader, const struct card *card
     const struct table_text *table = deck_open_table(reader, card);
     if (!table || table->bad)
         return 1;
-    if (table->nrow < 2 || table->nrow > MOST_SPEEDS) {
-        deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients", table->path,
-                   table->nrow, MOST_SPEEDS);
-        return 1;
-    }
+    if (table->nrow < 2 || table->nrow > MOST_SPEEDS)
+        return deck_error(reader, file->value_place, "%s has %d rows, expected a row of names and 1 to %d of coefficients",
+                          table->path, table->nrow, MOST_SPEEDS);
     for (int j = 0; j <= COEFFICIENTS; j++) {
         column[j] = layout->names[j] ? column_of(&table->row[0], layout->names[j]) : -1;
-        if (column[j] < 0 && layout->names[j] && !layout->may_lack[j]) {
-            deck_error(reader, table->row[0].place, "the table has no column %s, expected %s", layout->names[j],
-                       layout->expected);
-            bad = 1;
-        }
+        if (column[j] < 0 && layout->names[j] && !layout->may_lack[j])
+            bad = deck_error(reader, table->row[0].place, "the table has no column %s, expected %s", layout->names[j],
+                             layout->expected);
     }
     if (bad || room_of_table(reader, b, table->nrow - 1))
         return 1;
@@ -263,11 +255,9 @@ static int read_coefficients(struct deck_reader *reader, const struct card *card
         b->speed[i] = value[0] * layout->speed;
         memcpy(b->k + 4 * (ptrdiff_t)i, value + 1, 4 * sizeof *value);
         memcpy(b->c + 4 * (ptrdiff_t)i, value + 5, 4 * sizeof *value);
-        if (!bad && i && !(b->speed[i] > b->speed[i - 1])) {
-            deck_error(reader, row->field[column[0]].place, "the values of %s do not rise, expected each above the one before",
-                       layout->names[0]);
-            bad = 1;
-        }
+        if (!bad && i && !(b->speed[i] > b->speed[i - 1]))
+            bad = deck_error(reader, row->field[column[0]].place,
+                             "the values of %s do not rise, expected each above the one before", layout->names[0]);
     }
     return bad;
 }
@@ -282,11 +272,9 @@ static int bearing_std(struct deck_reader *reader, const struct card *card, stru
     b->std[0] = b->std[1] = strtod(option->value, &end);
     if (end != option->value && *end == ',')
         b->std[1] = strtod(end + 1, &end);
-    if (end == option->value || *end || !(b->std[0] >= 0 && b->std[0] <= 3) || !(b->std[1] >= 0 && b->std[1] <= 3)) {
-        deck_error(reader, option->value_place,
-                   "STD=%s is no deviation, expected one or two numbers from 0 to 3: of ln k and of ln c", option->value);
-        return 1;
-    }
+    if (end == option->value || *end || !(b->std[0] >= 0 && b->std[0] <= 3) || !(b->std[1] >= 0 && b->std[1] <= 3))
+        return deck_error(reader, option->value_place,
+                          "STD=%s is no deviation, expected one or two numbers from 0 to 3: of ln k and of ln c", option->value);
     return 0;
 }
 
@@ -318,11 +306,9 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
             b.like = machine->bearing[of].like;
             memcpy(b.std, machine->bearing[of].std, sizeof b.std);
         }
-        if (card_option(card, "STD")) {
-            deck_error(reader, card_option(card, "STD")->place, "LIKE shares the draws of %s, expected no STD beside it",
-                       like->value);
-            bad = 1;
-        }
+        if (card_option(card, "STD"))
+            bad = deck_error(reader, card_option(card, "STD")->place, "LIKE shares the draws of %s, expected no STD beside it",
+                             like->value);
     }
     if (file) {
         bad |= deck_count(reader, line, 1, "position alone beside FILE") ||
@@ -393,14 +379,12 @@ static int loss_from_test(struct deck_reader *reader, struct place place, struct
     const char *name = reader->job->rotor.group[loss->group].name;
     int status = reader->job->measurement.nmode ? loss_of_test(reader->pool, reader->job, loss->group, &found) : ROTID_OK;
     reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
-    if (status || !reader->job->measurement.nmode || !found.count) {
-        deck_error(
+    if (status || !reader->job->measurement.nmode || !found.count)
+        return deck_error(
             reader, place,
             "no measured mode says what %s loses, expected damping ratios in *MODES, of modes that bend it, or a loss factor "
             "without TEST",
             name);
-        return 1;
-    }
     loss->value = found.value[loss->viscous];
     loss->std = found.std[loss->viscous];
     deck_note(reader, place,
@@ -429,11 +413,9 @@ int deck_check_change(struct deck_reader *reader, const struct card *card, const
     if (found == 1 || found == 2)
         deck_error(reader, line->field[0].place, "%s is no parameter of this deck, expected one such as GROUP.E", change->name);
     else if (!found && change->parameter.kind == PARAMETER_G &&
-             reader->job->rotor.group[change->parameter.index].material.isotropic) {
-        deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
-                   change->name);
-        return 1;
-    }
+             reader->job->rotor.group[change->parameter.index].material.isotropic)
+        return deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
+                          change->name);
     return found;
 }
 
@@ -486,11 +468,9 @@ int deck_check_runup(struct deck_reader *reader, const struct card *card, const 
     (void)card;
     reading->place = (struct job_place){line->place.file, line->place.line, line->place.column};
     for (int j = 0; j < machine->nrunup; j++)
-        if (machine->runup[j].number == reading->number && machine->runup[j].backward == reading->backward) {
-            deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
-                       reading->number);
-            return 1;
-        }
+        if (machine->runup[j].number == reading->number && machine->runup[j].backward == reading->backward)
+            return deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
+                              reading->number);
     return 0;
 }
 
@@ -528,11 +508,9 @@ int deck_check_unknown(struct deck_reader *reader, const struct card *card, cons
     u->bearing = unknown_bearing(reader, &line->field[0], &u->damping);
     if (u->bearing < 0)
         return 1;
-    if (!(u->bounds.lower < u->bounds.start && u->bounds.start < u->bounds.upper)) {
-        deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", u->bounds.name,
-                   line->field[3].text);
-        return 1;
-    }
+    if (!(u->bounds.lower < u->bounds.start && u->bounds.start < u->bounds.upper))
+        return deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds",
+                          u->bounds.name, line->field[3].text);
     for (int j = 0; j < reader->job->unknowns.nparameter; j++)
         twice |= same_text(reader->job->unknowns.bounds[j].name, u->bounds.name);
     for (int j = 0; j < machine->nunknown; j++)

@@ -355,9 +355,8 @@ static int check_value(struct deck_reader *reader, const struct data_line *line,
     int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */
     if (deck_clip(lower, upper, value) && (*value > lower || !above))
         return 0;
-    deck_error(reader, line->field[1].place, "%s is %s, expected a value %s %.6g%s%.6g", line->field[0].text, line->field[1].text,
-               above ? "above" : "from", lower / si, above ? " and at most " : " to ", upper / si);
-    return 1;
+    return deck_error(reader, line->field[1].place, "%s is %s, expected a value %s %.6g%s%.6g", line->field[0].text,
+                      line->field[1].text, above ? "above" : "from", lower / si, above ? " and at most " : " to ", upper / si);
 }
 
 /* An unknown that a later *SET gives a value is known. */

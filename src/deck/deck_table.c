@@ -234,11 +234,9 @@ static int table_find_columns(struct deck_reader *reader, const struct table_tex
         columns->value[v] = columns->header ? find_column(reader, header, &kind->value[v], &columns->in_si[v]) : v;
         if (columns->value[v] == -2)
             return 1;
-        if (values && columns->value[v] < 0 && !kind->value[v].may_lack) {
-            deck_error(reader, header->place, "the first row names no column '%.*s', expected names such as %s",
-                       (int)strcspn(kind->value[v].names, "|"), kind->value[v].names, list);
-            return 1;
-        }
+        if (values && columns->value[v] < 0 && !kind->value[v].may_lack)
+            return deck_error(reader, header->place, "the first row names no column '%.*s', expected names such as %s",
+                              (int)strcspn(kind->value[v].names, "|"), kind->value[v].names, list);
     }
     char unread[256] = "";
     int first = -1;
@@ -274,13 +272,12 @@ static int has_nameless_number(struct deck_reader *reader, const struct table_te
         names--;
     for (int r = 1; r < table->nrow && table_has_header(table); r++)
         for (int i = names; i < table->row[r].count; i++)
-            if (table_is_number(table->row[r].field[i].text)) {
-                deck_error(reader, table->row[r].field[i].place,
-                           "'%s' stands behind the %d columns that have a name, expected none there: a decimal comma between "
-                           "cells separated by commas?",
-                           table->row[r].field[i].text, names);
-                return 1;
-            }
+            if (table_is_number(table->row[r].field[i].text))
+                return deck_error(
+                    reader, table->row[r].field[i].place,
+                    "'%s' stands behind the %d columns that have a name, expected none there: a decimal comma between "
+                    "cells separated by commas?",
+                    table->row[r].field[i].text, names);
     return 0;
 }
 
