@@ -448,7 +448,7 @@ int page_composed(const char *name, const rotid_allocator *allocator, int *error
     if (!status) {
         assert_status(document_open(&document, &pool), ROTID_OK);
         page_compose(&document, 1, &result);
-        assert_true(allocator || !document.failed);
+        assert_true(allocator || !document.pool->out_of_memory);
         document_close(&document);
     }
     cJSON_Delete(result.json);

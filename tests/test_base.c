@@ -206,7 +206,7 @@ UNIT_TEST(messages_are_kept_in_order_with_their_place)
     file[0] = word[0] = 'X'; /* the list has its own copies */
     assert_int_equal(list.count, 3);
     assert_int_equal(list.errors, 1);
-    assert_int_equal(list.out_of_memory, 0);
+    assert_int_equal(pool.out_of_memory, 0);
     assert_int_equal(list.item[0].severity, SEVERITY_ERROR);
     assert_string_equal(list.item[0].file, "deck.inp");
     assert_string_equal(list.item[0].text, "MESH: 4 values");
@@ -278,7 +278,7 @@ UNIT_TEST(messages_survive_a_failed_allocation)
         int failed = guarded.until_failure == 0;
         assert_int_equal(failed, n <= 43);
         assert_int_equal(list.errors, 20);
-        assert_int_equal(list.out_of_memory, failed);
+        assert_int_equal(pool.out_of_memory, failed);
         assert_int_equal(list.count, failed ? 19 : 20);
         for (size_t k = 0; k < list.count; k++) {
             char expected[32];

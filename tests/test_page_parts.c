@@ -113,7 +113,7 @@ POOL_TEST(a_table_is_shown_in_three_ways)
         number_column(table, "raw", NULL, SHOW_COUNT | IN_CSV_ONLY, i);
         text_column(table, "remark", NOT_IN_CSV | DETAIL, i ? "a long remark that a narrow screen has no room for" : "");
     }
-    assert_false(table->failed);
+    assert_false(table->pool->out_of_memory);
     assert_int_equal(table_rows(table), 2);
     assert_int_equal(table_column_is_shown(table, 2), 0); /* dashes alone */
     /* columns end under their heads, in characters and not in bytes; a column without a value is not there */
@@ -192,7 +192,7 @@ POOL_TEST(every_text_of_a_page_is_shown_so)
     document_section(&document, "provenance", "Provenance");
     document_paragraph(&document, "as it is: added_inertia /a/b/c3.inp");
     document.verbatim = 0;
-    assert_false(document.failed);
+    assert_false(document.pool->out_of_memory);
     assert_status(page_write(&document, 0, NULL, page_path("shown.html"), "made", &messages, &file), ROTID_OK);
     document_close(&document);
     const char *html = page_read("shown.html");

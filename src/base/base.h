@@ -176,7 +176,6 @@ struct message_list {
     rotid_message *item;
     size_t count, capacity;
     int errors; /* of any number, also those not kept */
-    int out_of_memory;
 };
 
 void message_open(struct message_list *list, struct pool *pool);

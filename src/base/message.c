@@ -27,11 +27,8 @@ void message_add(struct message_list *list, enum severity severity, const char *
         list->item = grown; /* now: the capacity already is that of the new array */
     char *copy = grown ? pool_copy_text(list->pool, text) : NULL;
     char *place = copy && file ? pool_copy_text(list->pool, file) : NULL;
-    if (!copy || (file && !place)) {
-        list->out_of_memory = 1;
-        return;
-    }
-    list->item[list->count++] = (rotid_message){severity, line, column, place, copy};
+    if (copy && (!file || place))
+        list->item[list->count++] = (rotid_message){severity, line, column, place, copy};
 }
 
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count)

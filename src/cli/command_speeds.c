@@ -54,7 +54,7 @@ static int write_csv(struct command *command, const char *path, const struct tab
     struct output output;
     if (!path)
         return code;
-    int status = table && !table->failed ? output_open(&output, path) : ROTID_ERROR_MEMORY;
+    int status = table && !command->pool.out_of_memory ? output_open(&output, path) : ROTID_ERROR_MEMORY;
     if (!status) {
         table_write_csv(output.stream, table);
         status = output_close(&output, ROTID_OK);

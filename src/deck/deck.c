@@ -230,7 +230,7 @@ static void check_model(struct deck_reader *reader)
         struct place place = {part.file, part.line, part.column};
         deck_error(reader, place, "%s", discrete_refusal(as, &job->rotor, failed));
     } else if (status) {
-        reader->out_of_memory = 1;
+        reader->pool->out_of_memory = 1;
     }
     int first = 0, same = 0;
     for (int s = 1; s < job->rotor.nsensor && !status; s++)
@@ -258,8 +258,8 @@ static void choose_mesh(struct deck_reader *reader)
         reader->nopen ? reader->place[GROUP_PLACES][reader->job->rotor.segment[reader->open_section[0]].group] : reader->text.end;
     if (!reader->nopen)
         return;
-    reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
-    if (reader->out_of_memory || !isfinite(c.error) || reader->job->options.solid) /* that has a mesh of its own */
+    reader->pool->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
+    if (reader->pool->out_of_memory || !isfinite(c.error) || reader->job->options.solid) /* that has a mesh of its own */
         return;
     reader->job->mesh_error = c.error;
     if (c.error > c.wanted)
@@ -384,8 +384,8 @@ static void count_modes(struct deck_reader *reader)
     const struct card_option *option = card ? card_option(card, "COUNT") : NULL;
     job->measurement.numbering.stated = option != NULL;
     job->rotor.count_all = option && deck_option_word(reader, option, deck_counts) == 1;
-    reader->out_of_memory |= numbering_choose(reader->pool, job) != ROTID_OK;
-    if (!card || n->stated || !n->nsupport || reader->out_of_memory)
+    reader->pool->out_of_memory |= numbering_choose(reader->pool, job) != ROTID_OK;
+    if (!card || n->stated || !n->nsupport || reader->pool->out_of_memory)
         return;
     if (job->rotor.count_all)
         deck_note(
@@ -428,7 +428,7 @@ void deck_read_cards(struct deck_reader *reader)
      * axis (2); *SET may change lengths before anything lies at a position; layers (3), what is attached, sensors (4), modes (5),
      * values at sensors (6), causes (7); last what is searched, held out, set. An error leaves the card and goes on with the next
      * one. */
-    for (int phase = 0; phase <= LAST_PHASE && !reader->out_of_memory; phase++) {
+    for (int phase = 0; phase <= LAST_PHASE && !reader->pool->out_of_memory; phase++) {
         if (phase == 3) {
             deck_set_lengths(reader);
             reader->length = rotor_length(&job->rotor);
@@ -438,17 +438,15 @@ void deck_read_cards(struct deck_reader *reader)
             deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
             return; /* every position would be outside */
         }
-        if (phase == LAST_PHASE) {
+        if (phase == LAST_PHASE)
             job->measurement.holdout = POOL_ARRAY(reader->pool, int, job->measurement.nmode);
-            reader->out_of_memory |= !job->measurement.holdout;
-        }
-        for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++) {
+        for (int c = 0; c < reader->text.ncard && !reader->pool->out_of_memory; c++) {
             const struct deck_card *kind = deck_card_find(reader->text.card[c].name);
             if (kind && kind->phase == phase)
                 deck_read_card(reader, &reader->text.card[c], kind);
         }
     }
-    if (reader->out_of_memory)
+    if (reader->pool->out_of_memory)
         return;
     /* 2. What only all cards together can tell. */
     check_materials(reader);
@@ -461,15 +459,15 @@ void deck_read_cards(struct deck_reader *reader)
     tie_moduli(reader);
     deck_complete_noise(reader);
     deck_apply_corrections(reader);
-    if (reader->messages->errors || reader->out_of_memory)
+    if (reader->messages->errors || reader->pool->out_of_memory)
         return;
     /* 4. How it is fitted, on which mesh; is the rotor one that can be computed? */
     choose_functional(reader);
     check_masters(reader);
     choose_mesh(reader);
-    if (!reader->out_of_memory)
+    if (!reader->pool->out_of_memory)
         check_model(reader);
-    if (!reader->messages->errors && !reader->out_of_memory)
+    if (!reader->messages->errors && !reader->pool->out_of_memory)
         count_modes(reader);
     check_magnitudes(reader);
     note_assumptions(reader);
@@ -522,13 +520,13 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
     /* Each state by itself, then the machine, which is made of the first one. */
-    if (!bad_tables && !reader.out_of_memory) {
+    if (!bad_tables && !pool->out_of_memory) {
         deck_split_running(&reader, &nread);
         deck_read_all_states(&reader, nread, states);
     }
-    if (!messages->errors && !reader.out_of_memory && states->nstate)
+    if (!messages->errors && !pool->out_of_memory && states->nstate)
         deck_read_machine(&reader, states);
-    if (reader.out_of_memory || messages->out_of_memory || !job.deck)
+    if (pool->out_of_memory || messages->pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     if (messages->errors)
         return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;

@@ -211,16 +211,12 @@ struct deck_reader {
     struct place margin_place; /* of *OPERATION */
     struct machine *machine;   /* that they make */
     unsigned warned;           /* kinds of numbers that a warning was given for */
-    int out_of_memory;
 };
 
 /* Returns 1, as what it is the error of does. */
 int deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* pool_add; without memory the reader has out_of_memory. */
-int deck_add(struct deck_reader *reader, void **list, int *count, size_t size, const void *item);
-#define DECK_ADD(reader, list, count, item) deck_add((reader), (void **)&(list), &(count), sizeof *(list), 1 ? (item) : (list))
 void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place);
 
 enum range { ANY, NOT_NEGATIVE, POSITIVE };

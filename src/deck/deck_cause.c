@@ -67,10 +67,8 @@ static int read_between(struct cause_card *c, const struct card_option *option)
     if (comma && !option->overridden)
         second.column += (int)(comma - option->value) + 1;
     char *first = comma ? pool_format(c->reader->pool, "%.*s", (int)(comma - option->value), option->value) : NULL;
-    if (comma && !first) {
-        c->reader->out_of_memory = 1;
+    if (comma && !first)
         return 1;
-    }
     const char *behind = comma ? comma + 1 + strspn(comma + 1, " \t") : item ? item->name : NULL;
     if (!behind)
         return deck_error(c->reader, place, "BETWEEN=%s names one group, expected %s", option->value,
@@ -384,9 +382,7 @@ static void note_if_idle(struct cause_card *c)
 {
     const struct rotor *rotor = &c->reader->job->rotor;
     int *identified = POOL_ARRAY(c->reader->pool, int, rotor->ngroup); /* none: what is identified does not matter here */
-    if (!identified)
-        c->reader->out_of_memory = 1;
-    else if (c->kind->applies && !c->kind->applies(rotor, c->effect.target, identified))
+    if (identified && c->kind->applies && !c->kind->applies(rotor, c->effect.target, identified))
         deck_note(c->reader, c->card->place, "cause %s of TYPE=%s changes nothing here", c->name, c->kind->id);
 }
 
@@ -403,12 +399,12 @@ static void read_physical(struct cause_card *c)
     if (read_values(c, effect_parameters(&c->effect), c->kind->effect->parameter, c->effect.value, given))
         return;
     if (!c->suspect) {
-        (void)DECK_ADD(c->reader, job->rotor.effect, job->rotor.neffect, &c->effect);
+        (void)POOL_ADD(c->reader->pool, job->rotor.effect, job->rotor.neffect, &c->effect);
         return;
     }
     struct suspect suspect = {.effect = c->effect};
     memcpy(suspect.fixed, given, sizeof given);
-    (void)DECK_ADD(c->reader, job->unknowns.suspect, job->unknowns.nsuspect, &suspect);
+    (void)POOL_ADD(c->reader->pool, job->unknowns.suspect, job->unknowns.nsuspect, &suspect);
 }
 
 /* A fault of the measurement chain: applied when everything has been read. */
@@ -439,7 +435,7 @@ static void read_correction(struct cause_card *c)
         return;
     }
     deck_add_place(c->reader, CORRECTION_PLACES, c->card->place);
-    (void)DECK_ADD(c->reader, job->measurement.correction, job->measurement.ncorrection, &c->correction);
+    (void)POOL_ADD(c->reader->pool, job->measurement.correction, job->measurement.ncorrection, &c->correction);
 }
 
 void deck_causes_of_solid(struct deck_reader *reader)
@@ -478,10 +474,8 @@ void deck_cause(struct deck_reader *reader, const struct card *card)
 static void follow_sensors(struct deck_reader *reader, const struct job_raw *raw)
 {
     struct place *place = POOL_ARRAY(reader->pool, struct place, raw->nsensor);
-    if (!place) {
-        reader->out_of_memory = 1;
+    if (!place)
         return;
-    }
     for (int s = 0; s < raw->nsensor; s++)
         place[sensor_find(reader->job, raw->sensor[s].id)] = reader->place[SENSOR_PLACES][s];
     reader->place[SENSOR_PLACES] = place;
@@ -500,10 +494,8 @@ void deck_apply_corrections(struct deck_reader *reader)
     struct job *job = reader->job;
     if (!job->measurement.ncorrection)
         return;
-    if (corrections_keep_raw(reader->pool, job)) {
-        reader->out_of_memory = 1;
+    if (corrections_keep_raw(reader->pool, job))
         return;
-    }
     for (int i = 0; i < job->measurement.ncorrection; i++) {
         const struct correction *correction = &job->measurement.correction[i];
         int shape = correction->block && same_text(correction->block, "SHAPE");
@@ -517,7 +509,7 @@ void deck_apply_corrections(struct deck_reader *reader)
         }
         int status = correction_apply(reader->pool, job, correction);
         if (status == ROTID_ERROR_MEMORY)
-            reader->out_of_memory = 1;
+            reader->pool->out_of_memory = 1;
         else if (status && !correction->nsensor)
             deck_error(reader, reader->place[CORRECTION_PLACES][i],
                        "%s puts sensors beyond the rotor, expected a shift and a scale that leave all of them on it",
@@ -537,7 +529,6 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
     const struct job *job = reader->job;
     const char *dot = strrchr(parameter, '.');
     char *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - parameter), parameter) : NULL;
-    reader->out_of_memory |= dot && !name;
     for (int i = 0; i < job->unknowns.nsuspect && name; i++)
         if (same_text(job->unknowns.suspect[i].effect.name, name))
             return deck_error(reader, place, "%s is of a suspect, expected a *CAUSE that is part of the model, without SUSPECT",

@@ -42,16 +42,9 @@ void deck_note(struct deck_reader *reader, struct place place, const char *forma
     va_end(values);
 }
 
-int deck_add(struct deck_reader *reader, void **list, int *count, size_t size, const void *item)
-{
-    int failed = pool_add(reader->pool, list, count, size, item);
-    reader->out_of_memory |= failed;
-    return failed;
-}
-
 void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place)
 {
-    (void)DECK_ADD(reader, reader->place[which], reader->nplace[which], &place);
+    (void)POOL_ADD(reader->pool, reader->place[which], reader->nplace[which], &place);
 }
 
 static const char *range_text(enum range range)
@@ -255,10 +248,8 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
-    int errors = reader->messages->errors;
     const char *path = deck_text_path(reader->pool, &reader->text, card, option, reader->messages);
-    reader->out_of_memory |= path ? deck_text_add_file(reader->pool, &reader->text, path) : reader->messages->errors == errors;
-    return path;
+    return path && !deck_text_add_file(reader->pool, &reader->text, path) ? path : NULL;
 }
 
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
@@ -446,10 +437,8 @@ static void read_list(struct deck_reader *reader, const struct card *card, const
 {
     char *owner = kind->states == CARD_OF_MACHINE ? (char *)reader->machine : (char *)&reader->job->rotor,
          *item = pool_get(reader->pool, 2, kind->size), *of_card = item + kind->size;
-    if (!item) {
-        reader->out_of_memory = 1;
+    if (!item)
         return;
-    }
     int bad = deck_read_options(reader, card, kind->row, of_card),
         most = kind->single || card_option(card, "NAME") ? 1 : DECK_MOST_LINES;
     for (int i = 0, lines = deck_lines(reader, card, 1, most, kind->lines); i < lines; i++) {
@@ -459,7 +448,7 @@ static void read_list(struct deck_reader *reader, const struct card *card, const
             continue;
         if (kind->places)
             deck_add_place(reader, kind->places, card->place);
-        (void)deck_add(reader, (void **)(owner + kind->list), (int *)(owner + kind->count), kind->size, item);
+        (void)pool_add(reader->pool, (void **)(owner + kind->list), (int *)(owner + kind->count), kind->size, item);
     }
 }
 

@@ -51,7 +51,6 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
     if (!count)
         return parameter_find(rotor, next, parameter, unit);
     also = POOL_ARRAY(reader->pool, int, count);
-    reader->out_of_memory |= !also;
     for (int i = 0; next && also; i++) {
         struct parameter one;
         next = parameter_next_name(next, name);
@@ -93,7 +92,6 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         rotid_parameter bounds = {.name = line->field[0].text};
         int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
         const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
-        reader->out_of_memory |= !known;
         int bearing = found == 1 && deck_is_of_bearing(reader, bounds.name);
         if (bearing)
             deck_error(reader, line->field[0].place,
@@ -146,8 +144,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
                     deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
             }
         int last = job->unknowns.nparameter;
-        if (DECK_ADD(reader, job->unknowns.parameter, last, &parameter) ||
-            DECK_ADD(reader, job->unknowns.bounds, job->unknowns.nparameter, &bounds))
+        if (POOL_ADD(reader->pool, job->unknowns.parameter, last, &parameter) ||
+            POOL_ADD(reader->pool, job->unknowns.bounds, job->unknowns.nparameter, &bounds))
             return;
         reader->ncommon_unknown += common;
     }
@@ -213,9 +211,7 @@ const char *deck_whole_state(struct deck_reader *reader, const char **rest)
     *rest = begin + length + (begin[length] == ',');
     while (length && begin[length - 1] == ' ')
         length--;
-    char *name = pool_format(reader->pool, "%.*s", (int)length, begin);
-    reader->out_of_memory |= !name;
-    return name;
+    return pool_format(reader->pool, "%.*s", (int)length, begin);
 }
 
 void deck_choose_modes(struct deck_reader *reader, const struct card *card)
@@ -223,10 +219,8 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
     struct job *job = reader->job;
     const struct card_option *modes = card_option(card, "MODES"), *holdout = card_option(card, "HOLDOUT");
     int *fitted = POOL_ARRAY(reader->pool, int, job->measurement.nmode), left = 0;
-    if (!fitted) {
-        reader->out_of_memory = 1;
+    if (!fitted)
         return;
-    }
     const char *rest = holdout ? holdout->value : "", *state;
     int bad = modes && mark_modes(reader, modes, fitted);
     (void)deck_whole_runup(&rest);
@@ -286,7 +280,6 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
     }
     if (*path != '/' && getcwd(folder, sizeof folder))
         path = pool_format(reader->pool, "%s/%s", folder, path);
-    reader->out_of_memory |= !path;
     return path;
 }
 
@@ -341,7 +334,7 @@ static void read_pairs(struct deck_reader *reader, const struct card *card)
                                  f ? pair.reference : pair.response);
         if (bad)
             continue;
-        (void)DECK_ADD(reader, frf->pair, frf->npair, &pair);
+        (void)POOL_ADD(reader->pool, frf->pair, frf->npair, &pair);
     }
 }
 

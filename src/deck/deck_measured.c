@@ -27,8 +27,7 @@ static int read_reference(struct deck_reader *reader, const struct data_line *li
     rotid_reference *reference = &job->reference[job->nreference];
     reference->quantity = pool_format(reader->pool, "%.*s", (int)(end - begin), begin);
     reference->values = POOL_ARRAY(reader->pool, double, line->count);
-    reader->out_of_memory |= !reference->quantity || !reference->values;
-    if (reader->out_of_memory)
+    if (reader->pool->out_of_memory)
         return 1;
     for (int i = 0; i < line->count; i++) {
         const char *text = i ? line->field[i].text : equals + 1;
@@ -50,8 +49,7 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
     struct job *job = reader->job;
     job->heading = POOL_ARRAY(reader->pool, const char *, card->nline);
     job->reference = POOL_ARRAY(reader->pool, rotid_reference, card->nline);
-    reader->out_of_memory |= !job->heading || !job->reference;
-    for (int i = 0; i < card->nline && !reader->out_of_memory; i++)
+    for (int i = 0; i < card->nline && !reader->pool->out_of_memory; i++)
         if (!read_reference(reader, &card->line[i]))
             job->heading[job->nheading++] = card->line[i].text;
 }
@@ -81,7 +79,7 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
                 deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor.id);
         int at = rotor->nsensor; /* kept by increasing position */
         deck_add_place(reader, SENSOR_PLACES, line->place);
-        if (reader->out_of_memory || DECK_ADD(reader, rotor->sensor, rotor->nsensor, &sensor))
+        if (reader->pool->out_of_memory || POOL_ADD(reader->pool, rotor->sensor, rotor->nsensor, &sensor))
             return;
         struct place *place = reader->place[SENSOR_PLACES];
         for (; at > 0 && rotor->sensor[at - 1].position > sensor.position; at--) {
@@ -106,11 +104,8 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
     job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
     job->measurement.damping = POOL_ARRAY(reader->pool, double, card->nline);
     job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
-    if (!job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
-        !job->measurement.frequency_std) {
-        reader->out_of_memory = 1;
+    if (reader->pool->out_of_memory)
         return;
-    }
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         int number = 0;
@@ -163,7 +158,6 @@ struct at_sensors {
 static double *deck_new_values(struct deck_reader *reader, size_t count)
 {
     double *value = POOL_ARRAY(reader->pool, double, count);
-    reader->out_of_memory |= !value;
     for (size_t i = 0; i < count && value; i++)
         value[i] = NAN;
     return value;
@@ -183,9 +177,8 @@ static int deck_new_points(struct deck_reader *reader)
     double *hz = deck_new_values(reader, components(reader->job));
     m->point_frequency_std = deck_new_values(reader, components(reader->job));
     reader->mean_kept = POOL_ARRAY(reader->pool, int, m->nmode);
-    reader->out_of_memory |= !reader->mean_kept;
-    m->point_frequency_hz = reader->out_of_memory ? NULL : hz;
-    return reader->out_of_memory;
+    m->point_frequency_hz = reader->pool->out_of_memory ? NULL : hz;
+    return reader->pool->out_of_memory;
 }
 
 /* Whether hz cannot be a reading of measured mode `mode`. */
@@ -326,8 +319,6 @@ static void average_readings(struct deck_reader *reader, int k)
             std[s] = reader->noise_frequency * hz[s];
     int status = point_mean(reader->pool, nsensor, hz, std,
                             job->measurement.shape ? job->measurement.shape + (ptrdiff_t)k * nsensor : NULL, &mean);
-    if (status == ROTID_ERROR_MEMORY)
-        reader->out_of_memory = 1;
     if (status)
         return; /* no reading: the mode keeps its frequency */
     for (int s = 0; s < nsensor; s++)
@@ -402,7 +393,7 @@ void deck_complete_noise(struct deck_reader *reader)
     job->measurement.has_noise_floor = reader->floor_shape > 0;
     job->measurement.stated_frequency_noise = reader->noise_frequency > 0 ? reader->noise_frequency : 0;
     job->measurement.stated_shape_noise = reader->noise_shape > 0 ? reader->noise_shape : 0;
-    for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz && !reader->out_of_memory; k++)
+    for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz && !reader->pool->out_of_memory; k++)
         average_readings(reader, k);
     for (int k = 0; k < job->measurement.nmode; k++)
         if (isfinite(job->measurement.frequency_std[k]))
@@ -542,8 +533,7 @@ void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff
                   const struct uff_shape *const *chosen, int component)
 {
     struct extra extra = {.reader = reader, .path = path, .seen = POOL_ARRAY(reader->pool, int, UFF_EXTRAS *(size_t)count)};
-    reader->out_of_memory |= !extra.seen;
-    for (int i = 0; i < file->extra_count && !reader->out_of_memory; i++) {
+    for (int i = 0; i < file->extra_count && !reader->pool->out_of_memory; i++) {
         extra.set = &file->extra[i];
         extra.component = extra.set->component_count == 1 ? 0 : component;
         if (identify(&extra, count, chosen) || check_form(&extra))
@@ -637,12 +627,10 @@ static int import_sensors(struct import *import)
         return deck_error(reader, import->card->place,
                           "sensors are given by *SENSORS and by the nodes of %s, expected one of them", import->path);
     rotor->sensor = POOL_ARRAY(reader->pool, struct sensor, file->node_count);
-    if (!rotor->sensor)
-        return reader->out_of_memory = 1;
     size_t carried;
     const int *carrying = shape_nodes(reader->pool, file, &carried);
-    if (!carrying)
-        return reader->out_of_memory = 1;
+    if (!rotor->sensor || !carrying)
+        return 1;
     int outside = 0, first = 0;
     double at = 0;
     for (int i = 0; i < file->node_count; i++) {
@@ -710,7 +698,7 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
                           "the shape has %d values a node, expected DIRECTION to be one of them", shape->component_count);
     double *value = POOL_ARRAY(reader->pool, double, shape->node_count);
     if (!value)
-        return reader->out_of_memory = 1;
+        return 1;
     double largest = 0;
     for (int i = 0; i < shape->node_count; i++) {
         int at = i * shape->component_count + component;
@@ -768,9 +756,8 @@ static int import_modes(struct import *import)
     job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, count);
     job->measurement.shape = deck_new_values(reader, components);
     job->measurement.shape_std = deck_new_values(reader, components);
-    if (!chosen || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
-        !job->measurement.frequency_std || !job->measurement.shape || !job->measurement.shape_std)
-        return reader->out_of_memory = 1;
+    if (reader->pool->out_of_memory)
+        return 1;
     int bad = 0;
     uff_mode_numbers(&import->file, count, chosen, job->measurement.number);
     for (int k = 0; k < count; k++) {
@@ -806,8 +793,7 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     struct message_list found;
     message_open(&found, reader->pool);
     int status = uff_read(reader->pool, import.path, &found, &import.file);
-    if (status == ROTID_ERROR_MEMORY)
-        reader->out_of_memory = 1;
+    reader->pool->out_of_memory |= status == ROTID_ERROR_MEMORY;
     for (size_t i = 0; i < found.count; i++) {
         const rotid_message *m = &found.item[i];
         if (status == ROTID_ERROR_IO && m->severity == SEVERITY_ERROR)

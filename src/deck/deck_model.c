@@ -19,8 +19,8 @@ void deck_material(struct deck_reader *reader, const struct card *card)
         deck_error(reader, card_option(card, "NAME")->value_place, "material %s is defined twice, expected a new name", name);
     int count = reader->nmaterial, incomplete = 0;
     deck_add_place(reader, MATERIAL_PLACES, card->place);
-    (void)DECK_ADD(reader, reader->material_complete, count, &incomplete);
-    (void)DECK_ADD(reader, reader->material, reader->nmaterial, &(struct material){.name = name ? name : ""});
+    (void)POOL_ADD(reader->pool, reader->material_complete, count, &incomplete);
+    (void)POOL_ADD(reader->pool, reader->material, reader->nmaterial, &(struct material){.name = name ? name : ""});
 }
 
 static struct material *current_material(struct deck_reader *reader, const struct card *card, int bit)
@@ -114,7 +114,7 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     if (material >= 0)
         group.material = reader->material[material];
     deck_add_place(reader, GROUP_PLACES, card->place);
-    return DECK_ADD(reader, rotor->group, rotor->ngroup, &group) ? -1 : rotor->ngroup - 1;
+    return POOL_ADD(reader->pool, rotor->group, rotor->ngroup, &group) ? -1 : rotor->ngroup - 1;
 }
 
 /* A section of each data line. One that states no elements has some until those of all are chosen. */
@@ -130,9 +130,9 @@ static void add_sections(struct deck_reader *reader, const struct card *card, in
         if (!bad && check)
             check(reader, &card->line[i], &s);
         if (!s.elements)
-            (void)DECK_ADD(reader, reader->open_section, reader->nopen, &rotor->nsegment);
+            (void)POOL_ADD(reader->pool, reader->open_section, reader->nopen, &rotor->nsegment);
         s.elements = s.elements ? s.elements : 1;
-        if (DECK_ADD(reader, rotor->segment, rotor->nsegment, &s))
+        if (POOL_ADD(reader->pool, rotor->segment, rotor->nsegment, &s))
             return;
     }
 }
@@ -215,7 +215,7 @@ static void add_ring(struct deck_reader *reader, const struct ring *ring)
 {
     struct rotor *rotor = &reader->job->rotor;
     int at = rotor->nring;
-    if (DECK_ADD(reader, rotor->ring, rotor->nring, ring))
+    if (POOL_ADD(reader->pool, rotor->ring, rotor->nring, ring))
         return;
     for (; at > 0 && (rotor->ring[at - 1].segment > ring->segment ||
                       (rotor->ring[at - 1].segment == ring->segment && rotor->ring[at - 1].inner > ring->inner));
@@ -425,7 +425,7 @@ void deck_clamp(struct deck_reader *reader, const struct card *card)
     }
     spring.rotational = spring.torsional = CLAMP_STIFFNESS * ei / length;
     spring.lateral = spring.axial = spring.rotational / (length * length);
-    (void)DECK_ADD(reader, rotor->spring, rotor->nspring, &spring);
+    (void)POOL_ADD(reader->pool, rotor->spring, rotor->nspring, &spring);
 }
 
 void deck_sling(struct deck_reader *reader, const struct card *card)

@@ -49,10 +49,8 @@ void deck_split_running(struct deck_reader *reader, int *nread)
         return;
     reader->nrunning = end - begin;
     reader->running = POOL_COPY(reader->pool, text->card + begin, reader->nrunning, 0);
-    if (!reader->running) {
-        reader->out_of_memory = 1;
+    if (!reader->running)
         return;
-    }
     for (int c = 0; c < text->ncard; c++)
         if (c < begin || c >= end)
             text->card[kept++] = text->card[c];
@@ -119,10 +117,8 @@ void deck_running(struct deck_reader *reader, const struct card *card)
     machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
     machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
     machine->without_effect = POOL_ARRAY(reader->pool, int, rotor->neffect);
-    if (!machine->without_spring || !machine->without_disk || !machine->without_effect) {
-        reader->out_of_memory = 1;
+    if (reader->pool->out_of_memory)
         return;
-    }
     if (without)
         leave_at_test(reader, without->value_place, without->value);
     for (int i = 0; i < card->nline; i++)
@@ -189,10 +185,9 @@ static int room_of_table(struct deck_reader *reader, struct coefficients *b, int
 {
     b->count = count;
     b->speed = POOL_ARRAY(reader->pool, double, 9 * (size_t)count);
-    reader->out_of_memory |= !b->speed;
     b->k = b->speed + count;
     b->c = b->k + 4 * (ptrdiff_t)count;
-    return reader->out_of_memory;
+    return !b->speed;
 }
 
 /* A column of the table by its name, -1 where there is none. */
@@ -323,7 +318,7 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         turn_to_load(b.film.k + 4 * (ptrdiff_t)i);
         turn_to_load(b.film.c + 4 * (ptrdiff_t)i);
     }
-    if (!bad && !DECK_ADD(reader, machine->bearing, machine->nbearing, &b))
+    if (!bad && !POOL_ADD(reader->pool, machine->bearing, machine->nbearing, &b))
         check_bearing(reader, card->place, &b);
 }
 
@@ -378,7 +373,7 @@ static int loss_from_test(struct deck_reader *reader, struct place place, struct
     struct loss_of_test found;
     const char *name = reader->job->rotor.group[loss->group].name;
     int status = reader->job->measurement.nmode ? loss_of_test(reader->pool, reader->job, loss->group, &found) : ROTID_OK;
-    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    reader->pool->out_of_memory |= status == ROTID_ERROR_MEMORY;
     if (status || !reader->job->measurement.nmode || !found.count)
         return deck_error(
             reader, place,
@@ -546,7 +541,7 @@ static void scale_unbalances(struct deck_reader *reader, const struct place runn
         status = machine_rotor(reader->pool, machine, &job, &values, &rotor);
     if (!status)
         status = model_weigh(reader->pool, NULL, &rotor, 0, NULL, NULL, &mass);
-    reader->out_of_memory |= status != ROTID_OK;
+    reader->pool->out_of_memory |= status != ROTID_OK;
     if (status)
         return;
     for (int i = 0; i < machine->nunbalance; i++)
@@ -619,25 +614,22 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
         if (is(&reader->text.card[c], "UNITS"))
             deck_units(&own, &reader->text.card[c]);
     own.machine = POOL_NEW(reader->pool, struct machine);
-    if (!own.machine) {
-        reader->out_of_memory = 1;
+    if (!own.machine)
         return;
-    }
     for (int c = 0; c < reader->nrunning; c++)
         deck_check_names(reader, &reader->running[c]);
     for (int phase = 9; phase <= 10; phase++)
-        for (int c = 0; c < reader->nrunning && !own.out_of_memory; c++) {
+        for (int c = 0; c < reader->nrunning && !reader->pool->out_of_memory; c++) {
             const struct deck_card *kind = deck_card_of_machine(reader->running[c].name);
             if (kind && kind->phase == phase)
                 deck_read_card(&own, &reader->running[c], kind);
         }
     deck_check_unique(reader, reader->nrunning, reader->running, 1);
-    reader->out_of_memory |= own.out_of_memory;
     reader->text.nfile = own.text.nfile;
     reader->text.file = own.text.file;
     reader->text.ntable = own.text.ntable;
     reader->text.table = own.text.table;
-    if (reader->out_of_memory)
+    if (reader->pool->out_of_memory)
         return;
     if (!own.machine->nbearing && !reader->messages->errors)
         deck_error(reader, reader->running[0].place,
@@ -645,7 +637,6 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                    "least one");
     if (!reader->messages->errors)
         scale_unbalances(&own, reader->running[0].place);
-    reader->out_of_memory |= own.out_of_memory;
     if (own.machine->api617 && (!own.machine->nunbalance || !own.machine->nprobe))
         deck_error(reader, own.margin_place,
                    "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");

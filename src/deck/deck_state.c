@@ -46,7 +46,6 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
 {
     const struct deck_text *text = &reader->text;
     *d = (struct division){.nread = nread, .first = nread, .state = POOL_ARRAY(reader->pool, const struct card *, text->ncard)};
-    reader->out_of_memory |= !d->state;
     for (int c = 0; c < nread && d->state; c++) {
         const struct card *card = &text->card[c];
         if (!is_state(card))
@@ -126,10 +125,8 @@ static void text_of_state(struct deck_reader *reader, const struct division *d, 
     const struct card *begin = d->state[s], *end = s + 1 < d->nstate ? d->state[s + 1] : text->card + d->nread;
     own->text.card = POOL_ARRAY(reader->pool, struct card, text->ncard);
     own->text.ncard = 0;
-    if (!own->text.card) {
-        reader->out_of_memory = 1;
+    if (!own->text.card)
         return;
-    }
     for (int c = 0; c < text->ncard; c++) {
         const struct card *card = &text->card[c];
         const struct deck_card *kind = deck_card_find(card->name);
@@ -161,21 +158,18 @@ static void read_one(struct deck_reader *reader, const struct division *d, int s
     own.ncommon = own.text.ncard;
     if (d->nstate)
         text_of_state(reader, d, s, &own);
-    if (!reader->out_of_memory)
+    if (!reader->pool->out_of_memory)
         deck_read_cards(&own);
     deck_keep_units(&own);
     reader->no_section |= own.no_section;
-    reader->out_of_memory |= own.out_of_memory || messages->out_of_memory;
     reader->text.nfile = own.text.nfile; /* they go on where this one ends */
     reader->text.file = own.text.file;
     to->job.nfile = own.text.nfile;
     to->job.file = own.text.file;
     to->unknown = POOL_ARRAY(reader->pool, int, to->job.unknowns.nparameter);
-    reader->out_of_memory |= !to->unknown;
     for (int p = own.ncommon_unknown; p < to->job.unknowns.nparameter && !own.alone; p++) {
         rotid_parameter *bounds = &to->job.unknowns.bounds[p];
         bounds->name = pool_format(reader->pool, "%s:%s", to->name, bounds->name);
-        reader->out_of_memory |= !bounds->name;
     }
     to->ncommon = own.ncommon_unknown;
 }
@@ -224,8 +218,7 @@ static void number_unknowns(struct deck_reader *reader, struct states *states)
     for (int s = 0; s < states->nstate; s++)
         most += states->state[s].job.unknowns.nparameter;
     states->bounds = POOL_ARRAY(reader->pool, rotid_parameter, most);
-    reader->out_of_memory |= !states->bounds;
-    for (int own = 0; own < 2 && !reader->out_of_memory; own++)
+    for (int own = 0; own < 2 && !reader->pool->out_of_memory; own++)
         for (int s = 0; s < states->nstate; s++) {
             struct state *state = &states->state[s];
             int first = own ? state->ncommon : 0, end = own ? state->job.unknowns.nparameter : state->ncommon;
@@ -276,7 +269,7 @@ void deck_read_all_states(struct deck_reader *reader, int nread, struct states *
     find_states(reader, nread, &d);
     check_places(reader, &d);
     *states = (struct states){0};
-    if (d.nstate && (reader->messages->errors || reader->out_of_memory))
+    if (d.nstate && (reader->messages->errors || reader->pool->out_of_memory))
         return;
     int several = d.nstate > 1 && !d.chosen, count = several ? d.nstate : 1, s = 0;
     if (several)
@@ -285,18 +278,17 @@ void deck_read_all_states(struct deck_reader *reader, int nread, struct states *
         s++;
     struct message_list *of = POOL_ARRAY(reader->pool, struct message_list, count);
     states->state = POOL_ARRAY(reader->pool, struct state, count);
-    reader->out_of_memory |= !of || !states->state;
-    for (int i = 0; i < count && !reader->out_of_memory; i++) {
+    for (int i = 0; i < count && !reader->pool->out_of_memory; i++) {
         message_open(&of[i], reader->pool);
         states->nstate = i + 1;
         read_one(reader, &d, several ? i : s, several ? &of[i] : reader->messages, &states->state[i]);
     }
-    if (reader->out_of_memory)
+    if (reader->pool->out_of_memory)
         return;
     if (several)
         merge_messages(reader, states, of);
     number_unknowns(reader, states);
-    if (several && !reader->messages->errors && !reader->out_of_memory) {
+    if (several && !reader->messages->errors && !reader->pool->out_of_memory) {
         agree_on_functional(states);
         check_use(reader, &d, states);
     }

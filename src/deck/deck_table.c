@@ -285,7 +285,6 @@ struct table_text *deck_open_table(struct deck_reader *reader, const struct card
 {
     struct deck_text *text = &reader->text;
     const struct card_option *file = card_option(card, "FILE");
-    int errors = reader->messages->errors;
     if (!deck_option(reader, card, "FILE", "path of a table"))
         return NULL;
     const char *path = deck_text_path(reader->pool, text, card, file, reader->messages);
@@ -297,14 +296,12 @@ struct table_text *deck_open_table(struct deck_reader *reader, const struct card
         return NULL;
     }
     struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL;
-    if (!table || deck_text_add_file(reader->pool, text, path)) {
-        reader->out_of_memory |= path != NULL || reader->messages->errors == errors;
+    if (!table || deck_text_add_file(reader->pool, text, path))
         return NULL;
-    }
     int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
-    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    reader->pool->out_of_memory |= status == ROTID_ERROR_MEMORY;
     table->bad = status != ROTID_OK || has_nameless_number(reader, table);
-    return DECK_ADD(reader, text->table, text->ntable, &table) ? NULL : table;
+    return POOL_ADD(reader->pool, text->table, text->ntable, &table) ? NULL : table;
 }
 
 static struct card *new_card(struct taking *t, struct place place)
@@ -313,27 +310,26 @@ static struct card *new_card(struct taking *t, struct place place)
     t->table->bad |= t->to->ncard >= DECK_MOST_CARDS; /* said once a table */
     if (t->to->ncard >= DECK_MOST_CARDS)
         deck_error(t->reader, place, "the deck has more than %d cards with those of the table, expected fewer", DECK_MOST_CARDS);
-    else if (!(card = deck_text_add_card(t->reader->pool, t->to, t->card->name, place)))
-        t->reader->out_of_memory = 1;
+    else
+        card = deck_text_add_card(t->reader->pool, t->to, t->card->name, place);
     return card;
 }
 
 static void add_option(struct taking *t, struct card *card, const char *name, const struct field *value)
 {
     struct card_option option = {name, value->text, value->place, value->place, 0};
-    t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, option);
+    (void)deck_text_add_option(t->reader->pool, card, option);
 }
 
 /* 0, or 1 where memory is out. */
 static int add_line(struct taking *t, struct card *card, struct place row, int count, const struct field *field)
 {
     struct field *copy = POOL_COPY(t->reader->pool, field, count, 0);
-    t->reader->out_of_memory |= !copy;
     if (!copy)
         return 1;
     const struct data_line line = {
         .place = row, .end = {row.file, row.line, field[count - 1].place.column + 1}, .text = "", .count = count, .field = copy};
-    return DECK_ADD(t->reader, card->line, card->nline, &line);
+    return POOL_ADD(t->reader->pool, card->line, card->nline, &line);
 }
 
 /* The cell of a column, -1: none, in a row, blank where there is none. */
@@ -404,7 +400,7 @@ static void take_group(struct taking *t, const struct field *name, const struct 
     if (*material->text)
         add_option(t, card, "MATERIAL", material);
     else if (given)
-        t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, *given);
+        (void)deck_text_add_option(t->reader->pool, card, *given);
 }
 
 static void take_sections(struct taking *t)
@@ -420,7 +416,7 @@ static void take_sections(struct taking *t)
         deck_error(reader, named->place, "*%s has a NAME and its table a column of groups, expected one of them", t->card->name);
         return;
     }
-    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && may_take(t); r++) {
+    for (int r = 1; r < t->table->nrow && !reader->pool->out_of_memory && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
         struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]),
                      field[TABLE_MOST_VALUES] = {{.text = ""}};
@@ -471,7 +467,7 @@ static struct card *card_of_mode(struct taking *t, const struct field *mode)
     t->mode[count] = number;
     for (int o = 0; o < t->card->noption; o++)
         if (!same_text(t->card->option[o].name, "MODE"))
-            t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, t->card->option[o]);
+            (void)deck_text_add_option(t->reader->pool, card, t->card->option[o]);
     add_option(t, card, "MODE", mode);
     return card;
 }
@@ -498,7 +494,6 @@ static const double *modes_of_rows(struct taking *t)
     if (table->number)
         return table->number;
     table->number = POOL_ARRAY(t->reader->pool, double, table->nrow);
-    t->reader->out_of_memory |= !table->number;
     for (int r = 1; r < table->nrow && table->number; r++) {
         const char *text = cell_of(&table->row[r], t->columns.key[0]).text;
         table->number[r] = table_is_number(text) ? strtod(text, NULL) : (double)NAN;
@@ -512,7 +507,7 @@ static void take_triples(struct taking *t)
     const struct card_option *asked = card_option(t->card, "MODE");
     struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
     const double *number = t->columns.key[0] >= 0 && !isnan(t->asked) ? modes_of_rows(t) : NULL;
-    for (int r = 1; r < t->table->nrow && !t->reader->out_of_memory && !t->table->bad; r++) {
+    for (int r = 1; r < t->table->nrow && !t->reader->pool->out_of_memory && !t->table->bad; r++) {
         if (number && !isnan(number[r]) && number[r] != t->asked)
             continue;
         if (!may_take(t))
@@ -540,8 +535,7 @@ static void take_column(struct taking *t, int of_rows, int of_modes, int column,
         return;
     }
     struct field numbered = {pool_format(reader->pool, "%d", number), name->place, 0};
-    reader->out_of_memory |= !numbered.text;
-    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && !t->table->bad && may_take(t); r++) {
+    for (int r = 1; r < t->table->nrow && !reader->pool->out_of_memory && !t->table->bad && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
         struct field of_row = cell_of(row, of_rows), value = cell_of(row, column), std = cell_of(row, std_column);
         value.in_si = std.in_si = in_si;
@@ -554,7 +548,6 @@ static void take_matrix(struct taking *t, int of_rows, int of_modes)
 {
     const struct data_line *header = &t->table->row[0];
     struct table_numbered *column = POOL_ARRAY(t->reader->pool, struct table_numbered, header->count);
-    t->reader->out_of_memory |= !column;
     int any_std = 0;
     for (int i = 0; i < header->count && column; i++) {
         if (!table_numbers(header->field[i].text, &column[i]) || (of_modes ? column[i].of_sensor : column[i].of_mode))
@@ -619,7 +612,7 @@ int deck_read_tables(struct deck_reader *reader, int *nread)
     int before = reader->messages->errors, none = 1, front = *nread;
     for (int c = 0; c < text->ncard; c++)
         none &= !table_kind_of(text->card[c].name) || !card_option(&text->card[c], "FILE");
-    for (int c = 0; c < text->ncard && !none && !reader->out_of_memory; c++) {
+    for (int c = 0; c < text->ncard && !none && !reader->pool->out_of_memory; c++) {
         const struct card *card = &text->card[c];
         const struct table_kind *kind = card_option(card, "FILE") ? table_kind_of(card->name) : NULL;
         struct card *same = kind ? NULL : deck_text_add_card(reader->pool, &to, card->name, card->place);
@@ -627,8 +620,6 @@ int deck_read_tables(struct deck_reader *reader, int *nread)
             take_table(reader, card, kind, &to);
         else if (same)
             *same = *card;
-        else
-            reader->out_of_memory = 1;
         if (c == front - 1)
             *nread = to.ncard;
     }

@@ -57,7 +57,6 @@ struct reader {
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
     struct place keyword; /* a keyword line that ends in a comma goes on here */
     int continues;
-    int out_of_memory;
 };
 
 /* The next byte, or DECK_SOURCE_END. */
@@ -71,7 +70,6 @@ static int deck_source_next(struct reader *reader, struct deck_source *source)
         c = (unsigned char)*source->text++;
     }
     char *grown = pool_grow(reader->pool, source->kept, source->nkept, &source->room, 1);
-    reader->out_of_memory |= !grown;
     if (!grown)
         return DECK_SOURCE_END;
     source->kept = grown;
@@ -102,8 +100,6 @@ static char *copy_span(struct reader *reader, const char *begin, const char *end
     char *copy = pool_get(reader->pool, (size_t)(end - begin) + 1, 1);
     if (copy)
         memcpy(copy, begin, (size_t)(end - begin));
-    else
-        reader->out_of_memory = 1;
     return copy;
 }
 
@@ -170,7 +166,6 @@ static void read_option(struct reader *reader, struct card *card, const char *li
         char *item = copy_span(reader, begin, end), *longer = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
         if (longer)
             list->value = longer;
-        reader->out_of_memory |= !longer;
         return;
     }
     const char *name_end = equals ? equals : end, *value = equals ? equals + 1 : end, *value_end = end;
@@ -185,7 +180,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
         return;
     if (card_option(card, option.name))
         text_error(reader, option.place, "option %s is given twice on *%s, expected once", option.name, card->name);
-    reader->out_of_memory |= deck_text_add_option(reader->pool, card, option);
+    (void)deck_text_add_option(reader->pool, card, option);
 }
 
 static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
@@ -236,12 +231,9 @@ static void include(struct reader *reader, struct card card)
     for (int i = 0; i < card.noption; i++)
         if (!same_text(card.option[i].name, "FILE"))
             text_error(reader, card.option[i].place, "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
-    int errors = reader->messages->errors;
     const char *path = deck_text_path(reader->pool, reader->text, &card, file, reader->messages);
-    if (!path) {
-        reader->out_of_memory |= reader->messages->errors == errors;
+    if (!path)
         return;
-    }
     struct stat information; /* the same file may have several paths */
     for (int i = 0; i <= reader->depth && !stat(path, &information); i++)
         if (information.st_dev == reader->open_stat[i].st_dev && information.st_ino == reader->open_stat[i].st_ino) {
@@ -268,10 +260,8 @@ static void read_keyword(struct reader *reader, const char *line_begin, const ch
     for (char *c = upper; c && *c; c++)
         *c = (char)toupper((unsigned char)*c);
     struct card *card = upper ? deck_text_add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
-    if (!card) {
-        reader->out_of_memory = 1;
+    if (!card)
         return;
-    }
     reader->continues = 0;
     if (comma)
         read_options(reader, card, line_begin, comma + 1, end, line);
@@ -297,10 +287,8 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     struct data_line data = {
         .place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
     data.field = POOL_ARRAY(reader->pool, struct field, count);
-    if (!data.field || !data.text) {
-        reader->out_of_memory = 1;
+    if (!data.field || !data.text)
         return;
-    }
     for (const char *piece = begin; data.count < count; data.count++) {
         const char *comma = memchr(piece, ',', (size_t)(end - piece)), *from = piece, *to = comma ? comma : end;
         trim(&from, &to);
@@ -311,7 +299,7 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     }
     if (data.count > 1 && !*data.field[data.count - 1].text) /* a comma at the end of the line */
         data.count--;
-    reader->out_of_memory |= POOL_ADD(reader->pool, card->line, card->nline, &data);
+    (void)POOL_ADD(reader->pool, card->line, card->nline, &data);
 }
 
 /* Overwrites the text behind the line. Returns 1 where the file is not text, which ends the reading. */
@@ -361,7 +349,7 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
         return 0;
     }
     struct deck_text *text = reader->text;
-    if (text->ncard && !reader->continues && !reader->out_of_memory && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
+    if (text->ncard && !reader->continues && !reader->pool->out_of_memory && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
         include(reader, text->card[--text->ncard]);
     return 0;
 }
@@ -393,7 +381,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
     char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
     size_t length = 0;
     int line = 1, c, stop = 0;
-    while (!stop && !reader->over && !reader->out_of_memory && (c = deck_source_next(reader, source)) != DECK_SOURCE_END) {
+    while (!stop && !reader->over && !reader->pool->out_of_memory && (c = deck_source_next(reader, source)) != DECK_SOURCE_END) {
         if (--reader->bytes_left < 0) {
             too_large(reader, path);
             break;
@@ -421,7 +409,7 @@ static int read_source(struct reader *reader, struct deck_source *source, const 
         reader->text->end = (struct place){path, line, (int)length + 1};
     int failed = deck_source_close(source);
     const struct deck_file read = {path, source->kept ? source->kept : ""};
-    reader->out_of_memory |= POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
+    (void)POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
     if (failed)
         text_error(reader, (struct place){path, line, 1}, "reading failed: %s", host_error_text(failed, why));
     reader->continues = 0;
@@ -436,10 +424,10 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     if (failed) {
         text_error(reader, (struct place){from.file ? from.file : path, from.line, from.column},
                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
-        reader->out_of_memory |= file_status(failed) == ROTID_ERROR_MEMORY;
+        reader->pool->out_of_memory |= file_status(failed) == ROTID_ERROR_MEMORY;
         return file_status(failed);
     }
-    reader->out_of_memory |= deck_text_add_file(reader->pool, reader->text, path) != ROTID_OK;
+    (void)deck_text_add_file(reader->pool, reader->text, path);
     reader->depth += from.file != NULL;
     int status = read_source(reader, &source, path);
     reader->depth -= from.file != NULL;
@@ -448,7 +436,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
 
 static int conclude(const struct reader *reader, int status)
 {
-    if (reader->out_of_memory || reader->messages->out_of_memory)
+    if (reader->pool->out_of_memory || reader->messages->pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     return status ? status : reader->messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }

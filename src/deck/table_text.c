@@ -20,7 +20,6 @@ struct splitter {
     int cells;
     struct data_line line; /* the row at hand */
     int holds;             /* it has a cell that is not blank */
-    int out_of_memory;
 };
 
 const char *table_cell_name(int row, int column, char name[TABLE_CELL_LENGTH])
@@ -178,7 +177,7 @@ static int take_cell(struct splitter *s)
         return refuse_table(s, s->row, s->column, "the row has more than %d cells, expected fewer", TABLE_MOST_COLUMNS);
     const struct field cell = {text, {s->table->path, s->row, s->column}, 0};
     if (POOL_ADD(s->pool, s->line.field, s->line.count, &cell))
-        return s->out_of_memory = 1;
+        return 1;
     s->holds |= end > text;
     s->cell_end = end;
     return 0;
@@ -200,7 +199,7 @@ static int take_row(struct splitter *s)
     s->line.end = (struct place){s->table->path, s->row, s->line.count + 1};
     if (!s->holds)
         return 0;
-    return s->out_of_memory = POOL_ADD(s->pool, s->table->row, s->table->nrow, &s->line);
+    return POOL_ADD(s->pool, s->table->row, s->table->nrow, &s->line);
 }
 
 /* 1,5 with one comma and digits around it */
@@ -261,12 +260,12 @@ static int table_text_split(struct pool *pool, const char *path, size_t length, 
     begin(&s);
     for (; s.at < s.end; s.row++)
         if (take_row(&s))
-            return s.out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_SYNTAX;
+            return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_SYNTAX;
     if (!table->nrow)
         return refuse_table(&s, 1, 1, "the table is empty, expected rows of values"), ROTID_ERROR_SYNTAX;
     if (take_decimal_commas(&s))
         return ROTID_ERROR_SYNTAX;
-    return messages->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* The whole stream, grown as it comes: a pipe does not know its length. NULL: out of memory, or longer than allowed. */

@@ -347,5 +347,5 @@ int analyser_read(struct pool *pool, const char *path, const struct measurement_
     if (!status)
         status = keep_reference(&a);
     pool_close(&scratch);
-    return messages->out_of_memory ? ROTID_ERROR_MEMORY : status;
+    return messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }

@@ -123,7 +123,6 @@ int values_are_same(const struct values *a, const struct values *b)
 struct search {
     struct pool *pool;
     struct listing *listing;
-    int out_of_memory;
 };
 
 static void add(struct search *search, const char *kind, int line, const char *format, ...) __attribute__((format(printf, 4, 5)));
@@ -144,7 +143,8 @@ static void add(struct search *search, const char *kind, int line, const char *f
     if (same == FINDINGS_OF_A_KIND)
         (void)snprintf(text, sizeof text, "... and more of that kind");
     const struct listing_finding doubt = {kind, pool_copy_text(search->pool, text), line};
-    search->out_of_memory |= !doubt.text || POOL_ADD(search->pool, listing->doubt, listing->finding_count, &doubt);
+    if (doubt.text)
+        (void)POOL_ADD(search->pool, listing->doubt, listing->finding_count, &doubt);
 }
 
 static void check_sets(struct search *search)
@@ -198,10 +198,8 @@ static void check_nodes(struct search *search)
     const struct listing *listing = search->listing;
     int count = listing->node_count;
     struct place *place = POOL_ARRAY(search->pool, struct place, count);
-    if (!place) {
-        search->out_of_memory = 1;
+    if (!place)
         return;
-    }
     for (int i = 0; i < count; ++i)
         place[i] = (struct place){listing->node[i].id, i};
     if (count)
@@ -338,7 +336,7 @@ static int listing_find_doubts(struct pool *pool, struct listing *listing)
     check_nodes(&search);
     check_functions(&search);
     check_shapes(&search);
-    return search.out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 #define PIECE 4096 /* values at a time */

@@ -787,7 +787,7 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
     }
     uff_close(l.reader);
     pool_close(&scratch);
-    if (messages->out_of_memory)
+    if (messages->pool->out_of_memory)
         status = ROTID_ERROR_MEMORY;
     return status;
 }

@@ -144,10 +144,8 @@ static void list_doubts(struct document *document, const struct ema_result *ema)
 {
     int count;
     const char **text = ema_doubts(document->pool, ema, &count);
-    if (!text) {
-        document->failed = 1;
+    if (!text)
         return;
-    }
     document_section(document, "doubts", "Doubtful modes and channels");
     document_list(document, count, text);
 }
@@ -602,12 +600,11 @@ static void compose_rotor(struct document *document)
 /* of: the deck where it is not that of the page, or NULL; drawn: the rotors are on the page already */
 static void compose_states(struct document *document, const struct result *result, const char *of, int drawn)
 {
-    for (int s = 0; s < page_state_count(result) && !document->failed; s++) {
+    for (int s = 0; s < page_state_count(result); s++) {
         const struct result own = page_result_of_state(document->pool, result, s);
         document->of = pool_format(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", page_state_name(result, s));
-        document->failed |= !document->of || document->pool->out_of_memory; /* then the state has no result */
         document->state = s;
-        if (document->failed)
+        if (document->pool->out_of_memory) /* then the state has no result */
             break;
         if (!drawn && !result->identify && !result->modes && geometry_of_result(&own))
             compose_rotor(document);
@@ -658,10 +655,8 @@ void page_compose(struct document *document, int count, const struct result *giv
         human_units_of(&result[i].head);
     }
     const struct result **by_rank = result ? sorted(document->pool, count, result) : NULL;
-    if (!by_rank) {
-        document->failed = 1;
+    if (!by_rank)
         return;
-    }
     name_page(document, count, by_rank);
     answer_all(document, count, by_rank, decks);
     int drawn = 0; /* one picture of the rotor, of each state, does: shapes in motion show it as well */

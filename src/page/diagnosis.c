@@ -380,10 +380,8 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
     struct pool *pool = document->pool;
     int count = d->verdict.kind == -1 ? 0 : d->verdict.ncauses + d->verdict.nalternative_causes, n = 0;
     const char **text = POOL_ARRAY(pool, const char *, count + 1);
-    if (!text) {
-        document->failed = 1;
+    if (!text)
         return;
-    }
     for (int i = 0; i < count; i++) {
         const rotid_cause *cause =
             i < d->verdict.ncauses ? &d->verdict.causes[i] : &d->verdict.alternative_causes[i - d->verdict.ncauses];

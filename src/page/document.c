@@ -42,7 +42,6 @@ static void element(const struct document *document, const char *name, const cha
 
 void document_tile(struct document *document, const char *name, const char *value, const char *note)
 {
-    document->failed |= !name || !value;
     if (name && value && document->now.ntiles < TILES_MOST)
         document->now.tile[document->now.ntiles++] = (struct tile){name, value, note};
 }
@@ -50,7 +49,6 @@ void document_tile(struct document *document, const char *name, const char *valu
 void document_answer(struct document *document, const char *of)
 {
     struct answer *made = POOL_NEW(document->pool, struct answer), **at = &document->answers;
-    document->failed |= !made || !document->now.text;
     if (made && document->now.text && *document->now.text) {
         *made = document->now;
         made->of = of;
@@ -77,10 +75,8 @@ void document_section(struct document *document, const char *id, const char *tex
         taken += is_like(other->id, id);
     id = taken ? pool_format(document->pool, "%s-%d", id, taken + 1) : id;
     text = document->of ? pool_format(document->pool, "%s: %s", text, document->of) : text;
-    if (!heading || !id || !text) {
-        document->failed = 1;
+    if (!heading || !id || !text)
         return;
-    }
     *heading = (struct heading){.id = id, .text = text};
     *(document->last ? &document->last->following : &document->first) = heading;
     document->last = heading;
@@ -100,10 +96,9 @@ void document_paragraph(struct document *document, const char *format, ...)
     size_t length;
     FILE *plain = open_memstream(&text, &length);
     va_list arguments;
-    if (!plain) {
-        document->failed = 1;
+    document->pool->out_of_memory |= !plain;
+    if (!plain)
         return;
-    }
     va_start(arguments, format);
     (void)vfprintf(plain, format, arguments);
     va_end(arguments);
@@ -135,17 +130,12 @@ void document_facts(struct document *document, int count, const char *const name
 
 void document_table(struct document *document, const struct table *table)
 {
-    if (!table || table->failed) {
-        document->failed = 1;
-        return;
-    }
-    if (!table_rows(table))
+    if (!table || table->pool->out_of_memory || !table_rows(table))
         return;
     struct table own = *table;
     struct table_cell *cell = POOL_ARRAY(document->pool, struct table_cell, own.ncells);
     struct table_column *column = POOL_ARRAY(document->pool, struct table_column, own.ncolumns);
     int folded = table_rows(table) > FOLDED;
-    document->failed |= (!cell && own.ncells) || (!column && own.ncolumns);
     for (int i = 0; i < own.ncells && cell; i++) {
         cell[i] = own.cell[i];
         cell[i].text = cell[i].is_number ? cell[i].text : shown(document, cell[i].text);
@@ -155,7 +145,7 @@ void document_table(struct document *document, const struct table *table)
         column[j] = own.column[j];
         column[j].name = shown(document, column[j].name);
     }
-    if (document->failed)
+    if (document->pool->out_of_memory)
         return;
     own.cell = cell;
     own.column = column;
@@ -323,7 +313,7 @@ int page_write(struct document *document, int count, const struct result *result
 {
     struct output output;
     int status;
-    if (document->failed || document->pool->out_of_memory || fflush(document->body) != 0 || ferror(document->body))
+    if (document->pool->out_of_memory || fflush(document->body) != 0 || ferror(document->body))
         return ROTID_ERROR_MEMORY;
     *file = file_of(document->pool, path, messages, &status);
     if (!*file)

@@ -66,7 +66,6 @@ struct heading {
 
 struct document {
     struct pool *pool;
-    int failed;
     const char *title, *subtitle;
     struct answer now;      /* the answer that is being made */
     struct answer *answers; /* the gravest first */

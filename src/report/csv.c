@@ -23,7 +23,7 @@ void csv_number(FILE *out, const char *before, double value)
 
 int csv_table(FILE *out, const struct table *table)
 {
-    if (!table || table->failed)
+    if (!table || table->pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     table_write_csv(out, table);
     return ROTID_OK;

@@ -294,8 +294,8 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
 
 /* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. A row is begun by
  * table_row; each call of *_column adds its next cell, and in the first row the column: every row names the same columns. Values
- * come in SI; people read them in the unit of human_unit, CSV has SI. What was added when memory was out is lost and marks the
- * table. Texts are not copied. */
+ * come in SI; people read them in the unit of human_unit, CSV has SI. What was added when memory was out is lost, as the pool
+ * says. Texts are not copied. */
 
 /* How a column is shown: a format with its digits, and bits. */
 enum {
@@ -332,7 +332,6 @@ struct table_cell {
 
 struct table {
     struct pool *pool;
-    int failed;                 /* memory was out */
     const char *caption, *note; /* note: what a reader has to know of it, under the table; NULL: nothing */
     int ncolumns, nrows, ncells;
     struct table_column *column;

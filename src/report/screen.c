@@ -36,7 +36,7 @@ void screen_say(const struct screen *to, const char *format, ...)
 
 void screen_table(const struct screen *to, const struct table *table)
 {
-    if (!table || table->failed || !table_rows(table))
+    if (!table || table->pool->out_of_memory || !table_rows(table))
         return;
     (void)fputc('\n', to->out);
     table_write_text(to->out, table, to->width);

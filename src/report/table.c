@@ -10,7 +10,7 @@ struct table *table_open(struct pool *pool, const char *caption)
 {
     struct table *table = POOL_NEW(pool, struct table);
     if (table)
-        *table = (struct table){.pool = pool, .caption = caption ? caption : "", .failed = !caption, .row_factor = 1};
+        *table = (struct table){.pool = pool, .caption = caption ? caption : "", .row_factor = 1};
     return table;
 }
 
@@ -35,29 +35,26 @@ static void take_unit(struct pool *pool, struct table_column *column, struct hum
 /* The column of the next cell: of the first row a new one. NULL where memory is out, or was. */
 static struct table_column *next_column(struct table *table, const char *name, const char *unit, unsigned show)
 {
-    if (!table || table->failed)
+    if (!table || table->pool->out_of_memory)
         return NULL;
     if (table->nrows > 1)
         return &table->column[table->ncells % table->ncolumns];
     struct table_column column = {name, unit, unit, show, 1};
     if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))
         take_unit(table->pool, &column, human_unit(1, unit));
-    table->failed |= !name || POOL_ADD(table->pool, table->column, table->ncolumns, &column);
-    return table->failed ? NULL : &table->column[table->ncolumns - 1];
+    return POOL_ADD(table->pool, table->column, table->ncolumns, &column) ? NULL : &table->column[table->ncolumns - 1];
 }
 
 void row_note(struct table *table, const char *text)
 {
-    if (!table || table->failed)
-        return;
-    table->failed |= !text;
-    if (text && *text)
+    if (table && !table->pool->out_of_memory && *text)
         table->cell[table->ncells - table->ncolumns].note = text;
 }
 
 static void add_cell(struct table *table, struct table_cell is)
 {
-    table->failed |= !is.text || POOL_ADD(table->pool, table->cell, table->ncells, &is);
+    if (is.text)
+        (void)POOL_ADD(table->pool, table->cell, table->ncells, &is);
 }
 
 void table_row(struct table *table)
@@ -254,7 +251,7 @@ static void cut_columns(const struct table *table, int excess, int width[])
 
 void table_write_text(FILE *out, const struct table *table, int width)
 {
-    int *columns = table && !table->failed ? POOL_ARRAY(table->pool, int, table->ncolumns + 1) : NULL;
+    int *columns = table && !table->pool->out_of_memory ? POOL_ARRAY(table->pool, int, table->ncolumns + 1) : NULL;
     if (!columns)
         return;
     if (*table->caption)

@@ -31,7 +31,6 @@ static double sign_of(const struct frf *frf)
 struct chooser {
     struct pool *pool;
     struct frf_result *out;
-    int out_of_memory;
 };
 
 static void take(struct chooser *chooser, int response, int reference, const struct frf *frf)
@@ -42,7 +41,7 @@ static void take(struct chooser *chooser, int response, int reference, const str
                                 .measured = frf,
                                 .sign = frf ? sign_of(frf) : 1,
                                 .is_reciprocal = frf && frf->response_node != response};
-    chooser->out_of_memory |= POOL_ADD(chooser->pool, out->row, out->nrow, &row);
+    (void)POOL_ADD(chooser->pool, out->row, out->nrow, &row);
 }
 
 /* The functions of a pair, those measured with force and response exchanged only where there is none the right way round. How
@@ -121,7 +120,7 @@ static int frf_choose_rows(struct pool *pool, const struct job *job, const struc
         take(&chooser, request->pair[i].response, request->pair[i].reference, NULL);
     for (int s = 0; s < rotor->nsensor && !measured && !request->npair; s++)
         take(&chooser, rotor->sensor[s].id, rotor->sensor[0].id, NULL);
-    return chooser.out_of_memory ? ROTID_ERROR_MEMORY : status;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 /* ------------------------------------------------------------------------------------------------ points */

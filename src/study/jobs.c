@@ -221,6 +221,7 @@ int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct s
     int status = ROTID_OK;
     if (!jobs->has_fitted || !is_same(&jobs->fitted_of, cell)) {
         pool_close(&jobs->fitted_pool);
+        pool_open(&jobs->fitted_pool, NULL);
         message_open(&jobs->fitted_messages, &jobs->fitted_pool);
         status = jobs_read_fitted(&jobs->fitted_pool, jobs->study, cell, &jobs->fitted_messages, &jobs->fitted);
         jobs->fitted_of = *cell;
@@ -235,6 +236,7 @@ int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **
     int status = ROTID_OK;
     if (!jobs->has_truth || jobs->truth_of.deck != cell->deck || jobs->truth_of.hide != cell->hide) {
         pool_close(&jobs->truth_pool);
+        pool_open(&jobs->truth_pool, NULL);
         message_open(&jobs->truth_messages, &jobs->truth_pool);
         status = jobs_read_truth(&jobs->truth_pool, jobs->study, cell->deck, cell->hide, &jobs->truth_messages, &jobs->truth);
         jobs->truth_of = *cell;

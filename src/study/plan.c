@@ -84,9 +84,7 @@ static const char *beside(struct plan_reader *reader, struct place place, const 
     const char *slash = strrchr(place.file, '/');
     if (*path == '/' || !slash)
         return path;
-    const char *full = pool_format(reader->fields.pool, "%.*s/%s", (int)(slash - place.file), place.file, path);
-    reader->fields.out_of_memory |= !full;
-    return full;
+    return pool_format(reader->fields.pool, "%.*s/%s", (int)(slash - place.file), place.file, path);
 }
 
 static void read_decks(struct plan_reader *reader, const struct card *card)
@@ -98,7 +96,7 @@ static void read_decks(struct plan_reader *reader, const struct card *card)
             if (!strcmp(plan->deck[d].name, line->text))
                 deck_error(&reader->fields, line->place, "deck %s is given twice, expected once", line->text);
         const struct plan_deck deck = {line->text, beside(reader, line->place, line->text), line->place};
-        (void)DECK_ADD(&reader->fields, plan->deck, plan->ndeck, &deck);
+        (void)POOL_ADD(reader->fields.pool, plan->deck, plan->ndeck, &deck);
     }
 }
 
@@ -121,27 +119,22 @@ static void read_variant(struct plan_reader *reader, const struct card *card)
     struct plan_variant variant = {.name = name ? name : "",
                                    .override = POOL_ARRAY(pool, struct override, card->nline),
                                    .place = POOL_ARRAY(pool, struct place, card->nline)};
-    if (!variant.override || !variant.place) {
-        reader->fields.out_of_memory = 1;
+    if (!variant.override || !variant.place)
         return;
-    }
     for (int i = 0; i < card->nline; i++) {
         const struct data_line *line = &card->line[i];
         struct override *override = &variant.override[variant.noverride];
         if (override_parse(pool, line->text, override)) {
-            if (override->value) /* it has the form */
-                reader->fields.out_of_memory = 1;
-            else
+            if (!override->value) /* else it has the form */
                 deck_error(&reader->fields, line->place, "'%s' is no option of a deck, expected CARD.OPTION=VALUE", line->text);
             continue;
         }
         place_file(reader, line->place, override);
         /* what is wrong with it is found when the deck is read, and reported by this name: it is put in its place there */
         override->text = pool_format(pool, "variant %s, %s", variant.name, line->text);
-        reader->fields.out_of_memory |= !override->text;
         variant.place[variant.noverride++] = line->place;
     }
-    (void)DECK_ADD(&reader->fields, plan->variant, plan->nvariant, &variant);
+    (void)POOL_ADD(reader->fields.pool, plan->variant, plan->nvariant, &variant);
 }
 
 static void read_modes(struct plan_reader *reader, const struct card *card)
@@ -153,7 +146,7 @@ static void read_modes(struct plan_reader *reader, const struct card *card)
             if (!strcmp(plan->modes[m].text, line->text))
                 deck_error(&reader->fields, line->place, "modes %s are given twice, expected once", line->text);
         const struct plan_modes modes = {line->text, line->place};
-        (void)DECK_ADD(&reader->fields, plan->modes, plan->nmodes, &modes);
+        (void)POOL_ADD(reader->fields.pool, plan->modes, plan->nmodes, &modes);
     }
 }
 
@@ -173,12 +166,11 @@ static void read_sensors(struct plan_reader *reader, const struct card *card)
         sensors.text = all     ? "all"
                        : every ? pool_format(reader->fields.pool, "every %d", sensors.every)
                                : pool_format(reader->fields.pool, "%d", sensors.keep);
-        reader->fields.out_of_memory |= !sensors.text;
         for (int s = 0; s < plan->nsensors && !bad && sensors.text; s++)
             if (!strcmp(plan->sensors[s].text, sensors.text))
                 deck_error(&reader->fields, line->place, "%s is given twice, expected once", line->text);
         if (sensors.text)
-            (void)DECK_ADD(&reader->fields, plan->sensors, plan->nsensors, &sensors);
+            (void)POOL_ADD(reader->fields.pool, plan->sensors, plan->nsensors, &sensors);
     }
 }
 
@@ -213,7 +205,7 @@ static void read_truth(struct plan_reader *reader, const struct card *card)
         for (int t = 0; t < plan->ntruth; t++)
             if (same_text(plan->truth[t].name, truth.name))
                 deck_error(&reader->fields, line->place, "%s is given twice, expected once", truth.name);
-        (void)DECK_ADD(&reader->fields, plan->truth, plan->ntruth, &truth);
+        (void)POOL_ADD(reader->fields.pool, plan->truth, plan->ntruth, &truth);
     }
 }
 
@@ -235,7 +227,7 @@ static void read_noise(struct plan_reader *reader, const struct card *card)
             if (plan->noise[n].frequency == noise.frequency &&
                 (plan->noise[n].shape == noise.shape || (isnan(plan->noise[n].shape) && isnan(noise.shape))))
                 deck_error(&reader->fields, line->place, "noise of %s is given twice, expected once", line->text);
-        (void)DECK_ADD(&reader->fields, plan->noise, plan->nnoise, &noise);
+        (void)POOL_ADD(reader->fields.pool, plan->noise, plan->nnoise, &noise);
     }
 }
 
@@ -274,7 +266,6 @@ static const char *label_of(struct plan_reader *reader, const struct card *card)
             if (!strcmp(parts[p], "BETWEEN") && deck_cause_list_item(card, &card->option[i]))
                 label = pool_format(reader->fields.pool, "%s,%s", label, card->option[i].name);
     }
-    reader->fields.out_of_memory |= !label;
     return label;
 }
 
@@ -329,12 +320,11 @@ static void read_hide(struct plan_reader *reader, const struct card *card)
     if (!none) {
         hide.lower = cause_card(reader, card, 0);
         hide.upper = cause_card(reader, card, 1);
-        reader->fields.out_of_memory |= !hide.lower || !hide.upper;
     }
     for (int h = 0; h < plan->nhide && hide.name; h++)
         if (same_text(plan->hide[h].name, hide.name))
             deck_error(&reader->fields, card->place, "two *HIDE are called %s, expected another NAME on one of them", hide.name);
-    (void)DECK_ADD(&reader->fields, plan->hide, plan->nhide, &hide);
+    (void)POOL_ADD(reader->fields.pool, plan->hide, plan->nhide, &hide);
 }
 
 static void heading(struct plan_reader *reader, const struct card *card)
@@ -445,10 +435,10 @@ int plan_read(struct pool *pool, const char *path, struct message_list *messages
     int status = deck_text_read(pool, path, messages, &plan->text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !plan->path)
         return plan->path ? status : ROTID_ERROR_MEMORY;
-    for (int c = 0; c < plan->text.ncard && !reader.fields.out_of_memory; c++)
+    for (int c = 0; c < plan->text.ncard && !pool->out_of_memory; c++)
         read_card(&reader, c);
     check_plan(&reader);
-    if (reader.fields.out_of_memory || messages->out_of_memory || fill_axes(pool, plan))
+    if (pool->out_of_memory || messages->pool->out_of_memory || fill_axes(pool, plan))
         return ROTID_ERROR_MEMORY;
     return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }

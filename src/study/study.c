@@ -468,5 +468,5 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
         study->input[i] = study->deck[i].digest;
     if (!plan->path && !study->input)
         return ROTID_ERROR_MEMORY;
-    return messages->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

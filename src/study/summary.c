@@ -44,7 +44,6 @@ struct sums {
     struct study_result *out;
     int ncell;
     struct cell_sums *cell;
-    int failed; /* memory was out */
 };
 
 int summary_is_scored(const struct study_cell_result *cell)
@@ -55,9 +54,7 @@ int summary_is_scored(const struct study_cell_result *cell)
 /* The text in the pool of the summary; NULL for NULL. */
 static const char *keep(struct sums *s, const char *text)
 {
-    const char *copy = text ? pool_copy_text(s->pool, text) : NULL;
-    s->failed |= text && !copy;
-    return copy;
+    return text ? pool_copy_text(s->pool, text) : NULL;
 }
 
 static struct cell_sums *find_cell(struct sums *s, const struct study_run *run)
@@ -74,8 +71,7 @@ static struct cell_sums *find_cell(struct sums *s, const struct study_run *run)
                                                      .noise_shape = axes->noise_shape,
                                                      .hide = keep(s, axes->hide)},
                                             .first_run = run->run}};
-    s->failed |= POOL_ADD(s->pool, s->cell, s->ncell, &cell);
-    return s->failed ? NULL : &s->cell[s->ncell - 1];
+    return POOL_ADD(s->pool, s->cell, s->ncell, &cell) || s->pool->out_of_memory ? NULL : &s->cell[s->ncell - 1];
 }
 
 static void add_error(struct sums *s, const struct study_run *run)
@@ -88,7 +84,7 @@ static void add_error(struct sums *s, const struct study_run *run)
             return;
         }
     const struct study_error error = {keep(s, text), 1, run->run};
-    s->failed |= POOL_ADD(s->pool, out->errors, out->nerrors, &error);
+    (void)POOL_ADD(s->pool, out->errors, out->nerrors, &error);
 }
 
 static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter)
@@ -98,8 +94,9 @@ static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *c
             return &cell->parameter[p];
     const struct parameter_sums sums = {
         .said = {.name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY}};
-    s->failed |= POOL_ADD(s->pool, cell->parameter, cell->nparameter, &sums);
-    return s->failed ? NULL : &cell->parameter[cell->nparameter - 1];
+    return POOL_ADD(s->pool, cell->parameter, cell->nparameter, &sums) || s->pool->out_of_memory
+               ? NULL
+               : &cell->parameter[cell->nparameter - 1];
 }
 
 static void add_value(struct parameter_sums *p, const rotid_fitted_parameter *parameter, double truth)
@@ -175,7 +172,7 @@ static void add_modes(struct cell_sums *cell, const rotid_identification *fit)
 static void add_objective(struct sums *s, struct cell_sums *cell, const struct study_run *run, int usable)
 {
     const struct objective objective = {run->replicate, usable ? run->fit->objective : NAN};
-    s->failed |= POOL_ADD(s->pool, cell->objective, cell->nobjective, &objective);
+    (void)POOL_ADD(s->pool, cell->objective, cell->nobjective, &objective);
 }
 
 static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
@@ -187,7 +184,7 @@ static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
             return;
         }
     const rotid_component named = {.name = keep(s, id), .value = 1};
-    s->failed |= POOL_ADD(s->pool, d->named, d->nnamed, &named);
+    (void)POOL_ADD(s->pool, d->named, d->nnamed, &named);
 }
 
 static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct study_run *run)
@@ -243,7 +240,7 @@ static void add_run(struct sums *s, const struct study_run *run)
     int count;
     pool_open(&scratch, s->pool->allocator);
     const rotid_fitted_parameter *value = study_run_values(&scratch, run, &count);
-    s->failed |= !value;
+    s->pool->out_of_memory |= !value;
     for (int p = 0; p < count && value; p++) {
         struct parameter_sums *parameter = find_parameter(s, cell, &value[p]);
         if (parameter)
@@ -302,7 +299,6 @@ static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *ce
     struct study_cell_result said = cell->said;
     said.reached_best = cell->last_start ? count_reached(cell) : ROTID_NONE;
     said.parameters = POOL_ARRAY(s->pool, struct cell_parameter, cell->nparameter);
-    s->failed |= !said.parameters;
     for (int p = 0; p < cell->nparameter && said.parameters; p++)
         said.parameters[said.nparameters++] = finish_parameter(&cell->parameter[p]);
     said.frequency_rms_percent = sqrt(share(cell->fitted_square, cell->fitted));
@@ -311,7 +307,6 @@ static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *ce
     said.evaluations = share(cell->evaluations, said.runs - said.failed);
     if (cell->diagnoses.count) {
         said.diagnoses = POOL_NEW(s->pool, struct cell_diagnoses);
-        s->failed |= !said.diagnoses;
         if (!cell->scored)
             cell->diagnoses.scores[0] = cell->diagnoses.false_findings = ROTID_NONE;
         if (said.diagnoses)
@@ -323,7 +318,6 @@ static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *ce
 static void finish(struct sums *s)
 {
     s->out->cells = POOL_ARRAY(s->pool, struct study_cell_result, s->ncell);
-    s->failed |= !s->out->cells;
     for (int i = 0; i < s->ncell && s->out->cells; i++)
         s->out->cells[s->out->ncells++] = finish_cell(s, &s->cell[i]);
     s->out->missing = s->out->runs - s->out->done;
@@ -352,11 +346,11 @@ static int read_all(struct pool *pool, struct message_list *messages, const stru
         if (!status && runs)
             table_add_run(runs, &said);
         pool_close(&own);
-        status = sums.failed ? ROTID_ERROR_MEMORY : status;
+        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
     }
     free(text);
     finish(&sums);
-    return !status && sums.failed ? ROTID_ERROR_MEMORY : status;
+    return !status && pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct study_header *header,

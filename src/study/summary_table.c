@@ -195,8 +195,6 @@ void table_add_run(struct table *table, const struct study_run *run)
     const rotid_identification *fit = run->fit;
     int count;
     const rotid_fitted_parameter *value = table ? study_run_values(table->pool, run, &count) : NULL;
-    if (!value && table)
-        table->failed = 1;
     if (!value)
         return;
     for (int p = 0; p < (count ? count : 1); p++) {

@@ -440,7 +440,7 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
         status = keep_shapes(pool, &job.extras, &out->extra_count, &out->extra);
     pool_close(&job.scratch);
 
-    if (messages->out_of_memory)
+    if (messages->pool->out_of_memory)
         status = ROTID_ERROR_MEMORY;
     if (status != ROTID_OK)
         *out = (struct uff_file){0};
