@@ -45,9 +45,8 @@ int machine_refuse(struct call *call, const struct states *states)
 {
     if (states->machine)
         return ROTID_OK;
-    message_add(&call->notes, SEVERITY_ERROR, states->state[0].job.deck, 1, 1,
-                "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(&call->notes, ROTID_ERROR_ARGUMENT, states->state[0].job.deck, 1, 1,
+                          "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
 }
 
 int machine_fit_all(struct call *call, const struct states *states, rotid_fit_result **fit)

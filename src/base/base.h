@@ -181,6 +181,9 @@ struct message_list {
 void message_open(struct message_list *list, struct pool *pool);
 void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
                  ...) __attribute__((format(printf, 6, 7)));
+/* The same of an error. Returns status. */
+int message_refuse(struct message_list *list, int status, const char *file, int line, int column, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
 /* The texts of the warnings (pool) and how many there are; NULL where memory is out. */
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count);
 

@@ -33,13 +33,11 @@ static int refuse_options(struct command *command, const struct measurement *mea
                              *const of_functions[] = {"averages", NULL};
     const char *const *ignored = measurement->from_records ? of_functions : of_records;
     for (; *ignored; ignored++)
-        if (arguments_given(command, *ignored)) {
-            message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
-                        "--%s is for %s and this file has %s, expected it without", *ignored,
-                        measurement->from_records ? "transfer functions" : "time records",
-                        measurement->from_records ? "time records" : "transfer functions");
-            return 1;
-        }
+        if (arguments_given(command, *ignored))
+            return message_refuse(&command->messages, 1, command->deck, 1, 1,
+                                  "--%s is for %s and this file has %s, expected it without", *ignored,
+                                  measurement->from_records ? "transfer functions" : "time records",
+                                  measurement->from_records ? "time records" : "transfer functions");
     return 0;
 }
 
@@ -108,12 +106,10 @@ static int extract_modes(struct command *command, struct ema_options *options, s
         status = ROTID_ERROR_ARGUMENT;
     const struct frf_set *set = &measurement->set;
     for (int i = 0; i < options->npick && !status; i++)
-        if (options->pick_hz[i] < set->frequency_hz[0] || options->pick_hz[i] > set->frequency_hz[set->nline - 1]) {
-            message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
-                        "--pick %.6g Hz, expected a frequency from %.6g to %.6g Hz", options->pick_hz[i], set->frequency_hz[0],
-                        set->frequency_hz[set->nline - 1]);
-            status = ROTID_ERROR_ARGUMENT;
-        }
+        if (options->pick_hz[i] < set->frequency_hz[0] || options->pick_hz[i] > set->frequency_hz[set->nline - 1])
+            status = message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->deck, 1, 1,
+                                    "--pick %.6g Hz, expected a frequency from %.6g to %.6g Hz", options->pick_hz[i],
+                                    set->frequency_hz[0], set->frequency_hz[set->nline - 1]);
     if (!status)
         status = ema_compute(&command->pool, set, options, &environment, ema);
     if (!status && !options->per_point && is_moving(set, ema)) {

@@ -127,12 +127,12 @@ int command_frf(struct command *command)
     struct result result = {.head = command->head};
     struct command_fit fit = {0};
     int code;
-    if (command->output && command->read->nstate && !command->state) {
-        message_add(&command->messages, SEVERITY_ERROR, "--output", 1, 1,
-                    "a universal file has no states and the deck has %d, expected --state %s or another one beside it",
-                    command->read->nstate, command->read->state_name[0]);
-        return command_fail(command, ROTID_ERROR_ARGUMENT);
-    }
+    if (command->output && command->read->nstate && !command->state)
+        return command_fail(
+            command,
+            message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, "--output", 1, 1,
+                           "a universal file has no states and the deck has %d, expected --state %s or another one beside it",
+                           command->read->nstate, command->read->state_name[0]));
     code = command_begin_states(command, &result);
     if (!code)
         code = command_fit_deck(command, 1, "a lateral transfer function", &fit);

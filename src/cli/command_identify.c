@@ -33,11 +33,9 @@ int command_identify(struct command *command)
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
     rotid_identification *found;
-    if (!command->read->nparameter) {
-        message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
-                    "the deck has no *IDENTIFY, expected the parameters to identify");
-        return command_fail(command, ROTID_ERROR_ARGUMENT);
-    }
+    if (!command->read->nparameter)
+        return command_fail(command, message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->deck, 1, 1,
+                                                    "the deck has no *IDENTIFY, expected the parameters to identify"));
     int refused = command_refuse_csv(command, csv_identify_parts);
     if (refused)
         return refused;

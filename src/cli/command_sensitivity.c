@@ -27,29 +27,24 @@ static int select_listed(struct command *command, const struct job *job, struct 
             *equals = 0;
         rotid_parameter *named = &s->named[s->n];
         named->name = item;
-        if (parameter_find(rotor, item, &s->parameter[s->n], &named->unit)) {
-            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1,
-                        "%s is no parameter of this deck, expected one of %s", item, parameter_list(&command->pool, rotor, item));
-            return ROTID_ERROR_SYNTAX;
-        }
+        if (parameter_find(rotor, item, &s->parameter[s->n], &named->unit))
+            return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
+                                  "%s is no parameter of this deck, expected one of %s", item,
+                                  parameter_list(&command->pool, rotor, item));
         if (s->parameter[s->n].kind == PARAMETER_G) { /* from here on a modulus of its own */
             struct material *material = &rotor->group[s->parameter[s->n].index].material;
             material->g = material_shear_modulus(material);
             material->isotropic = 0;
         }
         s->x[s->n] = equals ? strtod(equals + 1, &end) : *parameter_value(rotor, s->parameter[s->n]);
-        if ((equals && (end == equals + 1 || *end)) || !isfinite(s->x[s->n]) || s->x[s->n] == 0) {
-            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1,
-                        "%s has no reference value, expected a number that is not zero", item);
-            return ROTID_ERROR_SYNTAX;
-        }
+        if ((equals && (end == equals + 1 || *end)) || !isfinite(s->x[s->n]) || s->x[s->n] == 0)
+            return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
+                                  "%s has no reference value, expected a number that is not zero", item);
         s->n++;
     }
-    if (list && !s->n) {
-        message_add(&command->messages, SEVERITY_ERROR, "--at", 1, 1,
-                    "no parameter is named, expected NAME or NAME=VALUE, separated by commas");
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (list && !s->n)
+        return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, 1,
+                              "no parameter is named, expected NAME or NAME=VALUE, separated by commas");
     return list ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -70,11 +65,9 @@ static int select_parameters(struct command *command, const struct job *job, str
         s->x[p] = job->unknowns.bounds[p].start;
     }
     s->n = job->unknowns.nparameter;
-    if (!s->n) {
-        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
-                    "nothing to vary, expected *IDENTIFY in the deck or --at NAME=VALUE,...");
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (!s->n)
+        return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, job->deck, 1, 1,
+                              "nothing to vary, expected *IDENTIFY in the deck or --at NAME=VALUE,...");
     return ROTID_OK;
 }
 

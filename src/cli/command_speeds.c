@@ -9,8 +9,7 @@
 
 static int refuse_deck(struct command *command, const char *why)
 {
-    message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1, "%s", why);
-    return command_fail(command, ROTID_ERROR_ARGUMENT);
+    return command_fail(command, message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->job->deck, 1, 1, "%s", why));
 }
 
 /* FROM:TO[:N] or a list of speeds, in rpm */

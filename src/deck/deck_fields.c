@@ -145,25 +145,39 @@ int deck_has(const struct data_line *line, int i)
     return i < line->count && *line->field[i].text;
 }
 
+/* Value i of a data line, NULL after an error where it is missing. */
+static const struct field *value_at(struct deck_reader *reader, const struct data_line *line, int i, const char *what)
+{
+    if (deck_has(line, i))
+        return &line->field[i];
+    deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
+    return NULL;
+}
+
 int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
                 double *value)
 {
-    if (!deck_has(line, i))
-        return deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
-    return parse_number(reader, &line->field[i], what, range, value);
+    const struct field *field = value_at(reader, line, i, what);
+    return !field || parse_number(reader, field, what, range, value);
+}
+
+static int parse_whole(struct deck_reader *reader, const struct field *field, const char *what, int least, int most, int *value)
+{
+    double number;
+    if (parse_number(reader, field, what, ANY, &number))
+        return 1;
+    if (number != floor(number) || number < least || number > most)
+        return deck_error(reader, field->place, "%s is %s, expected a whole number from %d to %d", what, field->text, least,
+                          most);
+    *value = (int)number;
+    return 0;
 }
 
 int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
                  int *value)
 {
-    double number;
-    if (deck_number(reader, line, i, what, ANY, &number))
-        return 1;
-    if (number != floor(number) || number < least || number > most)
-        return deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what,
-                          line->field[i].text, least, most);
-    *value = (int)number;
-    return 0;
+    const struct field *field = value_at(reader, line, i, what);
+    return !field || parse_whole(reader, field, what, least, most, value);
 }
 
 int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout)
@@ -262,38 +276,25 @@ int deck_option_number(struct deck_reader *reader, const struct card_option *opt
     return bad;
 }
 
-static int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
-{
-    double number;
-    if (deck_option_number(reader, option, "", ANY, &number))
-        return 1;
-    if (number != floor(number) || number < least || number > most)
-        return deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name,
-                          option->value, least, most);
-    *value = (int)number;
-    return 0;
-}
-
 const char *const deck_answers[] = {"NO", "YES", NULL};
 
-/* Index of a text in a list of words that ends with NULL; -1 after an error that says "WHATtext". */
-static int deck_word(struct deck_reader *reader, const char *what, const char *text, struct place place, const char *const *words)
+/* Index of a text in a list of words that ends with NULL; -1 after an error that says "WHAT=text" or "WHATtext". */
+static int parse_word(struct deck_reader *reader, const struct field *field, const char *what, const char *equals,
+                      const char *const *words)
 {
     char list[256] = "";
     for (int i = 0; words[i]; i++) {
-        if (same_text(text, words[i]))
+        if (same_text(field->text, words[i]))
             return i;
         (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", words[i]);
     }
-    deck_error(reader, place, "%s%s is not known, expected one of %s", what, text, list);
-    return -1;
+    return -deck_error(reader, field->place, "%s%s%s is not known, expected one of %s", what, equals, field->text, list);
 }
 
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
 {
-    char what[64];
-    (void)snprintf(what, sizeof what, "%.60s=", option->name);
-    return deck_word(reader, what, option->value, option->value_place, words);
+    const struct field field = {option->value, option->value_place, 0};
+    return parse_word(reader, &field, option->name, "=", words);
 }
 
 void deck_units(struct deck_reader *reader, const struct card *card)
@@ -324,57 +325,61 @@ int deck_row_is_last(const struct deck_row *row)
 
 /* ---- reading */
 
-static int read_material(struct deck_reader *reader, const struct card_option *option, struct material *material)
+static int read_material(struct deck_reader *reader, const struct field *field, struct material *material)
 {
-    int index = deck_find_material(reader, option->value);
+    int index = deck_find_material(reader, field->text);
     if (index < 0)
-        deck_error(reader, option->value_place, "material %s is not defined, expected the name of a *MATERIAL", option->value);
-    else if (reader->material[index].laminated)
-        deck_error(reader, option->value_place,
-                   "material %s is a stack of sheets across the axis, expected one that rods are made of", option->value);
-    else
-        *material = reader->material[index];
-    return index < 0 || reader->material[index].laminated;
+        return deck_error(reader, field->place, "material %s is not defined, expected the name of a *MATERIAL", field->text);
+    if (reader->material[index].laminated)
+        return deck_error(reader, field->place,
+                          "material %s is a stack of sheets across the axis, expected one that rods are made of", field->text);
+    *material = reader->material[index];
+    return 0;
+}
+
+/* A value of a data line, or of an option; what: its name in messages. */
+static int read_member(struct deck_reader *reader, const struct field *field, const char *what, const struct deck_row *row,
+                       void *member)
+{
+    int index = 0;
+    switch (row->kind) {
+    case ROW_NAME:
+        *(const char **)member = field->text;
+        return 0;
+    case ROW_GROUP:
+        return (*(int *)member = deck_named_group(reader, field->text, field->place)) < 0;
+    case ROW_MATERIAL:
+        return read_material(reader, field, member);
+    case ROW_WORD:
+        index = parse_word(reader, field, what, row->option ? "=" : "", row->words);
+        *(int *)member = index < 0 ? *(int *)member : index;
+        return index < 0;
+    case ROW_WHOLE:
+        return parse_whole(reader, field, what, row->least, row->most, member);
+    case ROW_POSITION:
+        return deck_position(reader, field, row->option ? row->option : what, member);
+    default:
+        if (parse_number(reader, field, what, row->range, member))
+            return 1;
+        *(double *)member *= row->option ? deck_in_si(reader, row->what) : 1;
+        *(double *)member *= row->factor > 0 ? row->factor : 1;
+        return 0;
+    }
 }
 
 static int read_option(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *member)
 {
     const struct card_option *option = card_option(card, row->option);
-    int is_text = row->kind == ROW_NAME || row->kind == ROW_MATERIAL, index, bad;
-    if (!option && row->bits & ROW_MAY_LACK)
-        return 0;
-    if (!option && row->kind == ROW_WORD) {
+    int may_lack = row->bits & ROW_MAY_LACK,
+        is_text = row->kind == ROW_NAME || row->kind == ROW_GROUP || row->kind == ROW_MATERIAL;
+    if (!option && row->kind == ROW_WORD && !may_lack)
         *(int *)member = row->standard;
+    if (!option && (may_lack || row->kind == ROW_WORD))
         return 0;
-    }
-    if (row->kind != ROW_GROUP && (!option || (is_text && !(row->bits & ROW_MAY_LACK) && !*option->value))) {
-        (void)deck_option(reader, card, row->option, row->what);
-        return 1;
-    }
-    switch (row->kind) {
-    case ROW_NAME:
-        *(const char **)member = option->value;
-        return 0;
-    case ROW_GROUP:
-        return (*(int *)member = deck_option_group(reader, card, row->option)) < 0;
-    case ROW_MATERIAL:
-        return read_material(reader, option, member);
-    case ROW_WORD:
-        index = deck_option_word(reader, option, row->words);
-        if (index >= 0)
-            *(int *)member = index;
-        return index < 0;
-    case ROW_NUMBER:
-        bad = deck_option_number(reader, option, row->what, row->range, member);
-        *(double *)member *= row->factor > 0 ? row->factor : 1;
-        return bad;
-    case ROW_WHOLE:
-        return deck_option_integer(reader, option, row->least, row->most, member);
-    case ROW_POSITION:
-        return deck_option_position(reader, option, row->option, member);
-    default:
-        return 0;
-    }
+    if (!option || (is_text && !may_lack && !*option->value))
+        return !deck_option(reader, card, row->option, row->kind == ROW_GROUP ? group_name : row->what);
+    const struct field field = {option->value, option->value_place, 0};
+    return read_member(reader, &field, option->name, row, member);
 }
 
 int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to)
@@ -390,7 +395,6 @@ int deck_read_options(struct deck_reader *reader, const struct card *card, const
 static int read_value(struct deck_reader *reader, const struct data_line *line, int i, const struct deck_row *row, char *to)
 {
     void *member = to + row->offset;
-    const struct field *field = &line->field[i];
     if (row->bits & ROW_MAY_LACK && !deck_has(line, i)) {
         if (row->kind == ROW_WHOLE)
             *(int *)member = row->standard;
@@ -398,24 +402,9 @@ static int read_value(struct deck_reader *reader, const struct data_line *line, 
             *(double *)member = *(const double *)(to + row->as);
         return 0;
     }
-    switch (row->kind) {
-    case ROW_NAME:
-        *(const char **)member = field->text;
-        return 0;
-    case ROW_GROUP:
-        return (*(int *)member = deck_named_group(reader, field->text, field->place)) < 0;
-    case ROW_WORD:
-        return (*(int *)member = deck_word(reader, row->what, field->text, field->place, row->words)) < 0;
-    case ROW_POSITION:
-        return deck_position(reader, field, row->what, member);
-    case ROW_WHOLE:
-        return deck_integer(reader, line, i, row->what, row->least, row->most, member);
-    default:
-        if (deck_number(reader, line, i, row->what, row->range, member))
-            return 1;
-        *(double *)member *= row->factor > 0 ? row->factor : 1;
-        return 0;
-    }
+    if ((row->kind == ROW_NUMBER || row->kind == ROW_WHOLE) && !value_at(reader, line, i, row->what))
+        return 1;
+    return read_member(reader, &line->field[i], row->what, row, member);
 }
 
 int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,

@@ -357,10 +357,9 @@ static int read_back(struct pool *pool, const struct states *given, const char *
     int status = filled ? deck_read_back(pool, from, filled, notes, &states) : ROTID_ERROR_MEMORY, before = notes->errors;
     if (status)
         return status;
-    if (states.nstate != given->nstate + 1) {
-        message_add(notes, SEVERITY_ERROR, from, 1, 1, "the state of the test is not read, expected a deck without *FIT, STATE=");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (states.nstate != given->nstate + 1)
+        return message_refuse(notes, ROTID_ERROR_ARGUMENT, from, 1, 1,
+                              "the state of the test is not read, expected a deck without *FIT, STATE=");
     for (int s = 0; s < given->nstate; s++) {
         const struct job was = without_state(pool, &given->state[s].job), is = without_state(pool, &states.state[s].job);
         like = home && given->state[s].name && same_text(home, given->state[s].name) ? &given->state[s].job : like;

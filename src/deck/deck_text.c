@@ -485,11 +485,9 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
                 return ROTID_ERROR_MEMORY;
             found = 1;
         }
-    if (!found) {
-        message_add(messages, SEVERITY_ERROR, place.file, 1, 1, "the deck has no card *%s, expected one that it has",
-                    override->card);
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (!found)
+        return message_refuse(messages, ROTID_ERROR_SYNTAX, place.file, 1, 1,
+                              "the deck has no card *%s, expected one that it has", override->card);
     for (int i = 0; i < text->ncard; i++) {
         struct card *card = &text->card[i];
         if (!same_text(card->name, override->card))

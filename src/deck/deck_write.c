@@ -789,11 +789,9 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
             status = *text ? deck_read_back(pool, path, *text, notes, &read) : ROTID_ERROR_MEMORY;
         left = status ? 1 : compare(&w, &read, &card);
     }
-    if (!status && left) {
-        message_add(notes, SEVERITY_ERROR, path, 1, 1,
-                    "no deck is written: *%s would be read as something else than what is meant", card);
-        status = ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && left)
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                "no deck is written: *%s would be read as something else than what is meant", card);
     status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
     *text = status ? NULL : *text;
     return status;

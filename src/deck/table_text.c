@@ -49,9 +49,7 @@ static int refuse_table(struct splitter *s, int row, int column, const char *for
     va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
     va_end(values);
-    message_add(s->messages, SEVERITY_ERROR, s->table->path, row, column, "%s (cell %s)", text,
-                table_cell_name(row, column, cell));
-    return 1;
+    return message_refuse(s->messages, 1, s->table->path, row, column, "%s (cell %s)", text, table_cell_name(row, column, cell));
 }
 
 /* What was saved as something else than text. */
@@ -299,20 +297,18 @@ int table_text_read(struct pool *pool, const char *path, struct place from, stru
     *table = (struct table_text){.path = path};
     if (!stream) {
         int status = file_status(errno);
-        message_add(messages, SEVERITY_ERROR, from.file, from.line, from.column, "cannot read %s: %s, expected a table as CSV",
-                    path, file_error_text(errno, why));
-        return status;
+        return message_refuse(messages, status, from.file, from.line, from.column, "cannot read %s: %s, expected a table as CSV",
+                              path, file_error_text(errno, why));
     }
     char *text = read_whole(pool, stream, &length);
     int failed = ferror(stream) ? errno : 0;
     (void)fclose(stream);
     if (!text)
         return ROTID_ERROR_MEMORY;
-    if (failed || length > (size_t)TABLE_MOST_BYTES) {
-        message_add(messages, SEVERITY_ERROR, from.file, from.line, from.column,
-                    failed ? "cannot read %s: %s" : "%s is larger than %s, expected a table of measured values or sections", path,
-                    failed ? file_error_text(failed, why) : "16 MiB");
-        return ROTID_ERROR_IO;
-    }
+    if (failed || length > (size_t)TABLE_MOST_BYTES)
+        return message_refuse(messages, ROTID_ERROR_IO, from.file, from.line, from.column,
+                              failed ? "cannot read %s: %s"
+                                     : "%s is larger than %s, expected a table of measured values or sections",
+                              path, failed ? file_error_text(failed, why) : "16 MiB");
     return table_text_split(pool, path, length, text, messages, table);
 }

@@ -38,8 +38,7 @@ struct analyser {
 
 static int wrong(struct analyser *a, int line, int column, const char *text, const char *cell)
 {
-    message_add(a->messages, SEVERITY_ERROR, a->path, line, column, text, cell);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(a->messages, ROTID_ERROR_ARGUMENT, a->path, line, column, text, cell);
 }
 
 /* The next cell of a row, its blanks and quotes taken off; *at goes behind the separator, NULL behind the last one. */
@@ -270,8 +269,7 @@ static int read_text(struct analyser *a, struct pool *scratch, char **text)
     FILE *file = file_open_regular(a->path, &about);
     if (!file) {
         int status = file_status(errno);
-        message_add(a->messages, SEVERITY_ERROR, a->path, 1, 1, "cannot be opened: %s", file_error_text(errno, why));
-        return status;
+        return message_refuse(a->messages, status, a->path, 1, 1, "cannot be opened: %s", file_error_text(errno, why));
     }
     *text = POOL_ARRAY(scratch, char, about.st_size + 1);
     size_t length = *text ? fread(*text, 1, (size_t)about.st_size, file) : 0;

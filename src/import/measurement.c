@@ -205,11 +205,9 @@ static int read_units(struct growing *g, struct uff_reader *reader, const struct
     struct contents *c = g->contents;
     struct uff_units units;
     int status = uff_read_units(reader, &units);
-    if (!status && c->has_units && !uff_same_units(&units, &c->units)) {
-        message_add(g->messages, SEVERITY_ERROR, g->path, set->line, 1,
-                    "a second set 164 has other factors than the first, expected one system of units in a file");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && c->has_units && !uff_same_units(&units, &c->units))
+        return message_refuse(g->messages, ROTID_ERROR_ARGUMENT, g->path, set->line, 1,
+                              "a second set 164 has other factors than the first, expected one system of units in a file");
     if (!status)
         c->units = units;
     c->has_units |= !status;
@@ -505,8 +503,8 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
         count += !status;
     }
     if (!status && !count) {
-        message_add(messages, SEVERITY_ERROR, path, 1, 1, "no time record is left to use, expected a force and its response");
-        status = ROTID_ERROR_ARGUMENT;
+        status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                "no time record is left to use, expected a force and its response");
     } else if (!status) {
         struct transfer_options transfer = options->transfer;
         transfer.low_hz = options->low_hz;
@@ -715,12 +713,10 @@ static int load_transfers(struct loader *l, int model_index)
     struct frf_set *set = &l->out->set;
     long long first, count;
     choose_lines(model, l->options, &first, &count);
-    if (count < 1 || count > INT_MAX) {
-        message_add(l->messages, SEVERITY_ERROR, l->path, model->function.line, 1,
-                    "%lld of %lld lines from %.6g to %.6g Hz lie in the band asked for, expected some", count,
-                    model->function.count, line_of(model, 0), line_of(model, model->function.count - 1));
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (count < 1 || count > INT_MAX)
+        return message_refuse(l->messages, ROTID_ERROR_ARGUMENT, l->path, model->function.line, 1,
+                              "%lld of %lld lines from %.6g to %.6g Hz lie in the band asked for, expected some", count,
+                              model->function.count, line_of(model, 0), line_of(model, model->function.count - 1));
     set->nline = (int)count;
     set->quantity = (enum frf_quantity)motion_of(&model->function.numerator);
     set->frequency_hz = POOL_ARRAY(l->pool, double, count);
@@ -747,10 +743,9 @@ static int load_transfers(struct loader *l, int model_index)
             status = load_transfer(l, &c->item[i], first, real, imag);
     }
     pool_close(&scratch);
-    if (!status && !set->nfrf) {
-        message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1, "no transfer function is left to use, expected at least one");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && !set->nfrf)
+        return message_refuse(l->messages, ROTID_ERROR_ARGUMENT, l->path, 1, 1,
+                              "no transfer function is left to use, expected at least one");
     return status ? status : load_coherences(l, model, first);
 }
 
@@ -765,10 +760,9 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
         return analyser_read(pool, path, options, messages, out);
     pool_open(&scratch, pool->allocator);
     int status = uff_open(&scratch, path, messages, &l.reader);
-    if (!status && !uff_can_return(l.reader)) {
-        message_add(messages, SEVERITY_ERROR, path, 1, 1, "this is no regular file, expected one: its functions are read twice");
-        status = ROTID_ERROR_IO;
-    }
+    if (!status && !uff_can_return(l.reader))
+        status = message_refuse(messages, ROTID_ERROR_IO, path, 1, 1,
+                                "this is no regular file, expected one: its functions are read twice");
     if (!status)
         status = contents_read(pool, l.reader, path, messages, &contents);
     if (!status) {

@@ -251,8 +251,7 @@ static void write_page(FILE *out, struct document *document, int count, const st
 
 static int say(struct message_list *messages, const char *path, const char *what, int status)
 {
-    message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "cannot write %s: %s", path, what);
-    return status;
+    return message_refuse(messages, status, NULL, 0, 0, "cannot write %s: %s", path, what);
 }
 
 /* Whether there is a file that rotid did not write, or no file at all but something else. */

@@ -144,11 +144,9 @@ int csv_universal_read(struct pool *pool, const char *path, struct message_list 
     if (!u->mode || !u->number || !u->frequency_std)
         return ROTID_ERROR_MEMORY;
     u->count = uff_choose_modes(&file, u->mode, &rigid, &conjugates);
-    if (!u->count) {
-        message_add(messages, SEVERITY_ERROR, path, 1, 1,
-                    "the file has no mode shapes, expected sets 55 of normal or complex modes for --csv");
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (!u->count)
+        return message_refuse(messages, ROTID_ERROR_SYNTAX, path, 1, 1,
+                              "the file has no mode shapes, expected sets 55 of normal or complex modes for --csv");
     uff_mode_numbers(&file, u->count, u->mode, u->number);
     for (int k = 0; k < u->count; k++)
         u->frequency_std[k] = NAN;

@@ -152,10 +152,8 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
     if (status)
         return status;
     end = text + length;
-    if (skip_blanks(text, end) == end) {
-        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: is empty, expected JSON", file);
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (skip_blanks(text, end) == end)
+        return message_refuse(messages, ROTID_ERROR_SYNTAX, NULL, 0, 0, "%s: is empty, expected JSON", file);
     const char *dense = json_text_too_dense(text, length);
     if (dense) {
         say_where(file, messages, text, dense, TOO_DENSE);

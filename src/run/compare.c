@@ -109,15 +109,15 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
             (void)snprintf(counted + strlen(counted), sizeof counted - strlen(counted), "%s%.4g", j ? ", " : "",
                            spectrum->full_hz[j]);
         c->clash = clash - 1;
-        message_add(notes, SEVERITY_ERROR, job->measured.file, job->measured.line, job->measured.column,
-                    "measured mode %d at %.6g Hz is left without a mode of the model: by its shape another one takes its number. "
-                    "The model at the start has %s Hz: expected modes that differ, numbered as these are (%s), and supports, "
-                    "moduli and lengths in the units of the deck",
-                    job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1], counted,
-                    !job->measurement.numbering.nsupport ? "rigid-body motions do not count"
-                    : job->rotor.count_all               ? "COUNT=ALL"
-                                                         : "COUNT=ELASTIC: those on the supports do not count");
-        return ROTID_ERROR_UNPAIRED;
+        return message_refuse(
+            notes, ROTID_ERROR_UNPAIRED, job->measured.file, job->measured.line, job->measured.column,
+            "measured mode %d at %.6g Hz is left without a mode of the model: by its shape another one takes its number. "
+            "The model at the start has %s Hz: expected modes that differ, numbered as these are (%s), and supports, "
+            "moduli and lengths in the units of the deck",
+            job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1], counted,
+            !job->measurement.numbering.nsupport ? "rigid-body motions do not count"
+            : job->rotor.count_all               ? "COUNT=ALL"
+                                                 : "COUNT=ELASTIC: those on the supports do not count");
     }
     for (int k = 0; k < nmode; k++) {
         const double *shape = job->measurement.shape ? job->measurement.shape + (ptrdiff_t)k * spectrum->nmaster : NULL;

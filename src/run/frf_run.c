@@ -9,8 +9,7 @@
 
 static int refuse_points(struct message_list *notes, const struct job *job, const char *format, int id)
 {
-    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, format, id);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, format, id);
 }
 
 /* ------------------------------------------------------------------------------------------------ rows */
@@ -67,14 +66,12 @@ static int requested_rows(struct chooser *chooser, const struct job *job, const 
 {
     const struct frf_request *request = &job->options.frf;
     for (int i = 0; i < request->npair; i++)
-        if (!take_pair(chooser, measured->set, request->pair[i], request->axis)) {
-            message_add(
-                notes, SEVERITY_ERROR, measured->path, 1, 1,
+        if (!take_pair(chooser, measured->set, request->pair[i], request->axis))
+            return message_refuse(
+                notes, ROTID_ERROR_ARGUMENT, measured->path, 1, 1,
                 "there is no lateral transfer function between %d and %d, expected what *FRF names, or the axis of the rotor "
                 "as AXIS on that card",
                 request->pair[i].response, request->pair[i].reference);
-            return ROTID_ERROR_ARGUMENT;
-        }
     return ROTID_OK;
 }
 
@@ -156,12 +153,11 @@ static int node_position(const struct job *job, const struct frf_measured *measu
                 *z = fmin(fmax(*z, 0), length);
                 return ROTID_OK;
             }
-            message_add(
-                notes, SEVERITY_ERROR, measured->path, 1, 1,
+            return message_refuse(
+                notes, ROTID_ERROR_ARGUMENT, measured->path, 1, 1,
                 "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP and "
                 "the unit",
                 id, *z, length);
-            return ROTID_ERROR_ARGUMENT;
         }
     return refuse_points(
         notes, job, "point %d of the transfer functions has no position, expected it in *SENSORS or among the nodes of the file",
@@ -424,8 +420,7 @@ void synthesis_evaluate(const struct synthesis *s, const struct synthesis_lines 
 
 static int refuse_settling(struct message_list *notes, const struct job *job, const char *text)
 {
-    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "%s", text);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, "%s", text);
 }
 
 /* ------------------------------------------------------------------------------------------------ lines */

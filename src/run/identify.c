@@ -415,9 +415,9 @@ static int pair_at_start(struct pool *pool, const struct states *states, struct 
         run[s].held = mesh_is_held(job);
         if (job->measurement.nmode)
             continue;
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
-                    run[s].state->name ? " in state " : "", run[s].state->name ? run[s].state->name : "");
-        status = ROTID_ERROR_ARGUMENT;
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1,
+                                "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                                run[s].state->name ? " in state " : "", run[s].state->name ? run[s].state->name : "");
     }
     if (!start)
         return ROTID_ERROR_MEMORY;
@@ -476,10 +476,9 @@ static int refuse_unmoved(struct pool *pool, const struct states *states, struct
         names = pool_format(pool, "%s%s%s", names, p ? ", " : "", states->bounds[p].name);
     if (!names)
         return ROTID_ERROR_MEMORY;
-    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
-                "no measured mode (TYPE=%s) depends on %s, expected a parameter in *IDENTIFY that moves one",
-                mode_type_words[job->options.type], names);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1,
+                          "no measured mode (TYPE=%s) depends on %s, expected a parameter in *IDENTIFY that moves one",
+                          mode_type_words[job->options.type], names);
 }
 
 /* After a fit: the spectrum and the pairs of a state there; *moved: the pairs differ from those it had; *apart: raised to how far

@@ -114,10 +114,9 @@ int states_refuse_types(const struct states *states, const char *what, struct me
         const struct job *job = &states->state[s].job;
         if (job->options.type == MODE_BENDING)
             continue;
-        message_add(notes, SEVERITY_ERROR, job->measured.file, job->measured.line, job->measured.column,
-                    "%s is of bending, expected no *MODES, TYPE=%s, or another state by --set FIT.STATE=NAME", what,
-                    mode_type_words[job->options.type]);
-        return ROTID_ERROR_ARGUMENT;
+        return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->measured.file, job->measured.line, job->measured.column,
+                              "%s is of bending, expected no *MODES, TYPE=%s, or another state by --set FIT.STATE=NAME", what,
+                              mode_type_words[job->options.type]);
     }
     return ROTID_OK;
 }

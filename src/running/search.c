@@ -58,12 +58,11 @@ static int build(struct pool *pool, struct search *s, double highest, struct mes
         status = system_build(pool, s->machine, s->job, &s->values, NULL, &s->basis, &s->system, &failed);
         if (status)
             return refuse_system(s, status, failed, notes);
-        if (!is_held(pool, &s->system, s->machine->npull)) {
-            message_add(notes, SEVERITY_ERROR, s->machine->place.file, s->machine->place.line, s->machine->place.column,
-                        "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
-                        "below their stiffness");
-            return ROTID_ERROR_STIFFNESS;
-        }
+        if (!is_held(pool, &s->system, s->machine->npull))
+            return message_refuse(
+                notes, ROTID_ERROR_STIFFNESS, s->machine->place.file, s->machine->place.line, s->machine->place.column,
+                "the magnetic pull is stronger than the bearings, which draws the rotor to the stator: expected a *PULL "
+                "below their stiffness");
         if (s->system.highest >= REACH * highest || s->basis.modes >= s->system.n || s->basis.modes >= MODES_MOST)
             return ROTID_OK;
     }

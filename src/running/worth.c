@@ -227,21 +227,19 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
     w.work = POOL_ARRAY(pool, double, square + (size_t)w.n);
     int status = w.gradient && w.known && w.information && w.work && what ? machine_nominal(pool, machine, x, &search.values)
                                                                           : ROTID_ERROR_MEMORY;
-    if (!status && !w.at_rest) {
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no *IDENTIFY of the rotor at rest, expected one");
-        status = ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && !w.at_rest)
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1,
+                                "the deck has no *IDENTIFY of the rotor at rest, expected one");
     if (!status)
         status = search_until(pool, 0, options->backward ? 0 : options->number, options->backward ? options->number : 0, notes,
                               &search);
     const struct critical *critical = status ? NULL : search_find(&search, options->number, options->backward);
-    if (!status && !critical) {
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
-                    "the machine has %d critical speeds with %s whirl up to %.0f rpm, expected "
-                    "one of them and not number %d",
-                    search_count(&search, options->backward), whirl, search.speed[search.count - 1] / RPM, options->number);
-        status = ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && !critical)
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1,
+                                "the machine has %d critical speeds with %s whirl up to %.0f rpm, expected "
+                                "one of them and not number %d",
+                                search_count(&search, options->backward), whirl, search.speed[search.count - 1] / RPM,
+                                options->number);
     if (!status)
         status = bands_gradient(pool, &search, 1, critical, w.gradient, &w.rest);
     if (!status)

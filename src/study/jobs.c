@@ -152,12 +152,10 @@ static int hide(const struct plan_hide *hidden, struct job *lower, const struct 
     take_values(lower, truth, truth->lower);
     take_values(upper, truth, truth->upper);
     for (int p = 0; truth_parameter(truth, p); p++)
-        if (truth->upper[p] < truth->lower[p]) {
-            message_add(messages, SEVERITY_ERROR, hidden->place.file, hidden->place.line, hidden->place.column,
-                        "%s lies between %.6g and %.6g, expected the lower one first", truth_parameter(truth, p)->name,
-                        truth->lower[p], truth->upper[p]);
-            return ROTID_ERROR_SYNTAX;
-        }
+        if (truth->upper[p] < truth->lower[p])
+            return message_refuse(messages, ROTID_ERROR_SYNTAX, hidden->place.file, hidden->place.line, hidden->place.column,
+                                  "%s lies between %.6g and %.6g, expected the lower one first", truth_parameter(truth, p)->name,
+                                  truth->lower[p], truth->upper[p]);
     return ROTID_OK;
 }
 

@@ -45,19 +45,16 @@ static int add_part(struct merger *m, int part, int *descriptor)
     struct stat about;
     struct results file;
     *descriptor = file_descriptor(path, &about);
-    if (*descriptor < 0) {
-        message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
-        return ROTID_ERROR_IO;
-    }
+    if (*descriptor < 0)
+        return message_refuse(m->messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s, expected a file of results",
+                              strerror(errno));
     int status = results_read(m->pool, *descriptor, path, m->messages, &file);
     m->header = part ? m->header : file.header;
     if (!status)
         status = header_difference(m->pool, &file.header, &m->header, 0, &difference);
-    if (!status && difference) {
-        message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "this file is not of the same study as %s: %s", m->path[0],
-                    difference);
-        status = ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && difference)
+        status = message_refuse(m->messages, ROTID_ERROR_ARGUMENT, path, 1, 1, "this file is not of the same study as %s: %s",
+                                m->path[0], difference);
     for (long run = 0; !status && run < file.header.runs; run++) {
         if (!file.place[run].length)
             continue;
@@ -85,19 +82,18 @@ static int compare(struct merger *m, const struct part_line *one, const struct p
     const struct part_line *both[2] = {one, other};
     size_t length[2];
     for (int i = 0; i < 2; i++) {
-        if (results_fetch(both[i]->place, text[i])) {
-            message_add(m->messages, SEVERITY_ERROR, m->path[both[i]->part], 1, 1, "reading failed: %s", strerror(errno));
-            return ROTID_ERROR_IO;
-        }
+        if (results_fetch(both[i]->place, text[i]))
+            return message_refuse(m->messages, ROTID_ERROR_IO, m->path[both[i]->part], 1, 1, "reading failed: %s",
+                                  strerror(errno));
         text[i][both[i]->place.length] = 0;
         length[i] = timeless(text[i]);
     }
     if (length[0] == length[1] && !memcmp(text[0], text[1], length[0]))
         return ROTID_OK;
-    message_add(m->messages, SEVERITY_ERROR, m->path[other->part], 1, 1,
-                "run %ld has another result in %s, expected the same: were both computed by one program on machines of one kind?",
-                one->run, m->path[one->part]);
-    return ROTID_ERROR_ARGUMENT;
+    return message_refuse(
+        m->messages, ROTID_ERROR_ARGUMENT, m->path[other->part], 1, 1,
+        "run %ld has another result in %s, expected the same: were both computed by one program on machines of one kind?",
+        one->run, m->path[one->part]);
 }
 
 /* Of the lines of each run the first one; the others that did not fail have to say the same. */
@@ -152,10 +148,9 @@ int merge_results(struct pool *pool, int count, char *const *path, const char *t
     struct merger m = {.pool = pool, .messages = messages, .path = path};
     int *descriptor = POOL_ARRAY(pool, int, count), status = descriptor ? ROTID_OK : ROTID_ERROR_MEMORY, opened = 0;
     *merge = (struct merge){0};
-    if (!status && access(to, F_OK) == 0) {
-        message_add(messages, SEVERITY_ERROR, to, 1, 1, "exists, expected the name of a new file for all parts together");
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!status && access(to, F_OK) == 0)
+        return message_refuse(messages, ROTID_ERROR_ARGUMENT, to, 1, 1,
+                              "exists, expected the name of a new file for all parts together");
     for (; opened < count && !status; opened++)
         status = add_part(&m, opened, &descriptor[opened]);
     if (!status)

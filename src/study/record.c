@@ -17,12 +17,6 @@
 
 #define SYNC_SECONDS 1.0
 
-static int say(struct message_list *messages, const char *path, int status, const char *what)
-{
-    message_add(messages, SEVERITY_ERROR, path, 1, 1, "%s", what);
-    return status;
-}
-
 /* 0, or the process that holds it; -1 where this file cannot be locked (errno). */
 static long lock(int descriptor)
 {
@@ -42,19 +36,16 @@ static int open_locked(const char *path, struct message_list *messages, int *des
     for (;;) {
         struct stat open_one, named;
         *descriptor = open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
-        if (*descriptor < 0) {
-            message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s", strerror(errno));
-            return ROTID_ERROR_IO;
-        }
+        if (*descriptor < 0)
+            return message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s", strerror(errno));
         int status = ROTID_OK;
         if (fstat(*descriptor, &open_one) || !S_ISREG(open_one.st_mode))
-            status =
-                say(messages, path, ROTID_ERROR_ARGUMENT, "this is no file that lines can be added to, expected a regular one");
+            status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                    "this is no file that lines can be added to, expected a regular one");
         long holder = status ? 0 : lock(*descriptor);
         if (holder > 0) {
-            message_add(messages, SEVERITY_ERROR, path, 1, 1, "is being written by process %ld, expected another file or its end",
-                        holder);
-            status = ROTID_ERROR_ARGUMENT;
+            status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                    "is being written by process %ld, expected another file or its end", holder);
         } else if (holder < 0) {
             message_add(messages, SEVERITY_WARNING, path, 1, 1,
                         "cannot be locked here (%s): see to it that no second study writes to it", strerror(errno));
@@ -117,10 +108,8 @@ static int append(struct study_record *record, const char *bytes, size_t count)
 
 static int begin_file(struct study_record *record, const char *header, struct message_list *messages)
 {
-    if (ftruncate(record->descriptor, 0) || append(record, header, strlen(header)) || fsync(record->descriptor)) {
-        message_add(messages, SEVERITY_ERROR, record->path, 1, 1, "cannot be written: %s", strerror(errno));
-        return ROTID_ERROR_IO;
-    }
+    if (ftruncate(record->descriptor, 0) || append(record, header, strlen(header)) || fsync(record->descriptor))
+        return message_refuse(messages, ROTID_ERROR_IO, record->path, 1, 1, "cannot be written: %s", strerror(errno));
     sync_folder(record->path);
     return ROTID_OK;
 }
@@ -149,11 +138,9 @@ static int cut(struct study_record *record, const struct results *file, struct m
     record->length = file->end;
     if (file->size <= file->end)
         return ROTID_OK;
-    if (ftruncate(record->descriptor, file->end)) {
-        message_add(messages, SEVERITY_ERROR, record->path, file->lines + 1, 1, "the cut line cannot be removed: %s",
-                    strerror(errno));
-        return ROTID_ERROR_IO;
-    }
+    if (ftruncate(record->descriptor, file->end))
+        return message_refuse(messages, ROTID_ERROR_IO, record->path, file->lines + 1, 1, "the cut line cannot be removed: %s",
+                              strerror(errno));
     message_add(messages, SEVERITY_NOTE, record->path, file->lines + 1, 1, "a line that was cut has been removed");
     return ROTID_OK;
 }
@@ -206,7 +193,7 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
     if (!record->path)
         status = ROTID_ERROR_MEMORY;
     else if (fstat(record->descriptor, &information))
-        status = say(messages, path, ROTID_ERROR_IO, strerror(errno));
+        status = message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "%s", strerror(errno));
     else if (!information.st_size || is_unbegun(record->descriptor, information.st_size, first))
         status = begin_file(record, first, messages);
     else

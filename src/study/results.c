@@ -228,14 +228,12 @@ struct reading {
 
 static int cannot_read(struct reading *r)
 {
-    message_add(r->messages, SEVERITY_ERROR, r->path, r->number + 1, 1, "reading failed: %s", strerror(errno));
-    return ROTID_ERROR_IO;
+    return message_refuse(r->messages, ROTID_ERROR_IO, r->path, r->number + 1, 1, "reading failed: %s", strerror(errno));
 }
 
 static int malformed(struct reading *r, int line, const char *what)
 {
-    message_add(r->messages, SEVERITY_ERROR, r->path, line, 1, "%s", what);
-    return ROTID_ERROR_SYNTAX;
+    return message_refuse(r->messages, ROTID_ERROR_SYNTAX, r->path, line, 1, "%s", what);
 }
 
 /* More of the file behind what the buffer holds. ROTID_OK, 1 at the end. */
@@ -379,11 +377,9 @@ static int read_run(struct reading *r, const char *study, struct results *result
     struct result_place *place = &results->place[said.run];
     at.failed = said.status == STUDY_FAILED;
     at.input = said.input ? digest_name(said.input) : 0;
-    if (place->length && !place->failed && place->input == at.input) {
-        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1,
-                    "run %d stands in a line above already, expected one line of each run that did not fail", said.run);
-        return ROTID_ERROR_SYNTAX;
-    }
+    if (place->length && !place->failed && place->input == at.input)
+        return message_refuse(r->messages, ROTID_ERROR_SYNTAX, r->path, r->number, 1,
+                              "run %d stands in a line above already, expected one line of each run that did not fail", said.run);
     *place = at;
     results->most = at.length > results->most ? at.length : results->most;
     results->in_order &= said.run > results->last;

@@ -416,11 +416,9 @@ static int count_runs(struct pool *pool, const struct check *check, struct study
         for (int v = 0; v < plan->nvariant; v++) {
             deck->starts[v] = starts_of(plan, check->nparameter[v + (ptrdiff_t)d * plan->nvariant]);
             runs += (double)cells(plan) * plan->replicates * (double)deck->starts[v];
-            if (runs > STUDY_MOST_RUNS) {
-                message_add(messages, SEVERITY_ERROR, plan->path ? plan->path : plan->deck[0].path, 1, 1,
-                            "the plan has more than %d runs, expected fewer", STUDY_MOST_RUNS);
-                return ROTID_ERROR_SYNTAX;
-            }
+            if (runs > STUDY_MOST_RUNS)
+                return message_refuse(messages, ROTID_ERROR_SYNTAX, plan->path ? plan->path : plan->deck[0].path, 1, 1,
+                                      "the plan has more than %d runs, expected fewer", STUDY_MOST_RUNS);
             deck->first[v] = study->runs;
             study->runs = (long)runs;
         }

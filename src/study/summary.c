@@ -360,10 +360,9 @@ int summary_read(struct pool *pool, const char *path, struct message_list *messa
     struct results file;
     int descriptor = file_descriptor(path, &about);
     *out = (struct study_result){.results = path};
-    if (descriptor < 0) {
-        message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
-        return ROTID_ERROR_IO;
-    }
+    if (descriptor < 0)
+        return message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s, expected a file of results",
+                              strerror(errno));
     int status = results_read(pool, descriptor, path, messages, &file);
     if (!status)
         status = read_all(pool, messages, &file, runs, out);

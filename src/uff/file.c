@@ -112,9 +112,8 @@ static int read_mode(struct uff_lines *lines, struct uff_shape *shape)
     take_reals(shape, (int)counts[1], real);
     if (shape->frequency_hz >= 0 && isfinite(shape->frequency_hz))
         return ROTID_OK;
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1,
-                "set 55: record 8: the frequency is negative or not finite, expected zero or more");
-    return ROTID_ERROR_SYNTAX;
+    return message_refuse(lines->messages, ROTID_ERROR_SYNTAX, lines->path, line, 1,
+                          "set 55: record 8: the frequency is negative or not finite, expected zero or more");
 }
 
 /* The nodes with their values, to the closing '-1'. */
@@ -156,9 +155,9 @@ static int refuse_repeated_nodes(struct uff_lines *lines, struct growing *growin
             continue;
         const struct placed_values *first = &growing->values[labels->item[i - 1].order];
         const struct placed_values *again = &growing->values[labels->item[i].order];
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, again->line, 1,
-                    "set 55: node %d occurs twice in the set, first in line %d, expected once", again->node, first->line);
-        return ROTID_ERROR_SYNTAX;
+        return message_refuse(lines->messages, ROTID_ERROR_SYNTAX, lines->path, again->line, 1,
+                              "set 55: node %d occurs twice in the set, first in line %d, expected once", again->node,
+                              first->line);
     }
     return ROTID_OK;
 }
@@ -234,9 +233,8 @@ static int check_repeated(const char *path, const struct uff_placed_node *first,
         wrong = "was elsewhere in an earlier set";
     if (!wrong)
         return ROTID_OK;
-    message_add(messages, SEVERITY_ERROR, path, again->line, 1, "set %d: node %d %s, line %d", again->set, again->node.id, wrong,
-                first->line);
-    return ROTID_ERROR_SYNTAX;
+    return message_refuse(messages, ROTID_ERROR_SYNTAX, path, again->line, 1, "set %d: node %d %s, line %d", again->set,
+                          again->node.id, wrong, first->line);
 }
 
 /* All nodes of the list to *out, those of several sets joined. The same id twice in a set, or in two sets with different

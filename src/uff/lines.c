@@ -155,9 +155,8 @@ int uff_open_lines(struct uff_lines *lines)
     lines->stream = file_open(lines->path, 1, &about); /* `buffer` is the only one */
     if (!lines->stream) {
         int status = file_status(errno);
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be %s: %s", errno == EISDIR ? "read" : "opened",
-                    file_error_text(errno, why));
-        return status;
+        return message_refuse(lines->messages, status, lines->path, 1, 1, "cannot be %s: %s", errno == EISDIR ? "read" : "opened",
+                              file_error_text(errno, why));
     }
     lines->size = S_ISREG(about.st_mode) ? (long long)about.st_size : -1;
     return ROTID_OK;
@@ -200,8 +199,8 @@ const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT
 static int fail_reading(struct uff_lines *lines)
 {
     char why[HOST_ERROR_TEXT];
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, 1, "cannot be read: %s", host_error_text(errno, why));
-    return ROTID_ERROR_IO;
+    return message_refuse(lines->messages, ROTID_ERROR_IO, lines->path, lines->line, 1, "cannot be read: %s",
+                          host_error_text(errno, why));
 }
 
 /* ROTID_OK when there are bytes in the buffer, UFF_END or ROTID_ERROR_IO. */
