@@ -91,6 +91,7 @@ struct command {
     struct pool pool;
     struct message_list messages;
     size_t printed;          /* of the messages */
+    double progressed;       /* on the clock, when progress was last shown; 0: not yet */
     rotid_deck *read;        /* NULL of commands that read none */
     const struct job *job;   /* of it, of several states the first one's */
     struct result_head head; /* of its result */
@@ -159,8 +160,8 @@ int command_write_csv(struct command *command, const struct csv_part *part, cons
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);
 /* What a long call of the library gets: command_cancelled and, where somebody would see it, a line on standard error that is
- * written over five times a second, to be ended with terminal_progress_end. *last: 0, and alive as long as the environment. */
-rotid_environment command_environment(const struct command *command, double *last);
+ * written over five times a second. One at a time. */
+rotid_environment command_environment(struct command *command);
 
 /* A write beyond the largest size of a file is an error, and how a child ended can be waited for, whatever was inherited. */
 void command_set_signals(void);

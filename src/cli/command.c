@@ -148,12 +148,13 @@ static void show_progress(void *context, const char *stage, int step)
     terminal_progress("rotid: %s %d", stage, step);
 }
 
-rotid_environment command_environment(const struct command *command, double *last)
+rotid_environment command_environment(struct command *command)
 {
+    command->progressed = 0;
     return (rotid_environment){.size = sizeof(rotid_environment),
                                .cancelled = command_cancelled,
                                .progress = command_wants_progress(command) ? show_progress : NULL,
-                               .context = last};
+                               .context = &command->progressed};
 }
 
 /* What --csv writes. */

@@ -100,8 +100,7 @@ static int chosen_state(struct command *command)
 
 static int fit_all(struct command *command, const struct states *states, struct identification *found, struct command_fit *fit)
 {
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     struct states joined;
     struct runup *runup;
     int status = runup_join(&command->pool, states, &command->messages, &joined, &runup);
@@ -110,8 +109,6 @@ static int fit_all(struct command *command, const struct states *states, struct 
     status = runup_close(runup) ? ROTID_ERROR_MEMORY : status;
     for (int s = 0; s < states->nstate && !status && states->nstate > 1; s++)
         status = identify_own_unknowns(&command->pool, &states->state[s], &found[s]);
-    if (environment.progress)
-        terminal_progress_end();
     return status;
 }
 

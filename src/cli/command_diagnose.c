@@ -43,7 +43,6 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
 int command_diagnose(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    double last = 0;
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
         command->head.seed = (double)(command->seed = 1);
     rotid_diagnose_options options = {
@@ -53,11 +52,9 @@ int command_diagnose(struct command *command)
         options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);
         options.after = comma + 1;
     }
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     rotid_diagnosis *diagnosis;
     int status = rotid_diagnose(command->read, &options, &environment, failure, &diagnosis);
-    if (environment.progress)
-        terminal_progress_end();
     if (status)
         return command_fail_with(command, status, failure);
     int code = show(command, diagnosis);

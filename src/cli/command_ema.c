@@ -93,8 +93,7 @@ static int is_moving(const struct frf_set *set, const struct ema *ema)
 /* Modes of one file. An exit code, EXIT_DONE to go on; *options: with --per-point where the data ask for it. */
 static int extract_modes(struct command *command, struct ema_options *options, struct measurement *measurement, struct ema *ema)
 {
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     struct measurement_options from = command->ema.measurement;
     from.threads = options->threads = command->threads;
     from.low_hz = options->low_hz;
@@ -121,8 +120,6 @@ static int extract_modes(struct command *command, struct ema_options *options, s
     }
     if (!status)
         note_untied(command, ema);
-    if (environment.progress)
-        terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted; nothing was written\n");
         return EXIT_DOUBTFUL;

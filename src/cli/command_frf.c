@@ -101,8 +101,7 @@ static int synthesise(struct command *command, const struct fitted_state *state,
 
 static int synthesise_all(struct command *command, const struct command_fit *fit, struct result *result)
 {
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     struct frf_view *view = POOL_ARRAY(&command->pool, struct frf_view, fit->count);
     int status = view ? ROTID_OK : ROTID_ERROR_MEMORY, code, done = 0, all = 0;
     for (int i = 0; i < fit->count && !status; i++) {
@@ -110,8 +109,6 @@ static int synthesise_all(struct command *command, const struct command_fit *fit
         done += status ? 0 : view[i].result->ndone;
         all += status ? 0 : view[i].result->nrow;
     }
-    if (environment.progress)
-        terminal_progress_end();
     if (status)
         return command_fail(command, status);
     code = command_judge_fit(command, fit, "synthesised");

@@ -30,8 +30,7 @@ static int show(struct command *command, rotid_identification *found)
 int command_identify(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     rotid_identification *found;
     if (!command->read->nparameter)
         return command_fail(command, message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->deck, 1, 1,
@@ -40,8 +39,6 @@ int command_identify(struct command *command)
     if (refused)
         return refused;
     int status = rotid_identify(command->read, !command->no_baseline, &environment, failure, &found);
-    if (environment.progress)
-        terminal_progress_end();
     if (status)
         return command_fail_with(command, status, failure);
     int code = show(command, found);

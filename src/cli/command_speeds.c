@@ -71,15 +71,12 @@ static int run(struct command *command, const struct states *states, const rotid
     const struct machine *machine = states->machine;
     const struct job *job = &states->state[0].job;
     rotid_speeds *speeds = POOL_NEW(&command->pool, rotid_speeds);
-    double last = 0;
     rotid_fit_result own;
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     int status = speeds ? machine_fit(&command->pool, states, fit, &own) : ROTID_ERROR_MEMORY;
     if (!status)
         status =
             speeds_run(&command->pool, machine, job, own.x, fit ? &own : NULL, options, &environment, &command->messages, speeds);
-    if (environment.progress)
-        terminal_progress_end();
     if (status < 0)
         return command_fail(command, status);
     if (status > 0) {

@@ -28,18 +28,13 @@ static void show_progress(void *context, const struct study_progress *now)
 
 static int in_processes(void *context, struct command *command, const struct study *study, struct study_record *record)
 {
-    int terminal = command_wants_progress(command);
     const struct workers_options options = {.workers = command->threads,
                                             .timeout = command->study.timeout,
                                             .cancelled = command_cancelled,
-                                            .progress = terminal ? show_progress : NULL};
+                                            .progress = command_wants_progress(command) ? show_progress : NULL};
     (void)context;
     (void)fflush(NULL); /* before there are two of each buffer */
-    int status = workers_run(&command->pool, study, &options, record), reason = errno;
-    if (terminal)
-        terminal_progress_end();
-    errno = reason;
-    return status;
+    return workers_run(&command->pool, study, &options, record);
 }
 
 /* What is wrong with files of results stands in the messages. */

@@ -52,7 +52,6 @@ int command_suggest(struct command *command)
 {
     const struct suggest_arguments *given = &command->suggest;
     char failure[ROTID_FAILURE_LENGTH];
-    double last = 0;
     if (!command->seed)
         command->head.seed = (double)(command->seed = 1);
     int speed, backward, wrong = parse_aim(given->aim, &speed, &backward);
@@ -70,11 +69,9 @@ int command_suggest(struct command *command)
                                            .seed = (long)command->seed,
                                            .speed = speed,
                                            .speed_backward = backward};
-    const rotid_environment environment = command_environment(command, &last);
+    const rotid_environment environment = command_environment(command);
     rotid_suggestion *suggestion;
     int status = rotid_suggest(command->read, &options, &environment, failure, &suggestion);
-    if (environment.progress)
-        terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted; there is no result\n");
         return EXIT_DOUBTFUL;

@@ -488,8 +488,7 @@ void terminal_mark(enum terminal_mark mark);
 /* What stands in terminal_out to standard error instead. */
 void terminal_to_error(void);
 
-/* A line on standard error that the next one is written over, and its end. */
+/* A line on standard error that the next one is written over; whatever else is printed takes its place. */
 void terminal_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
-void terminal_progress_end(void);
 
 #endif

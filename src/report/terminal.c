@@ -33,7 +33,8 @@ static struct {
     FILE *stream;
     char *text;
     size_t length;
-    int reason; /* why something did not arrive, an errno */
+    int reason;   /* why something did not arrive, an errno */
+    int progress; /* a line of progress stands on standard error */
 } out;
 
 int terminal_open(void)
@@ -64,8 +65,16 @@ static int arrived(void)
     return out.reason ? ROTID_ERROR_IO : ROTID_OK;
 }
 
+static void end_progress(void)
+{
+    if (out.progress)
+        (void)fputs("\r\033[K", stderr);
+    out.progress = 0;
+}
+
 int terminal_flush(void)
 {
+    end_progress();
     if (!out.reason && (fflush(out.stream) != 0 || ferror(out.stream)))
         out.reason = ENOMEM;
     else if (!out.reason)
@@ -101,6 +110,7 @@ static void say(const char *format, va_list values)
 void terminal_say(const char *format, ...)
 {
     va_list values;
+    end_progress();
     if (out.stream)
         (void)terminal_flush(); /* what was printed before stands before it */
     va_start(values, format);
@@ -127,14 +137,10 @@ void terminal_mark(enum terminal_mark mark)
 void terminal_progress(const char *format, ...)
 {
     va_list values;
+    out.progress = 1;
     (void)fputc('\r', stderr);
     va_start(values, format);
     say(format, values);
     va_end(values);
     (void)fputs(" \033[K", stderr);
-}
-
-void terminal_progress_end(void)
-{
-    (void)fputs("\r\033[K", stderr);
 }
