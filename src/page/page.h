@@ -12,12 +12,12 @@
  *                      provenance: compose.c
  *   document_*         the page under construction: answers, headings, tables (struct table of src/report), figures  document.c
  *   words              causes, candidates and files in words; hidden_in_words: what may hide in a parameter       words.c
- *   data_write         the data block: results as JSON                                                               data.c
- *   page_write         head with the content policy, answers, body, data, script to a file, whole or not there    document.c
+ *   page_write         head with the content policy, answers, body, the data block: results as JSON, script to a file, whole or
+ *                      not there: document.c
  *
  * C draws nothing: where a figure may stand it writes an empty element with the name of a group of figures, and the script knows
  * which figures belong there. Without the script, or without D3 when the program was built, answer and tables stand alone. The
- * room computes nothing of a model; texts of files are escaped by src/report/html.c. */
+ * room computes nothing of a model; texts of files are escaped by html_text of src/report. */
 
 #include <cJSON.h>
 #include <stdio.h>
@@ -145,8 +145,6 @@ void page_compose(struct document *document, int count, const struct result *res
  * wrong in the messages and nothing written. */
 int page_write(struct document *document, int count, const struct result *result, const char *path, const char *made_by,
                struct message_list *messages, const char **file);
-/* The data block: what the script draws from. */
-void data_write(FILE *out, struct pool *pool, int count, const struct result *result);
 
 /* The style sheet and the script as `make` embeds them, with the SHA-256 of their bytes in base64; no script ("") where there was
  * no D3. page_licence: of D3. */

@@ -1,10 +1,253 @@
-/* `rotid frf` on the screen, and its tables. */
+/* Synthesised transfer functions: the struct of their JSON, their universal file, and what `rotid frf` shows. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "report/report.h"
 #include "result/result.h"
+#include "uff/uff.h"
+
+#define TWO_PI  6.28318530717958647692
+#define DEGREES 57.295779513082321
+
+static struct transfer_agreement agreement(const struct frf_sums *sums, const struct frf_sums *moved)
+{
+    return (struct transfer_agreement){frf_sums_frac(sums), frf_sums_frac(moved), frf_sums_frac_conjugate(sums),
+                                       frf_sums_scale(sums), frf_sums_level(sums)};
+}
+
+/* Nonzero: memory is out; of all below. */
+static int add_parameters(const struct frf_view *view, struct transfer_result *out)
+{
+    int n = view->identified ? view->identified->fit->n : 0;
+    out->parameters = POOL_ARRAY(view->pool, struct transfer_parameter, n);
+    for (int p = 0; p < n && out->parameters; p++)
+        out->parameters[out->nparameters++] = (struct transfer_parameter){
+            view->job->unknowns.bounds[p].name, view->job->unknowns.bounds[p].unit, view->identified->fit->x[p]};
+    return !out->parameters;
+}
+
+static int add_modes(struct pool *pool, const struct frf_result *r, struct transfer_result *out)
+{
+    const struct synthesis *s = &r->synthesis;
+    struct transfer_mode_agreement *agrees = POOL_ARRAY(pool, struct transfer_mode_agreement, r->nband);
+    out->modes = POOL_ARRAY(pool, struct transfer_mode, s->nmode);
+    if (!out->modes || !agrees)
+        return 1;
+    for (; out->nmodes < s->nmode; out->nmodes++) {
+        int m = out->nmodes, number = m - s->nrigid + 1;
+        out->modes[m] = (struct transfer_mode){.rigid = m < s->nrigid,
+                                               .mode = m < s->nrigid ? ROTID_NONE : number,
+                                               .model_hz = sqrt(fmax(s->lambda[m], 0)) / TWO_PI,
+                                               .measured_hz = NAN,
+                                               .damping = r->zeta[m],
+                                               .damping_from = transfer_damping_words[r->damping[m]]};
+        for (int b = 0; b < r->nband; b++) {
+            const struct frf_band *band = &r->band[b];
+            if (band->mode != number)
+                continue;
+            out->modes[m].measured_hz = band->measured_hz;
+            agrees[b] = (struct transfer_mode_agreement){
+                .frac = frf_sums_frac(&band->sums),
+                .frac_at_measured_frequencies = frf_sums_frac(&band->moved),
+                .level_db = frf_sums_level(&band->resonance),
+                .phase_deg = carg(band->resonance.cross) * DEGREES,
+                .worst_function = band->worst >= 0 ? band->worst : ROTID_NONE,
+            };
+            out->modes[m].agreement = r->is_measured ? &agrees[b] : NULL;
+        }
+    }
+    return 0;
+}
+
+static struct transfer_beside *beside_measured(struct pool *pool, const struct frf_result *r, int i)
+{
+    const struct frf_row *row = &r->row[i];
+    struct transfer_beside *beside = POOL_NEW(pool, struct transfer_beside);
+    struct transfer_at_mode *mode = POOL_ARRAY(pool, struct transfer_at_mode, r->nband);
+    if (!beside || !mode)
+        return NULL;
+    *beside = (struct transfer_beside){.agreement = agreement(&row->sums, &row->moved),
+                                       .measured_reversed = row->sign < 0,
+                                       .measured_reciprocal = row->is_reciprocal,
+                                       .nat_modes = r->nband,
+                                       .at_modes = mode};
+    for (int b = 0; b < r->nband; b++) {
+        const struct frf_at_mode *at = &r->at[b + (ptrdiff_t)i * r->nband];
+        mode[b] = (struct transfer_at_mode){r->band[b].mode, at->level_db, at->phase_deg, at->deviation};
+    }
+    return beside;
+}
+
+static int add_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im)
+{
+    double *real = POOL_ARRAY(pool, double, n), *imag = POOL_ARRAY(pool, double, n);
+    for (int l = 0; l < n && real && imag; l++) {
+        real[l] = creal(h[l]);
+        imag[l] = cimag(h[l]);
+    }
+    *re = real;
+    *im = imag;
+    return !real || !imag;
+}
+
+static int add_functions(const struct frf_view *view, struct transfer_result *out)
+{
+    struct pool *pool = view->pool;
+    const struct frf_result *r = view->result;
+    double complex *h = POOL_ARRAY(pool, double complex, r->nline), *work = POOL_ARRAY(pool, double complex, r->nline);
+    double *frequency_hz = POOL_ARRAY(pool, double, r->nline);
+    out->functions = POOL_ARRAY(pool, struct transfer_function, r->ndone);
+    if (!h || !work || !frequency_hz || !out->functions)
+        return 1;
+    for (int l = 0; l < r->nline; l++)
+        frequency_hz[l] = r->frequency_hz[l];
+    for (; out->nfunctions < r->ndone; out->nfunctions++) {
+        const struct frf_row *row = &r->row[out->nfunctions];
+        struct transfer_function *f = &out->functions[out->nfunctions];
+        *f = (struct transfer_function){.response = row->response,
+                                        .reference = row->reference,
+                                        .response_z_m = row->response_z,
+                                        .reference_z_m = row->reference_z};
+        if (r->is_measured && !(f->beside = beside_measured(pool, r, out->nfunctions)))
+            return 1;
+        if (!out->with_curves)
+            continue;
+        f->nfrequency_hz = r->nline;
+        f->frequency_hz = frequency_hz;
+        frf_synthesised(r, out->nfunctions, 1, h, work);
+        if (add_parts(pool, r->nline, h, &f->synthesised_re, &f->synthesised_im))
+            return 1;
+        if (!r->is_measured)
+            continue;
+        frf_measured_curve(r, view->set, out->nfunctions, h);
+        if (add_parts(pool, r->nline, h, &f->measured_re, &f->measured_im))
+            return 1;
+    }
+    return 0;
+}
+
+const struct transfer_result *frf_result_of(const struct frf_view *view)
+{
+    const struct frf_result *r = view->result;
+    struct transfer_agreement *all = POOL_NEW(view->pool, struct transfer_agreement);
+    struct transfer_result *out = POOL_NEW(view->pool, struct transfer_result);
+    if (!all || !out)
+        return NULL;
+    *all = agreement(&r->sums, &r->moved);
+    *out = (struct transfer_result){
+        .complete = r->ndone == r->nrow,
+        .quantity = transfer_quantity_words[r->quantity],
+        .unit = transfer_unit_words[r->quantity],
+        .lines = r->nline,
+        .low_hz = r->frequency_hz[0],
+        .high_hz = r->frequency_hz[r->nline - 1],
+        .modes_up_to_hz = r->up_to_hz,
+        .window_decay = r->decay,
+        .measured_file = r->is_measured ? view->job->options.frf.file : NULL,
+        .agreement = r->is_measured ? all : NULL,
+        .left_out = r->is_measured ? r->nleft_out : ROTID_NONE,
+        .with_curves = (double)r->nline * r->ndone <= JSON_FRF_MOST_LINES,
+    };
+    int failed = add_parameters(view, out) || add_modes(view->pool, r, out) || add_functions(view, out);
+    return failed ? NULL : out;
+}
+
+/* ---- sets 58 */
+
+static int by_id(const void *left, const void *right)
+{
+    const struct uff_node *a = left, *b = right;
+    return (a->id > b->id) - (a->id < b->id);
+}
+
+static int write_nodes(FILE *stream, const struct frf_view *view)
+{
+    const struct frf_result *r = view->result;
+    struct uff_node *node = POOL_ARRAY(view->pool, struct uff_node, 2 * (size_t)r->ndone);
+    int axis = view->job->options.frf.axis, count = 0;
+    if (!node)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < 2 * r->ndone; i++) {
+        const struct frf_row *row = &r->row[i / 2];
+        node[i].id = i % 2 ? row->reference : row->response;
+        node[i].color = 1;
+        node[i].x[axis] = i % 2 ? row->reference_z : row->response_z;
+    }
+    qsort(node, 2 * (size_t)r->ndone, sizeof *node, by_id);
+    for (int i = 0; i < 2 * r->ndone; i++)
+        if (!count || node[i].id != node[count - 1].id)
+            node[count++] = node[i];
+    return uff_write_nodes(stream, 2411, count, node);
+}
+
+/* The direction of the measurement without its sign, which the synthesised function does not have; else the first lateral axis.
+ */
+static int direction_of(const struct frf_view *view, const struct frf_row *row)
+{
+    int measured = row->measured ? abs(row->measured->response_direction) : 0;
+    return measured ? measured : view->job->options.frf.axis == 0 ? 2 : 1;
+}
+
+static int write_function(FILE *stream, const struct frf_view *view, int i, double complex *h, double complex *work, double *re,
+                          double *im)
+{
+    static const int specific[] = {8, 11, 12};
+    static const char *const labels[] = {"Displacement", "Velocity", "Acceleration"}, *const units[] = {"m", "m/s", "m/s2"};
+    const struct frf_result *r = view->result;
+    const struct frf_row *row = &r->row[i];
+    struct uff_function_writer writer;
+    struct uff_function f = {.type = UFF_TRANSFER,
+                             .number = i + 1,
+                             .response_node = row->response,
+                             .reference_node = row->reference,
+                             .ordinate = UFF_COMPLEX_DOUBLE,
+                             .count = r->nline,
+                             .start = r->frequency_hz[0],
+                             .abscissa = {.specific_type = 18, .label = "Frequency", .unit = "Hz"},
+                             .numerator = {.specific_type = specific[r->quantity], .length = 1},
+                             .denominator = {.specific_type = 13, .force = 1, .label = "Excitation force", .unit = "N"}};
+    f.response_direction = f.reference_direction = direction_of(view, row);
+    f.step = r->nline > 1 ? (r->frequency_hz[r->nline - 1] - f.start) / (r->nline - 1) : 1;
+    f.is_even = 1; /* lines of a measured file and of LOW, HIGH are */
+    (void)snprintf(f.id[0], sizeof f.id[0], "synthesised %s %d over %d", transfer_quantity_words[r->quantity], row->response,
+                   row->reference);
+    (void)snprintf(f.numerator.label, sizeof f.numerator.label, "%s", labels[r->quantity]);
+    (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", units[r->quantity]);
+    frf_synthesised(r, i, 1, h, work);
+    for (int l = 0; l < r->nline; l++) {
+        re[l] = creal(h[l]);
+        im[l] = cimag(h[l]);
+    }
+    int status = uff_write_function(stream, &f, &writer);
+    if (!status)
+        status = uff_write_values(&writer, r->nline, NULL, re, im);
+    return status ? status : uff_end_function(&writer);
+}
+
+int frf_write_file(FILE *stream, const char *version, const struct frf_view *view)
+{
+    static const struct uff_units si = {1, "SI", 2, 1, 1, 1, 273.15};
+    const struct frf_result *r = view->result;
+    struct uff_header header = {0};
+    double complex *h = POOL_ARRAY(view->pool, double complex, r->nline),
+                   *work = POOL_ARRAY(view->pool, double complex, r->nline);
+    double *re = POOL_ARRAY(view->pool, double, r->nline), *im = POOL_ARRAY(view->pool, double, r->nline);
+    if (!h || !work || !re || !im)
+        return ROTID_ERROR_MEMORY;
+    (void)snprintf(header.model, sizeof header.model, "rotid frf");
+    (void)snprintf(header.program, sizeof header.program, "rotid %s", version);
+    int status = uff_write_header(stream, &header);
+    if (!status)
+        status = uff_write_units(stream, &si);
+    if (!status)
+        status = write_nodes(stream, view);
+    for (int i = 0; i < r->ndone && !status; i++)
+        status = write_function(stream, view, i, h, work, re, im);
+    return status;
+}
+
+/* ---- the screen and its tables */
 
 /* ---- Bode plot in plain ASCII */
 
@@ -126,7 +369,6 @@ static void frf_plot(FILE *out, int columns, int nline, const double *hz, const 
 #define WORST     10
 #define COLUMNS   88   /* of the plot */
 #define FLIPPED   0.05 /* gain of FRAC with the conjugate that is no accident */
-#define DEGREES   57.295779513082321
 
 /* ---- tables */
 

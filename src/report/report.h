@@ -5,16 +5,15 @@
  *
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
- *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html
- *   identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results (table_of_*),
- * and what the command shows on the screen (screen_*); chart.c: bars, strips along the axis screen.c          heading, notes,
- * name of a state, a table on the screen result_ema.c, result_frf.c, result_uff.c   the struct of the JSON of the commands that
- * have no struct in rotid.h human.c           numbers for people: human_value: prefix of the unit, four significant digits;
- * human_interval: 95 % layout.c, html.c  cells and running text of a width; text and elements of HTML, escaped csv.c, csv_uff.c
- * --csv: the files of a command, all or none; quoting, formulas made harmless; universal files frf_file.c        frf_write_file:
- * synthesised functions as sets 58 output.c          output_open, output_close: a file is written beside its name, then renamed;
- * several at once, all or none terminal.c        standard output and error: memory until terminal_flush; one filter makes control
- * characters harmless
+ *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html; elements of
+ * HTML, escaped; --csv: the files of a command, all or none, formulas made harmless; on the screen heading, notes, name of a
+ * state, a table identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results
+ * (table_of_*), what the command shows on the screen (screen_*), and where rotid.h has no struct for it, that of its JSON;
+ *                     chart.c: bars, strips along the axis
+ *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
+ *   layout.c          cells and running text of a width
+ *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none
+ *   terminal.c        standard output and error: memory until terminal_flush; one filter makes control characters harmless
  *
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */

@@ -1,8 +1,99 @@
-/* One table for all ways to show it: the cells are made once, here, in the units people read; three renderers write them. */
-#include "report/report.h"
-
+/* One table for all ways to show it: the cells are made once, here, in the units people read; three renderers write them, as CSV,
+ * lines of text and HTML. Before them what they write cells by, behind them the files of --csv's tables and the screen. */
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
+
+#include "base/base.h"
+#include "deck/deck.h"
+#include "report/report.h"
+#include "rotid.h"
+
+void html_text(FILE *out, const char *text)
+{
+    while (*text) {
+        size_t bytes = text_utf8(text);
+        char c = *text;
+        if (!text_visible(text) && c != '\n' && c != '\t')
+            (void)fputs(TEXT_REPLACEMENT, out);
+        else if (c == '&')
+            (void)fputs("&amp;", out);
+        else if (c == '<')
+            (void)fputs("&lt;", out);
+        else if (c == '>')
+            (void)fputs("&gt;", out);
+        else if (c == '"')
+            (void)fputs("&quot;", out);
+        else if (c == '\'')
+            (void)fputs("&#39;", out);
+        else
+            (void)fwrite(text, 1, bytes, out);
+        text += bytes ? bytes : 1;
+    }
+}
+
+void html_element(FILE *out, const char *name, const char *text)
+{
+    (void)fprintf(out, "<%s>", name);
+    html_text(out, text);
+    (void)fprintf(out, "</%.*s>\n", (int)strcspn(name, " "), name);
+}
+
+void csv_text(FILE *out, const char *before, const char *text)
+{
+    int formula = *text && strchr("=+-@\t", *text) != NULL, quoted = strpbrk(text, ",;\"\n\r\t") != NULL;
+    (void)fprintf(out, "%s%s%s", before, quoted ? "\"" : "", formula ? "'" : "");
+    for (; *text; text++)
+        (void)fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
+    (void)fputs(quoted ? "\"" : "", out);
+}
+
+void csv_number(FILE *out, const char *before, double value)
+{
+    char text[DECK_NUMBER_LENGTH];
+    (void)fprintf(out, "%s%s", before, isfinite(value) ? deck_number_text(value, text) : "");
+}
+
+int csv_table(FILE *out, const struct table *table)
+{
+    if (!table || table->pool->out_of_memory)
+        return ROTID_ERROR_MEMORY;
+    table_write_csv(out, table);
+    return ROTID_OK;
+}
+
+const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part)
+{
+    return pool_format(pool, "%s.%s.csv", path, part->suffix);
+}
+
+int csv_write(struct pool *pool, const char *path, const struct csv_part part[CSV_MOST_FILES], const void *from,
+              const char **failed)
+{
+    struct output output[CSV_MOST_FILES];
+    const char *name[CSV_MOST_FILES];
+    int files = 0, count = 0, status = ROTID_OK, which = 0;
+    for (; files < CSV_MOST_FILES && part[files].write; files++)
+        ;
+    for (int i = 0; i < files; i++)
+        if (!(name[i] = csv_path(pool, path, &part[i])))
+            return ROTID_ERROR_MEMORY;
+    while (count < files && !status) {
+        *failed = name[count];
+        status = output_open(&output[count], name[count]);
+        if (status)
+            break;
+        status = part[count].write(output[count].stream, pool, from);
+        count++;
+    }
+    for (int i = 0; i < count && status; i++)
+        output_abandon(&output[i]);
+    if (status)
+        return status;
+    status = output_close_all(files, output, &which);
+    *failed = status ? name[which] : NULL;
+    return status;
+}
 
 #define DASH "\xe2\x80\x93" /* of human_fixed */
 
@@ -307,4 +398,44 @@ void table_write_html(FILE *out, const struct table *table, int number)
     (void)fputs("</tbody></table></div>\n", out);
     if (table->note)
         html_element(out, "p class=\"note\"", table->note);
+}
+
+void screen_heading(const struct screen *to, const struct result_head *head)
+{
+    for (int i = 0; i < head->nheading; i++)
+        (void)fprintf(to->out, "%s\n", head->heading[i]);
+    if (!head->nheading)
+        (void)fprintf(to->out, "%s\n", head->deck);
+    (void)fputc('\n', to->out);
+}
+
+void screen_state(const struct screen *to, int i, const char *name)
+{
+    (void)fprintf(to->out, "%sstate %s\n", i ? "\n" : "", name);
+}
+
+void screen_notes(const struct screen *to, const struct message_list *notes)
+{
+    int any = 0;
+    for (size_t i = 0; i < notes->count; i++)
+        if (notes->item[i].severity == SEVERITY_WARNING && !notes->item[i].file)
+            (void)fprintf(to->out, "%snote: %s\n", any++ ? "" : "\n", notes->item[i].text);
+}
+
+void screen_say(const struct screen *to, const char *format, ...)
+{
+    va_list arguments;
+    char text[512];
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    (void)fprintf(to->out, "%s\n", text);
+}
+
+void screen_table(const struct screen *to, const struct table *table)
+{
+    if (!table || table->pool->out_of_memory || !table_rows(table))
+        return;
+    (void)fputc('\n', to->out);
+    table_write_text(to->out, table, to->width);
 }

@@ -14,8 +14,7 @@
  *   tables.c          the tables of results.def, of the sensitivities of src/run, and of the line of a run of a study
  *   json_file.c       a text of JSON, or one value a line, within limits of memory
  *   judgement.c       fit_p_value = P(chi^2 of dof > misfit); worst mode; what hides in a parameter; rivals of a verdict
- *   cause_place.c     where a cause acts along z
- *   head.c            program, seed, command, deck of a result; references of the heading
+ *   result.c          where a cause acts along z; program, seed, command, deck of a result; references of the heading
  *
  * The structs are the keys of the JSON; docs/schema takes the comments beside their members. Callers: src/cli (writes),
  * src/page (reads), src/report, src/export, src/study, src/mpi. The room computes nothing of a model and knows no layout. */

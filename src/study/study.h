@@ -12,9 +12,9 @@
  *                     matter
  *   run.c             study_run: identify_states or diagnose_states on that, one thread; the line of it as JSON;
  *                     score_make: the verdict beside the hidden effect
- *   record.c          record_open, record_append: the file while it grows, locked; record_finish: lines in order of the runs
  *   workers.c         workers_run: processes of this machine, a run each; a process that dies costs its run
- *   results.c         the header; a line knows its study and its own digest; results_read: every line checked
+ *   results.c         the header; a line knows its study and its own digest; results_read: every line checked; record_open,
+ *                     record_append: the file while it grows, locked; record_finish: lines in order of the runs
  *   merge.c, summary.c, summary_table.c  shards into one file; of each cell bias, scatter, coverage of the intervals
  *
  * Callers: src/cli/command_study.c, src/mpi (hands out runs over MPI), src/page (summary of a file). study_run knows nothing of
@@ -253,9 +253,6 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
 /* Leans on the study; its shard, 1 of 1: all, is a text on the pool. */
 struct study_header header_of(struct pool *pool, const struct study *study, const char *version, const char *commit, int shard,
                               int shards);
-
-/* The shard that the file is of: runs with run % shards == shard - 1; 1 of 1: all. 0 where its text is none. */
-int header_shard(const struct study_header *header, int *shard, int *shards);
 
 /* With the line feed at its end, to be freed with json_free; NULL where memory is out. */
 char *header_text(const struct study_header *header);
