@@ -1,7 +1,5 @@
 /* What a deck says, for hosts. */
 #include "api/api.h"
-#include "model/model.h"
-#include "run/run.h"
 
 static rotid_check *make_result(struct call *call, const struct job *job, const struct spectrum *s)
 {

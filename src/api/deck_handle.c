@@ -3,9 +3,7 @@
 
 #include <math.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
-#include "model/model.h"
 
 struct deck_handle {
     struct pool *own;

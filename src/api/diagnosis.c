@@ -1,8 +1,6 @@
 /* The diagnosis of a deck, for hosts. */
 #include "api/api.h"
-#include "base/base.h"
 #include "deck/deck.h"
-#include "diagnose/diagnose.h"
 #include "running/running.h"
 
 /* Measured critical speeds beside the model without and with its causes; none where the machine cannot be computed. */

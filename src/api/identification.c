@@ -1,6 +1,5 @@
 /* The identification of a deck, for hosts. */
 #include "api/api.h"
-#include "diagnose/diagnose.h"
 #include "running/running.h"
 
 static rotid_identification *keep(struct call *call, rotid_identification *made)

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "diagnose/diagnose.h"
-
 #define SHARED 0.99 /* probability of the explanations that are listed */
 
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)

@@ -2,9 +2,7 @@
 
 #include <math.h>
 
-#include "base/base.h"
 #include "fit/fit.h"
-#include "run/run.h"
 
 static void fill_parameters(struct pool *pool, const rotid_parameter *list, const rotid_fit_result *fit,
                             rotid_identification *out)

@@ -3,8 +3,6 @@
 #include <math.h>
 
 #include "api/api.h"
-#include "model/model.h"
-#include "run/run.h"
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
 #define MODES_DRAWN 6 /* of a solid on its meridian: two thousand numbers each */

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "api/api.h"
-#include "base/base.h"
 #include "deck/deck.h"
 #include "running/running.h"
 

@@ -7,8 +7,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include "rotid.h"
-
 void host_enter_floating(fenv_t *floating)
 {
     (void)feholdexcept(floating);

@@ -3,7 +3,6 @@
 
 #include "beam/beam.h"
 #include "linalg/linalg.h"
-#include "rotor/rotor.h"
 
 static void add_between(rotid_matrix *a, int first, int second, const double *e)
 {

@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-#include "base/base.h"
-#include "rotid.h"
-
 static const double pi = 3.14159265358979323846;
 
 HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)

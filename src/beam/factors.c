@@ -1,7 +1,5 @@
 #include "beam/beam.h"
 
-#include "rotor/rotor.h"
-
 struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part)
 {
     return (struct effect_span){part->group, beam->mesh.segment[e], beam->mesh.z[e], beam->mesh.z[e + 1]};

@@ -4,9 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
-#include "rotid.h"
-
 #define NEAR 0.01 /* of an element: a node this close stands for the position */
 
 struct builder {

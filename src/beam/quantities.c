@@ -1,7 +1,5 @@
 #include "beam/beam.h"
 
-#include "rotor/rotor.h"
-
 static double middle_of(const struct mesh *mesh, int e)
 {
     return (mesh->z[e] + mesh->z[e + 1]) / 2;

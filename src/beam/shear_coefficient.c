@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-#include "base/base.h"
-#include "rotid.h"
-
 static const double pi = 3.14159265358979323846;
 
 /* The flexure function of a bar with E along the axis, G between the axis and the plane, and the contraction nu_a of the plane

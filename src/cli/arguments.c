@@ -11,7 +11,6 @@
 #include "base/base.h"
 #include "export/export.h"
 #include "fit/fit.h"
-#include "result/result.h"
 
 int arguments_same_file(const char *a, const char *b)
 {

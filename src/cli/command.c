@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include "base/base.h"
-#include "report/report.h"
-#include "result/result.h"
 
 void command_print_messages(struct command *command)
 {

@@ -1,6 +1,5 @@
 #include "api/api.h"
 #include "cli/cli.h"
-#include "report/report.h"
 
 static void free_all(const struct result *result)
 {

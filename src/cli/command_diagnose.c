@@ -1,7 +1,6 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "report/report.h"
 
 static int write_extended(struct command *command, const rotid_diagnosis *diagnosis, int code)
 {

@@ -6,8 +6,6 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "import/import.h"
-#include "report/report.h"
 
 #define DIGITS 1e-5 /* of a function: what six digits in a file leave of it */
 

@@ -4,7 +4,6 @@
 #include "api/api.h"
 #include "cli/cli.h"
 #include "export/export.h"
-#include "report/report.h"
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
 

@@ -2,8 +2,6 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "import/import.h"
-#include "report/report.h"
 
 /* The measured functions of *FRF, FILE. */
 static int read_measured(struct command *command, const struct job *job, struct measurement *measurement,

@@ -1,6 +1,4 @@
 #include "cli/cli.h"
-#include "report/report.h"
-#include "result/result.h"
 
 static int show(struct command *command, rotid_identification *found)
 {

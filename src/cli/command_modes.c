@@ -1,5 +1,4 @@
 #include "cli/cli.h"
-#include "report/report.h"
 
 static void free_all(const struct result *result)
 {

@@ -4,8 +4,6 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
-#include "report/report.h"
-#include "run/run.h"
 
 #define MODES_WITHOUT_DATA 6
 

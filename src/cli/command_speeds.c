@@ -4,7 +4,6 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
-#include "report/report.h"
 #include "running/running.h"
 
 static int refuse_deck(struct command *command, const char *why)

@@ -6,8 +6,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "study/study.h"
-
 /* Where standard error is a terminal: a line that is written over. */
 static void show_progress(void *context, const struct study_progress *now)
 {

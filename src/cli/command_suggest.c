@@ -3,8 +3,6 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
-#include "deck/deck.h"
-#include "report/report.h"
 
 static int write_extended(struct command *command, const rotid_suggestion *s, int code)
 {

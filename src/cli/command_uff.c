@@ -2,8 +2,6 @@
 #include <sys/stat.h>
 
 #include "cli/cli.h"
-#include "import/import.h"
-#include "report/report.h"
 
 /* The modes of the file as the tables of --csv. */
 static int write_tables(struct command *command, int code)

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "report/report.h"
 
 #define SAME_NS 200000000L /* timeout(1) sends its signal to the process and to its group: two within 0.2 s are one request */
 

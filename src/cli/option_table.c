@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "result/result.h"
-
 #define DECKS       "check modes sensitivity identify diagnose suggest speeds frf export"
 #define UNIVERSAL   "unv|uff|uf"
 #define AT(MEMBER)  .offset = offsetof(struct command, MEMBER)

@@ -1,4 +1,3 @@
-#include "deck/deck.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +6,6 @@
 
 #include "deck/deck_row.h"
 #include "rotid.h"
-#include "run/run.h"
 
 /* Beside the whole rotor; ten times and more from where solutions fail. */
 #define SHORTEST 1e-7

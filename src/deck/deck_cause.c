@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck.h"
 #include "deck/deck_row.h"
-#include "diagnose/causes/causes.h"
 
 struct cause_card {
     struct deck_reader *reader;

@@ -1,6 +1,5 @@
 /* The text of a deck in parts. A part is a card with its lines and the comments between them; an edit replaces the text of a
  * part, and what no edit touches is written as it was read, character by character. */
-#include "deck/deck.h"
 
 #include <ctype.h>
 #include <stdlib.h>

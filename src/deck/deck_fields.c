@@ -1,4 +1,3 @@
-#include "deck/deck.h"
 #include "deck/deck_row.h"
 
 #include <ctype.h>

@@ -1,5 +1,4 @@
 /* IDENTIFY and FIT. */
-#include "deck/deck.h"
 #include "deck/deck_row.h"
 
 #include <errno.h>
@@ -9,9 +8,6 @@
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
-
-#include "base/base.h"
-#include "diagnose/causes/causes.h"
 
 /* Below zero is physical for some parameters of causes: each states its own range. */
 static void check_effect_bounds(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,

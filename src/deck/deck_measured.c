@@ -1,6 +1,5 @@
 /* Cards of measured data that stand in the deck itself, the references of the heading, and what becomes of frequencies and noise
  * once everything has been read. */
-#include "deck/deck.h"
 #include "deck/deck_row.h"
 
 #include <math.h>
@@ -8,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diagnose/causes/causes.h"
 #include "rotid.h"
-#include "uff/uff.h"
 
 /* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
 static int read_reference(struct deck_reader *reader, const struct data_line *line)

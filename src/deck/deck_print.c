@@ -1,5 +1,4 @@
 /* Cards as text, in the units of the deck that they are written into. */
-#include "deck/deck.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -8,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "deck/deck_row.h"
-#include "diagnose/causes/causes.h"
 #include "rotid.h"
 
 #define LINE 100 /* a card longer than this goes on in the next line */

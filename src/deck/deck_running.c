@@ -4,7 +4,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "deck/deck.h"
 #include "deck/deck_row.h"
 #include "running/running.h"
 

@@ -1,4 +1,3 @@
-#include "deck/deck.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +5,6 @@
 #include <strings.h>
 
 #include "deck/deck_row.h"
-#include "diagnose/causes/causes.h"
 
 static int is_state(const struct card *card)
 {

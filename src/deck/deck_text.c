@@ -7,7 +7,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/base.h"
 #include "file/file.h"
 #include "rotid.h"
 

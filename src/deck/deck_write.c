@@ -14,10 +14,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "deck/deck.h"
-#include "diagnose/causes/causes.h"
-#include "diagnose/diagnose.h"
-
 #define ATTEMPTS 6 /* each difference is of one of five kinds */
 
 struct writing {

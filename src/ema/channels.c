@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "base/base.h"
-
 #define EARLY          64 /* lines */
 #define DEAD_SHARE     1e-3
 #define TWIN_SHARE     1e-6

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 #define ZOOM_LEAST_LINES 150

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/base.h"
-
 /* S_xx, S_yy, S_xy of the components that are finite */
 static void moments(int n, const double complex *shape, double *xx, double *yy, double *xy)
 {

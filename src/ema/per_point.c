@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 #define REACH         0.012

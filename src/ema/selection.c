@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "base/base.h"
-
 #define LEAST_SHARE    0.05
 #define OVERDAMPED     0.2
 #define MOST_UNCERTAIN 0.2

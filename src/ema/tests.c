@@ -2,7 +2,6 @@
  * show: sensors put on again, another day, another hand. */
 #include <math.h>
 
-#include "base/base.h"
 #include "ema/ema.h"
 
 #define ALIKE_MAC       0.8  /* of the shapes of one mode in two tests */

@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 
 #include "export/export.h"
-#include "report/report.h"
-#include "result/result.h"
 
 #define LONGEST 4096 /* characters of a remark; what is beyond is cut */
 

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/base.h"
 #include "file/file.h"
 #include "import/import.h"
 

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
-
 enum { SET_NODES = 2411, NORMAL_MODE = 2, UNKNOWN_ANALYSIS = 0, VECTOR = 2, DISPLACEMENT = 8, REAL_DATA = 2 };
 
 struct writing {

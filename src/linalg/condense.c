@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 static int check(int count, const rotid_matrix *const *a, int nmaster, const int *master, int kind, const double *k_out,

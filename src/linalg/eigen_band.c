@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 #define ROUNDS            4    /* the error is cubed in each */

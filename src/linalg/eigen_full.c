@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 #define TOLERANCE 2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */

@@ -1,5 +1,4 @@
 /* The lowest eigenpairs of a host's matrices. */
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double *lambda, double *phi)

@@ -1,7 +1,6 @@
 /* Matrices of a host: entries where its structure has a place for them, the dense matrix they stand for, products. */
 #include <stdint.h>
 
-#include "base/base.h"
 #include "linalg/linalg.h"
 
 /* Does A(i, j) have a place? */

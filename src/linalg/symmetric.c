@@ -2,8 +2,6 @@
 
 #include <lapacke.h>
 
-#include "rotid.h"
-
 int symmetric_new(struct pool *pool, int n, struct symmetric *s)
 {
     *s = (struct symmetric){.n = n, .lwork = 32 * n};

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "report/report.h"
 #include "study/study.h"
 
 static void section_agreement(struct document *document, const struct result *result)

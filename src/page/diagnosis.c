@@ -7,7 +7,6 @@
 #include "diagnose/causes/causes.h"
 #include "fit/fit.h"
 #include "page/page.h"
-#include "report/report.h"
 
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
 

@@ -6,10 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/base.h"
 #include "page/page.h"
-#include "report/report.h"
-#include "result/result.h"
 
 /* The results as the script draws them: JSON in which no text can end its element, since < is \u003c, and from which no text
  * shows what the user's file does not say: controls are U+FFFD. Long lists are rounded to what is drawn, runs of studies thinned.

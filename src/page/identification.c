@@ -4,7 +4,6 @@
 
 #include "fit/fit.h"
 #include "page/page.h"
-#include "report/report.h"
 
 #define NAMED             3   /* parameters that the answer names; the table has the others */
 #define POOR_PERCENT      2.0 /* error of a fitted frequency that a beam need not leave */

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "result/result.h"
 #include "study/study.h"
 
 /* The lines behind the first: each a run of this version, with the place of every mistake. */

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
-
 void chart_bar(char *bar, int half, double scale, double value)
 {
     double size = isfinite(value) && scale > 0 ? fabs(value) / scale * half : 0;

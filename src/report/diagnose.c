@@ -3,11 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "diagnose/causes/causes.h"
 #include "fit/fit.h"
 #include "report/report.h"
-#include "result/result.h"
 
 #define LABEL    14 /* columns before a strip */
 #define BAR_HALF 14

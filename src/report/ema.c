@@ -2,9 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "report/report.h"
-#include "result/result.h"
 
 static struct ema_source source(const struct ema_report *r)
 {

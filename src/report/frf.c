@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "report/report.h"
-#include "result/result.h"
-#include "uff/uff.h"
 
 #define TWO_PI  6.28318530717958647692
 #define DEGREES 57.295779513082321

@@ -4,7 +4,6 @@
 
 #include "fit/fit.h"
 #include "report/report.h"
-#include "result/result.h"
 
 struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, int first,
                                       const rotid_identification *fit, const char *caption)

@@ -4,8 +4,6 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/base.h"
-
 const char *layout_number(char text[64], int digits, double value)
 {
     if (isfinite(value))

@@ -2,10 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "report/report.h"
 #include "rotor/rotor.h"
-#include "run/run.h"
 
 /* What a command found, of several states one after the other; job: of each, or NULL. */
 static void print_states(const struct screen *to, const struct result *result, const struct job *const *job,

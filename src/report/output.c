@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "file/file.h"
-#include "rotid.h"
 
 static volatile sig_atomic_t open_outputs;
 

@@ -4,10 +4,8 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "deck/deck.h"
 #include "report/report.h"
-#include "rotid.h"
 
 void html_text(FILE *out, const char *text)
 {

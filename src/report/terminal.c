@@ -6,9 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
 #include "file/file.h"
-#include "rotid.h"
 
 /* text [length + 1], with a zero behind it; keep: the control characters that stay */
 static void put(FILE *stream, const char *text, size_t length, const char *keep)

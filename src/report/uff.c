@@ -3,12 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
-#include "import/import.h"
 #include "report/report.h"
-#include "result/result.h"
-#include "rotid.h"
-#include "uff/uff.h"
 
 static const char *text_or_null(const char *text)
 {

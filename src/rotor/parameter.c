@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "base/base.h"
-
 enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
 
 static const struct {

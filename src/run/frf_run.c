@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "linalg/linalg.h"
-#include "modal/modal.h"
 
 static int refuse_points(struct message_list *notes, const struct job *job, const char *format, int id)
 {

@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "fit/fit.h"
-#include "modal/modal.h"
-#include "model/model.h"
 
 /* Whether fits of the job run on the coarse mesh. */
 static int mesh_is_held(const struct job *job)

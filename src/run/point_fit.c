@@ -3,9 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
 #include "fit/fit.h"
-#include "rotid.h"
 
 #define CONSTANT   1e-10  /* squared variation against the squared size: a column that rounding alone moves */
 #define ALIKE      1e-8   /* sine squared between two columns */

@@ -3,10 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
-#include "modal/modal.h"
-#include "model/model.h"
-
 #define POINTS   17 /* four a decade */
 #define LOWEST   1e-6
 #define HIGHEST  1e-2

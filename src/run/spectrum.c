@@ -3,8 +3,6 @@
 #include <math.h>
 
 #include "linalg/linalg.h"
-#include "modal/modal.h"
-#include "model/model.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */
 #define ROUGH        1e-4  /* the same of a trial */

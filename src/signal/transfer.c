@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
-
 /* Mean of x [n], n >= 1. */
 static double window_mean(int n, const double *x)
 {

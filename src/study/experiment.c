@@ -6,12 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/base.h"
-#include "diagnose/causes/causes.h"
-#include "diagnose/diagnose.h"
 #include "modal/modal.h"
 #include "model/model.h"
-#include "result/result.h"
 
 /* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
  * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes

@@ -3,9 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck.h"
-#include "diagnose/causes/causes.h"
-
 /* The overrides of a cell, the user's first: what the plan varies it varies. */
 static struct override *overrides(struct pool *pool, const struct study *study, const struct study_cell *cell, int noise,
                                   int *count)

@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include "file/file.h"
-#include "report/report.h"
-#include "result/result.h"
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */
 

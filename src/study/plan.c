@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "deck/deck.h"
-
 #define DRAWS           200 /* of a run: the mean of many runs wants no more of each */
 #define MOST_REPLICATES 10000000
 #define MOST_GRID       1000

@@ -12,9 +12,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/base.h"
-#include "report/report.h"
-#include "result/result.h"
 #include "study/study.h"
 
 #define BLOCK     ((size_t)1 << 18)

@@ -5,10 +5,6 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/base.h"
-#include "diagnose/diagnose.h"
-#include "result/result.h"
-#include "running/running.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
 

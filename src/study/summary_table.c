@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "report/report.h"
 #include "study/study.h"
 
 #define MOST_ERROR 10   /* different reasons that are listed */

@@ -17,9 +17,6 @@
 #include <sys/prctl.h>
 #endif
 
-#include "base/base.h"
-#include "result/result.h"
-
 #define TICK             0.2 /* s between two looks at the clock */
 #define GRACE            0.3 /* s for a worker to end by itself once it has been told to */
 #define DIED_WITHIN      3   /* workers in a row that ended before they took a run: it is not the runs that kill them */

@@ -10,7 +10,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/base.h"
 #include "file/file.h"
 
 static int is_digit(char c)
