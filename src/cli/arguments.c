@@ -40,10 +40,9 @@ int arguments_refuse_read(const struct command *command, int count, const char *
     for (int f = 0; f < count; f++)
         for (int i = 0; i < command->ngiven; i++) {
             const char *path = written(command, i);
-            if (path && strcmp(path, "-") != 0 && arguments_same_file(path, file[f])) {
-                terminal_say("rotid: --%s %s is a file that is read, expected another one\n", command->given[i].name, path);
-                return EXIT_USAGE;
-            }
+            if (path && strcmp(path, "-") != 0 && arguments_same_file(path, file[f]))
+                return terminal_end(EXIT_USAGE, "rotid: --%s %s is a file that is read, expected another one\n",
+                                    command->given[i].name, path);
         }
     return -1;
 }
@@ -63,10 +62,8 @@ static int refuse_files(const struct command *command)
                 wrong = " is the file that is read, expected another one";
         if (!wrong && !is_json && command->json && arguments_same_file(command->json, path))
             wrong = " is the file of --json as well, expected another one";
-        if (wrong) {
-            terminal_say("rotid: --%s %s%s\n", name, path, wrong);
-            return EXIT_USAGE;
-        }
+        if (wrong)
+            return terminal_end(EXIT_USAGE, "rotid: --%s %s%s\n", name, path, wrong);
     }
     return -1;
 }
@@ -132,9 +129,8 @@ static int take_number(const struct option_row *row, const char *text, double *v
     *value = strtod(text, &end);
     if (end != text && !*end && *value >= row->least && *value <= row->most && (!whole || *value == floor(*value)))
         return 0;
-    terminal_say("rotid: --%s %s: expected a %snumber from %g to %g\n", row->name, text, whole ? "whole " : "", row->least,
-                 row->most);
-    return EXIT_USAGE;
+    return terminal_end(EXIT_USAGE, "rotid: --%s %s: expected a %snumber from %g to %g\n", row->name, text, whole ? "whole " : "",
+                        row->least, row->most);
 }
 
 static int take_word(const struct option_row *row, const char *text, int *index)
@@ -145,8 +141,7 @@ static int take_word(const struct option_row *row, const char *text, int *index)
     terminal_say("rotid: --%s %s: expected ", row->name, text);
     for (int i = 0; row->words[i]; i++)
         terminal_say("%s%s", !i ? "" : row->words[i + 1] ? ", " : " or ", row->words[i]);
-    terminal_say("\n");
-    return EXIT_USAGE;
+    return terminal_end(EXIT_USAGE, "\n");
 }
 
 /* Frequencies separated by commas: how many, or 0 after an error. */
@@ -163,9 +158,8 @@ static int frequencies(const struct option_row *row, const char *text, int most,
             return count;
         at = end;
     }
-    terminal_say("rotid: --%s %s: expected frequencies from %g to %g Hz, separated by commas\n", row->name, text, row->least,
-                 row->most);
-    return 0;
+    return terminal_end(0, "rotid: --%s %s: expected frequencies from %g to %g Hz, separated by commas\n", row->name, text,
+                        row->least, row->most);
 }
 
 static int take_band(const struct option_row *row, const char *text, struct ema_options *ema)
@@ -330,8 +324,7 @@ int arguments_wrong(const char *format, const char *value)
 {
     terminal_say("rotid: ");
     terminal_say(format, value);
-    terminal_say(" (rotid COMMAND --help lists its options)\n");
-    return EXIT_USAGE;
+    return terminal_end(EXIT_USAGE, " (rotid COMMAND --help lists its options)\n");
 }
 
 const char *arguments_given(const struct command *command, const char *name)
@@ -400,10 +393,9 @@ static int refuse_word(int why, const char *word)
     if (optopt)
         return arguments_wrong("-%s is no option", (char[]){(char)optopt, 0});
     const char *near = nearest_option(word);
-    if (near) {
-        terminal_say("rotid: %s is no option, expected --%s (rotid COMMAND --help lists its options)\n", word, near);
-        return EXIT_USAGE;
-    }
+    if (near)
+        return terminal_end(EXIT_USAGE, "rotid: %s is no option, expected --%s (rotid COMMAND --help lists its options)\n", word,
+                            near);
     return arguments_wrong("%s is no option, or the beginning of several", word);
 }
 
@@ -456,15 +448,12 @@ static int refuse_command(const char *name)
         nearest = distance < least ? c->name : nearest;
         least = distance < least ? distance : least;
     }
-    if (nearest) {
-        terminal_say("rotid: %s is no command: did you mean %s?\n", name, nearest);
-        return EXIT_USAGE;
-    }
+    if (nearest)
+        return terminal_end(EXIT_USAGE, "rotid: %s is no command: did you mean %s?\n", name, nearest);
     terminal_say("rotid: %s is no command, expected", name);
     for (const struct command_entry *c = command_table; c->name; c++)
         terminal_say("%s %s", c == command_table ? "" : c[1].name ? "," : " or", c->name);
-    terminal_say(" (rotid --help tells what they do)\n");
-    return EXIT_USAGE;
+    return terminal_end(EXIT_USAGE, " (rotid --help tells what they do)\n");
 }
 
 int arguments_parse(struct command *command, int argc, char **argv)

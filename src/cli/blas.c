@@ -79,18 +79,16 @@ int build_make_room(int wanted, int asked)
     double one = 1, other = 1, product = 0;
     /* its own threads may have their buffers, or not yet */
     int others = openblas_get_num_threads() - 1, room = room_for(wanted + others) - others;
-    if (room < 1) {
-        terminal_say("rotid: too little address space: OpenBLAS needs %zu MiB in one piece, and the program some beside it; "
-                     "expected more (ulimit -v, ulimit -d)\n",
-                     BUFFER >> 20);
-        return 0;
-    }
-    if (room < wanted && asked) {
-        terminal_say(
-            "rotid: --threads %d: there is address space for %d, expected no more than these, or more of it (ulimit -v)\n",
+    if (room < 1)
+        return terminal_end(
+            0,
+            "rotid: too little address space: OpenBLAS needs %zu MiB in one piece, and the program some beside it; "
+            "expected more (ulimit -v, ulimit -d)\n",
+            BUFFER >> 20);
+    if (room < wanted && asked)
+        return terminal_end(
+            0, "rotid: --threads %d: there is address space for %d, expected no more than these, or more of it (ulimit -v)\n",
             wanted, room);
-        return 0;
-    }
     /* the buffer of this thread is taken now, before anything else takes its room */
     cblas_dsymm(CblasColMajor, CblasLeft, CblasLower, 1, 1, 1, &one, 1, &other, 1, 0, &product, 1);
     return room;

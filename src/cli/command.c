@@ -37,8 +37,7 @@ void command_print_messages(struct command *command)
 int command_fail(struct command *command, int status)
 {
     if (command_cancelled(NULL)) { /* what failed did so for the signal: a read that it ended has no error of its own */
-        terminal_say("rotid: interrupted\n");
-        return EXIT_DOUBTFUL;
+        return terminal_end(EXIT_DOUBTFUL, "rotid: interrupted\n");
     }
     if (command->job)
         check_sections(command->job, status, &command->messages);
@@ -90,8 +89,7 @@ static int command_write_file(struct command *command, const char *path, const c
     int status = output_write(path, text);
     if (!status)
         return code;
-    terminal_say("rotid: cannot write %s: %s\n", path, output_error());
-    return EXIT_INTERNAL;
+    return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s\n", path, output_error());
 }
 
 int command_write_deck(struct command *command, const char *text, int code)
@@ -103,9 +101,8 @@ int command_write_deck(struct command *command, const char *text, int code)
     if (!status)
         return command_write_file(command, command->extended, placed, code);
     command_print_messages(command);
-    terminal_say("rotid: %s is not written: %s\n", command->extended,
-                 status == ROTID_ERROR_IO ? "there is no such folder" : "it would be read as something else there");
-    return EXIT_INTERNAL;
+    return terminal_end(EXIT_INTERNAL, "rotid: %s is not written: %s\n", command->extended,
+                        status == ROTID_ERROR_IO ? "there is no such folder" : "it would be read as something else there");
 }
 
 void command_begin_head(struct command *command)
@@ -161,10 +158,8 @@ int command_refuse_csv(const struct command *command, const struct csv_part *par
 {
     struct pool pool;
     int code = EXIT_DONE;
-    if (command->csv && command->read && command_state_count(command) > 1) {
-        terminal_say("rotid: --csv writes the tables of one state, expected --set FIT.STATE=NAME of one\n");
-        return EXIT_USAGE;
-    }
+    if (command->csv && command->read && command_state_count(command) > 1)
+        return terminal_end(EXIT_USAGE, "rotid: --csv writes the tables of one state, expected --set FIT.STATE=NAME of one\n");
     pool_open(&pool, NULL);
     for (int i = 0; i < CSV_MOST_FILES && part[i].write && command->csv && !code; i++) {
         const char *path = csv_path(&pool, command->csv, &part[i]), *wrong = NULL;
@@ -177,10 +172,8 @@ int command_refuse_csv(const struct command *command, const struct csv_part *par
         for (int f = 0; command->job && f < command->job->nfile; f++)
             if (arguments_same_file(command->job->file[f], path))
                 wrong = "which is read";
-        if (wrong) {
-            terminal_say("rotid: --csv would write %s, %s, expected another name\n", path, wrong);
-            code = EXIT_USAGE;
-        }
+        if (wrong)
+            code = terminal_end(EXIT_USAGE, "rotid: --csv would write %s, %s, expected another name\n", path, wrong);
     }
     pool_close(&pool);
     return code;
@@ -192,10 +185,8 @@ int command_write_csv(struct command *command, const struct csv_part *part, cons
     if (!command->csv)
         return code;
     int status = csv_write(&command->pool, command->csv, part, from, &failed);
-    if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: cannot write %s: %s; no table was written\n", failed, output_error());
-        return EXIT_INTERNAL;
-    }
+    if (status == ROTID_ERROR_IO)
+        return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s; no table was written\n", failed, output_error());
     if (status)
         return command_fail(command, status);
     for (int i = 0; i < CSV_MOST_FILES && part[i].write && command_wants_table(command); i++) {

@@ -6,14 +6,10 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
 {
     if (!command->extended)
         return code;
-    if (!diagnosis->verdict.sentence) {
-        terminal_say("rotid: %s is not written: there is no verdict yet\n", command->extended);
-        return code;
-    }
-    if (!diagnosis->extended_deck) {
-        terminal_say("rotid: cannot write %s: no deck reads as this model\n", command->extended);
-        return EXIT_INTERNAL;
-    }
+    if (!diagnosis->verdict.sentence)
+        return terminal_end(code, "rotid: %s is not written: there is no verdict yet\n", command->extended);
+    if (!diagnosis->extended_deck)
+        return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: no deck reads as this model\n", command->extended);
     const char *refined = strstr(diagnosis->extended_deck, DECK_MESH_REFINED);
     if (refined && !command->quiet)
         terminal_say("rotid: %s: %.*s\n", command->extended, (int)strcspn(refined, "\r\n"), refined);
@@ -30,10 +26,8 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
         screen_diagnose(&to, &result);
         screen_notes(&to, &command->messages);
     }
-    if (diagnosis->interrupted || command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted; the result holds what was finished\n");
-        code = EXIT_DOUBTFUL;
-    }
+    if (diagnosis->interrupted || command_cancelled(NULL))
+        code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; the result holds what was finished\n");
     written = command_write_result(command, &result, code);
     code = write_extended(command, diagnosis, written);
     return code > written ? code : written; /* the graver one */

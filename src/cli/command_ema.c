@@ -16,10 +16,8 @@ static int write_modes(struct command *command, const struct measurement *measur
     int status = output_open(&output, command->output);
     if (!status)
         status = output_close(&output, modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema));
-    if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: %s: cannot be written: %s\n", command->output, output_error());
-        return EXIT_INTERNAL;
-    }
+    if (status == ROTID_ERROR_IO)
+        return terminal_end(EXIT_INTERNAL, "rotid: %s: cannot be written: %s\n", command->output, output_error());
     return status ? command_fail(command, status) : EXIT_DONE;
 }
 
@@ -118,10 +116,8 @@ static int extract_modes(struct command *command, struct ema_options *options, s
     }
     if (!status)
         note_untied(command, ema);
-    if (status == ROTID_STOP_CANCELLED) {
-        terminal_say("rotid: interrupted; nothing was written\n");
-        return EXIT_DOUBTFUL;
-    }
+    if (status == ROTID_STOP_CANCELLED)
+        return terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; nothing was written\n");
     if (status == ROTID_ERROR_ARGUMENT && !command->messages.errors)
         message_add(
             &command->messages, SEVERITY_ERROR, command->deck, 1, 1,

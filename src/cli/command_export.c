@@ -58,10 +58,8 @@ static int write_files(struct command *command, const struct export_files *files
 {
     const char *failed;
     int status = export_files_write(files, model, &failed);
-    if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, output_error());
-        return EXIT_INTERNAL;
-    }
+    if (status == ROTID_ERROR_IO)
+        return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s; no file was written\n", failed, output_error());
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
@@ -117,8 +115,7 @@ int command_export(struct command *command)
     if (!code)
         code = command_fit_deck(command, command->read->nparameter && !command->start, "a model for other programs", &fit);
     if (!code && command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted, nothing was written\n");
-        code = EXIT_DOUBTFUL;
+        code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, nothing was written\n");
     } else if (!code) {
         code = export(command, fit.state, command_judge_fit(command, &fit, "written"));
     }

@@ -34,9 +34,8 @@ static int write_output(struct command *command, const struct frf_view *view, in
         status = output_close(&output, frf_write_file(output.stream, command->head.rotid, view));
     if (!status)
         return code;
-    terminal_say("rotid: cannot write %s: %s\n", command->output,
-                 status == ROTID_ERROR_IO ? output_error() : rotid_status_text(status));
-    return EXIT_INTERNAL;
+    return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s\n", command->output,
+                        status == ROTID_ERROR_IO ? output_error() : rotid_status_text(status));
 }
 
 /* count: of the views, one for each state */
@@ -110,10 +109,8 @@ static int synthesise_all(struct command *command, const struct command_fit *fit
     if (status)
         return command_fail(command, status);
     code = command_judge_fit(command, fit, "synthesised");
-    if (done < all || command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted; %d of %d transfer functions were finished\n", done, all);
-        code = EXIT_DOUBTFUL;
-    }
+    if (done < all || command_cancelled(NULL))
+        code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; %d of %d transfer functions were finished\n", done, all);
     return report(command, fit->count, view, result, code);
 }
 

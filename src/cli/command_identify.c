@@ -18,8 +18,7 @@ static int show(struct command *command, rotid_identification *found)
     if (fit->status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted after %d iterations; the result is the best point so far\n", fit->iterations);
     } else if (command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted; the fit is complete, the rest is not\n");
-        code = EXIT_DOUBTFUL;
+        code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; the fit is complete, the rest is not\n");
     }
     int written = command_write_csv(command, csv_identify_parts, found, code);
     return written == EXIT_INTERNAL ? written : command_write_result(command, &result, code);

@@ -56,10 +56,8 @@ int command_report(struct command *command)
         status = write_page(command, result, &file);
     for (int i = 0; i < command->nfile && result; i++)
         cJSON_Delete(result[i].json);
-    if (status == ROTID_STOP_CANCELLED) {
-        terminal_say("rotid: interrupted; %s is as it was\n", command->output);
-        return EXIT_DOUBTFUL;
-    }
+    if (status == ROTID_STOP_CANCELLED)
+        return terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; %s is as it was\n", command->output);
     if (status && !(is_read && status == ROTID_ERROR_IO))
         return command_fail(command, status);
     if (!*page_script && !status)

@@ -57,10 +57,8 @@ static int write_csv(struct command *command, const char *path, const struct tab
         table_write_csv(output.stream, table);
         status = output_close(&output, ROTID_OK);
     }
-    if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: cannot write %s: %s\n", path, output_error());
-        return EXIT_INTERNAL;
-    }
+    if (status == ROTID_ERROR_IO)
+        return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s\n", path, output_error());
     return status ? command_fail(command, status) : code;
 }
 
@@ -111,8 +109,7 @@ int command_speeds(struct command *command)
     if (!code)
         code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);
     if (!code && command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted, nothing was computed\n");
-        code = EXIT_DOUBTFUL;
+        code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, nothing was computed\n");
     } else if (!code) {
         code = run(command, deck_states_of(command->read), fit.fit, &options, command_judge_fit(command, &fit, "used"));
     }

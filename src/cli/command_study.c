@@ -108,9 +108,8 @@ static int finish(struct command *command, struct study_record *record, int code
     int status = record_finish(&command->pool, record);
     if (!status)
         return code;
-    terminal_say("rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
-                 status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
-    return EXIT_INTERNAL;
+    return terminal_end(EXIT_INTERNAL, "rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
+                        status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
 }
 
 int study_conduct(struct command *command, const struct study *study, study_compute *compute, void *context)
@@ -131,13 +130,13 @@ int study_conduct(struct command *command, const struct study *study, study_comp
         terminal_say("rotid: %ld of %ld runs are in %s already\n", before, record.wanted, command->output);
     status = compute(context, command, study, &record);
     if (status < 0) {
-        terminal_say("rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n", record.done,
-                     record.wanted, command->output, status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
-        code = EXIT_INTERNAL;
+        code = terminal_end(
+            EXIT_INTERNAL, "rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n", record.done,
+            record.wanted, command->output, status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
     } else if (record.done < record.wanted) {
-        terminal_say("rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n", record.done,
-                     record.wanted, command->output);
-        code = EXIT_DOUBTFUL;
+        code =
+            terminal_end(EXIT_DOUBTFUL, "rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n",
+                         record.done, record.wanted, command->output);
     } else {
         code = finish(command, &record, code);
     }

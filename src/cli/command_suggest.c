@@ -9,20 +9,18 @@ static int write_extended(struct command *command, const rotid_suggestion *s, in
     char *text = NULL;
     if (!command->extended)
         return code;
-    if (!s->ntests || !s->tests[0].cards) {
-        terminal_say("rotid: %s is not written: %s\n", command->extended,
-                     s->ntests ? "the first test cannot be written as a deck: give its supports names"
-                               : "there is no test to propose");
-        return EXIT_DOUBTFUL;
-    }
+    if (!s->ntests || !s->tests[0].cards)
+        return terminal_end(EXIT_DOUBTFUL, "rotid: %s is not written: %s\n", command->extended,
+                            s->ntests ? "the first test cannot be written as a deck: give its supports names"
+                                      : "there is no test to propose");
     int status = deck_propose(&command->pool, deck_states_of(command->read), s->state, &s->tests[0], &command->messages, &text);
     if (status == ROTID_ERROR_MEMORY)
         return command_fail(command, status);
     if (status) {
         command_print_messages(command);
-        terminal_say("rotid: %s is not written: the deck with the test in it would not be read as it is meant\n",
-                     command->extended);
-        return EXIT_INTERNAL;
+        return terminal_end(EXIT_INTERNAL,
+                            "rotid: %s is not written: the deck with the test in it would not be read as it is meant\n",
+                            command->extended);
     }
     return command_write_deck(command, text, code);
 }
@@ -70,10 +68,8 @@ int command_suggest(struct command *command)
     const rotid_environment environment = command_environment(command);
     rotid_suggestion *suggestion;
     int status = rotid_suggest(command->read, &options, &environment, failure, &suggestion);
-    if (status == ROTID_STOP_CANCELLED) {
-        terminal_say("rotid: interrupted; there is no result\n");
-        return EXIT_DOUBTFUL;
-    }
+    if (status == ROTID_STOP_CANCELLED)
+        return terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; there is no result\n");
     if (status)
         return command_fail_with(command, status, failure);
     struct result result = {.head = command->head, .suggest = suggestion};

@@ -47,9 +47,8 @@ int command_uff(struct command *command)
     code = command_write_result(command, &result, code);
     if (code == EXIT_INTERNAL || !command->csv)
         return code;
-    if (listing.faulty_count) {
-        terminal_say("rotid: %s is not written, for a part of %s cannot be read\n", command->csv, command->deck);
-        return EXIT_USAGE;
-    }
+    if (listing.faulty_count)
+        return terminal_end(EXIT_USAGE, "rotid: %s is not written, for a part of %s cannot be read\n", command->csv,
+                            command->deck);
     return write_tables(command, code);
 }

@@ -24,9 +24,7 @@ int main(int argc, char **argv)
     if (terminal_open())
         return EXIT_INTERNAL;
     int code = command_line(argc, argv);
-    if (terminal_flush()) {
-        terminal_say("rotid: cannot write to standard output: %s\n", strerror(errno));
-        code = EXIT_INTERNAL;
-    }
+    if (terminal_flush())
+        code = terminal_end(EXIT_INTERNAL, "rotid: cannot write to standard output: %s\n", strerror(errno));
     return code;
 }

@@ -283,10 +283,8 @@ int main(int argc, char **argv)
     words[1] = (char[]){"study"};
     memcpy(words + 2, argv + 1, (size_t)argc * sizeof *words);
     int code = run(&command, argc + 1, words);
-    if (terminal_flush()) {
-        terminal_say("rotid-study: cannot write to standard output: %s\n", strerror(errno));
-        code = EXIT_INTERNAL;
-    }
+    if (terminal_flush())
+        code = terminal_end(EXIT_INTERNAL, "rotid-study: cannot write to standard output: %s\n", strerror(errno));
     pool_close(&command.pool);
     MPI_Finalize();
     return code;

@@ -478,6 +478,8 @@ int terminal_print(const char *text);
 
 /* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */
 void terminal_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The same, with which a command ends. Returns code. */
+int terminal_end(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Marks on standard error: what is said until the next mark stands out where that is a terminal with colours, unless the
  * environment has a NO_COLOR that is not empty or TERM=dumb. */

@@ -89,7 +89,7 @@ int terminal_print(const char *text)
 }
 
 /* One line, or one that goes on: what is in front of its last line feed has none. */
-static void say(const char *format, va_list values)
+static void put_line(const char *format, va_list values)
 {
     char few[1024], *all = NULL; /* where memory is out, as much as fits */
     va_list again;
@@ -105,15 +105,28 @@ static void say(const char *format, va_list values)
     free(all);
 }
 
+static void say(const char *format, va_list values)
+{
+    if (out.stream)
+        (void)terminal_flush(); /* what was printed before stands before it */
+    put_line(format, values);
+}
+
 void terminal_say(const char *format, ...)
 {
     va_list values;
-    end_progress();
-    if (out.stream)
-        (void)terminal_flush(); /* what was printed before stands before it */
     va_start(values, format);
     say(format, values);
     va_end(values);
+}
+
+int terminal_end(int code, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    say(format, values);
+    va_end(values);
+    return code;
 }
 
 static int has_colours(void)
@@ -138,7 +151,7 @@ void terminal_progress(const char *format, ...)
     out.progress = 1;
     (void)fputc('\r', stderr);
     va_start(values, format);
-    say(format, values);
+    put_line(format, values);
     va_end(values);
     (void)fputs(" \033[K", stderr);
 }
