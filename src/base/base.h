@@ -7,14 +7,14 @@
  *   memory           pool.c      pool_open, pool_get, pool_close: blocks hang on a pool, one pool_close frees all of them
  *   public call      entry.c     entry_open, entry_close: traps masked, environment checked, scratch pool, text of the failure
  *   host             host.c      floating-point environment and locale of the calling thread, saved and restored
- *   host's structs   sized.c     sized_take: reads a struct that begins with `size`, fills new members with zeros
- *   reason           failure.c   failure_say, refuse: why a call failed; status.c: the text of a status
+ *   host's structs   entry.c     sized_take: reads a struct that begins with `size`, fills new members with zeros
+ *   reason           entry.c     failure_say, refuse: why a call failed; the text of a status
  *   messages         message.c   message_add: note, warning or error with file, line and column, kept until somebody prints it
  *   threads          parallel.c  parallel_for: tasks 0 ... count - 1; the status returned is independent of the number of threads
- *   random numbers   random.c    splitmix64; uniform in (0, 1), normal by random_normal; the state is the caller's
+ *   random numbers   order.c     splitmix64; uniform in (0, 1), normal by random_normal; the state is the caller's
  *   order            order.c     sorting of doubles and ints, rank and median of doubles
  *   text             text.c      comparison without case, edit distance, UTF-8, control characters
- *   other            clock.c, version.c
+ *   other            parallel.c: the clock; version.c
  *
  * Callers: all rooms. A job belongs to one thread at a time; a pool is never shared between threads.
  * Base must not know what a rotor, a deck or a result is, and includes no header of another room but rotid.h. */
@@ -232,7 +232,7 @@ double random_normal(struct random_stream *stream);  /* mean 0, variance 1 */
 
 /* Structs that a host fills and that may grow: their first member is the size that the host was compiled with. */
 
-/* In the order of the table in sized.c. */
+/* In the order of the table in entry.c. */
 enum sized {
     SIZED_ENVIRONMENT,
     SIZED_DIAGNOSE_OPTIONS,

@@ -1,9 +1,17 @@
-#include "base/base.h"
-
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
+
+#include "base/base.h"
+
+double clock_seconds(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now); /* which nobody sets */
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 struct shared {
     atomic_int next;

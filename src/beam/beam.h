@@ -8,11 +8,11 @@
  *   element        element.c (element_matrices): k = K_f + K_G (A.1, A.4), m = M_v + M_theta (B.1, B.2), phi = 12 EI/(kGS l^2);
  *                  v cubic, theta quadratic; element_derivatives: the same along a direction of (EI, kGS, rho S, rho I, F)
  *   quantities     quantities.c (axis_quantities): EI, rho S, rho I as sums over the layers, F = rotor_axial_force;
- *                  axis_direction: their derivatives; factors.c: factors of the effects on each element
+ *                  axis_direction: their derivatives; build.c: factors of the effects on each element
  *   shear          shear_coefficient.c (shear_stiffness): kGS by Cowper, of layers by Saint-Venant's flexure
  *   tie rods       quantities.c (tierod_quantities): F = N T, the prestress, enters K by K_G of the bundle's own elements, and by
  *                  -N T in the F of the axis (rotor_axial_force, SELF_EQUILIBRATED); stretch E S e^2/(2 L) [1 -1; -1 1] on
- *                  (theta_from, theta_to) for RODS; cylinder.c: the equivalent cylinder (6) for TUBE
+ *                  (theta_from, theta_to) for RODS; build.c: the equivalent cylinder (6) for TUBE
  *   joints         hinge.c (hinge_condense): K := K - g g' c/(1 + c k), a rotational spring in series, condensed
  *   masses, springs at any place   lumped.c (lumped_add): carried by the static shapes of the element
  *   spin           gyroscopic.c (beam_gyroscopic): polar inertia P; beam_spread: a stiffness spread over a group
@@ -234,9 +234,6 @@ void element_derivatives(const struct element *element, const struct element *d,
 /* --------------------------------------------------------------------------------------------------------------- factors */
 
 /* What the effects of a rotor do to the elements of the axis. */
-
-/* Room for the factors of a beam whose mesh is built, and their first values. ROTID_OK or ROTID_ERROR_MEMORY. */
-int factors_open(struct pool *pool, struct beam *beam);
 
 /* Computes beam->factor anew, where there is one. */
 void factors_refresh(struct beam *beam);

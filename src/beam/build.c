@@ -1,4 +1,80 @@
+#include <math.h>
+
 #include "beam/beam.h"
+
+static const double pi = 3.14159265358979323846;
+
+HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)
+{
+    if (!(area > 0 && isfinite(area)))
+        return refuse(failure, "area is %g, expected a positive number of m2", area);
+    if (!(inertia > 0 && isfinite(inertia)))
+        return refuse(failure, "inertia is %g, expected a positive number of m4", inertia);
+    if (!outer || !inner)
+        return refuse(failure, "%s is NULL, expected room for a diameter", outer ? "inner" : "outer");
+    double sum = 8 * inertia / area, difference = 2 * area / pi;
+    if (sum < difference * (1 - 1e-14)) /* a solid disc has sum = difference and must not fail on rounding */
+        return ROTID_ERROR_SECTION;
+    *outer = sqrt(sum + difference);
+    *inner = sqrt(fmax(0, sum - difference));
+    return ROTID_OK;
+}
+
+int rotid_equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)
+{
+    struct entry entry;
+    int status = entry_open(&entry, NULL, failure);
+    if (!status)
+        status = equivalent_cylinder(area, inertia, failure, outer, inner);
+    return entry_close(&entry, status);
+}
+
+int section_equivalent(double area, double inertia, struct section *section)
+{
+    double outer, inner;
+    int status = equivalent_cylinder(area, inertia, NULL, &outer, &inner);
+    if (!status)
+        *section = (struct section){area, inertia, area, inertia, 0, inner / outer, outer, 2 * inertia, 2 * inertia};
+    return status;
+}
+
+struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part)
+{
+    return (struct effect_span){part->group, beam->mesh.segment[e], beam->mesh.z[e], beam->mesh.z[e + 1]};
+}
+
+int factors_parts(const struct beam *beam, int e, const struct section_part **part, struct effect_field **factor)
+{
+    int segment = beam->mesh.segment[e], first = beam->first_part[segment];
+    *part = beam->part + first;
+    *factor = beam->factor ? beam->factor + (ptrdiff_t)beam->most_parts * e : NULL;
+    return beam->first_part[segment + 1] - first;
+}
+
+void factors_refresh(struct beam *beam)
+{
+    for (int e = 0; e < beam->mesh.nelement && beam->factor; e++) {
+        const struct section_part *part;
+        struct effect_field *factor;
+        for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
+            struct effect_span span = factors_span(beam, e, &part[i]);
+            factor[i] = effects_on_axis(&beam->rotor, &span, beam->type == MODE_BENDING);
+        }
+    }
+}
+
+/* Room for the factors of a beam whose mesh is built, and their first values. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int factors_open(struct pool *pool, struct beam *beam)
+{
+    beam->factor = NULL;
+    if (!beam->rotor.neffect)
+        return ROTID_OK;
+    beam->factor = POOL_ARRAY(pool, struct effect_field, (size_t)beam->most_parts * (size_t)beam->mesh.nelement);
+    if (!beam->factor)
+        return ROTID_ERROR_MEMORY;
+    factors_refresh(beam);
+    return ROTID_OK;
+}
 
 static int build_sections(struct beam *beam, int *failed)
 {

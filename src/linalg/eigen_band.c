@@ -2,9 +2,104 @@
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "linalg/linalg.h"
+
+#define INDEPENDENT 1e-3 /* least sine between a vector and those before it */
+
+int ritz_pairs(int n, int count, const rotid_matrix *k, const rotid_matrix *m, double *y, double *value, double *vector,
+               double *product, double *squares, double *work)
+{
+    double *a = squares, *b = a + (ptrdiff_t)count * count;
+    for (int j = 0; j < count; j++) { /* solutions near an eigenvalue are of any size */
+        double size = cblas_dnrm2(n, y + (ptrdiff_t)j * n, 1);
+        if (!(size > 0) || !isfinite(size))
+            return 1;
+        cblas_dscal(n, 1 / size, y + (ptrdiff_t)j * n, 1);
+    }
+    matrix_multiply(m, count, y, product);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, b, count);
+    for (int j = 0; j < count; j++) {
+        double square = b[j + (ptrdiff_t)j * count], inverse = 1 / sqrt(square);
+        if (!(square > 0))
+            return 1;
+        cblas_dscal(n, inverse, y + (ptrdiff_t)j * n, 1);
+        cblas_dscal(count, inverse, b + (ptrdiff_t)j * count, 1);
+        cblas_dscal(count, inverse, b + j, count);
+    }
+    matrix_multiply(k, count, y, product);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, a, count);
+    /* y ascends, so that a support by a penalty of 1e18 stands last in A: reduced from there on, by the upper triangle, A leaves
+     * its rounding to its own eigenvalue. From the first row on all of them would get it. */
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', count, b, count))
+        return 1;
+    for (int j = 0; j < count; j++)
+        if (!(b[j + (ptrdiff_t)j * count] > INDEPENDENT))
+            return 1;
+    if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'U', count, a, count, b, count) ||
+        LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', count, a, count, value, work, RITZ_WORK * count))
+        return 1;
+    for (int j = 0; j < count; j++) /* a vector keeps the sign of y: rounding would choose it */
+        if (a[j + (ptrdiff_t)j * count] < 0)
+            cblas_dscal(count, -1, a + (ptrdiff_t)j * count, 1);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, count, count, 1, b, count, a, count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, count, 1, y, n, a, count, 0, vector, n);
+    return 0;
+}
+
+#define AT_REST  1e-13 /* of the energy of its elements were each held alone: a motion that moves none against another */
+#define ROUNDING 2e-15 /* of the highest eigenvalue: what the entries of K leave of the lowest ones */
+
+double shift_of(int known, const double *value, double largest)
+{
+    int j = known < 3 ? known - 1 : 2;
+    while (j + 1 < known && value[j] < ZERO * largest)
+        j++;
+    return isfinite(value[j]) && value[j] >= ZERO * largest ? -0.1 * value[j] : 0;
+}
+
+/* A_ii; *f is the first far degree of freedom that is not below i */
+static double diagonal_of(const rotid_matrix *a, int i, int *f)
+{
+    double value = a->band[(ptrdiff_t)i * (a->kd + 1)];
+    while (*f < a->nfar && a->far[*f] < i)
+        (*f)++;
+    return *f < a->nfar && a->far[*f] == i ? value + a->block[(ptrdiff_t)*f * (a->nfar + 1)] : value;
+}
+
+double highest_of(const rotid_matrix *k, const rotid_matrix *m)
+{
+    double largest = 0;
+    for (int i = 0, f = 0; i < k->n; i++)
+        largest = fmax(largest, diagonal_of(k, i, &f) / diagonal_of(m, i, &f));
+    return isfinite(largest) ? largest : 0;
+}
+
+int all_at_rest(const rotid_matrix *k, int count, const double *x, const double *kx)
+{
+    for (int j = 0; j < count; j++, x += k->n, kx += k->n) {
+        double energy = 0, held = 0;
+        for (int i = 0, f = 0; i < k->n; i++) {
+            energy += x[i] * kx[i];
+            held += diagonal_of(k, i, &f) * x[i] * x[i];
+        }
+        if (!(energy <= AT_REST * held))
+            return 0;
+    }
+    return 1;
+}
+
+double shift_above(double last, double below, double largest)
+{
+    return last + 1e-6 * (fabs(last) - below) + ROUNDING * largest;
+}
+
+double shift_below(double last, double below, double largest)
+{
+    return last < ZERO * largest ? -FIRST_SHIFT * largest : last - 1e-6 * (last - below) - ROUNDING * largest;
+}
 
 #define ROUNDS            4    /* the error is cubed in each */
 #define CLUSTER           1e-3 /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */

@@ -8,14 +8,14 @@
  *   K - s M = L L', L U or L S L'   factor.c (factor_new, factor_compute, factor_solve): the far block by a Schur complement
  *                     S = A_ff - A_fr A_rr^-1 A_rf; narrow inner part band.c, half band >= FACTOR_WIDE by panels
  *   full eigenpairs   eigen_full.c (eigen_full_solve) chooses: eigen_band.c, block Krylov on (K - s M)^-1 M with Rayleigh-Ritz
- *                     (ritz.c), near pairs by arrow.c; wide bands (eigen_wide_solve), block Lanczos (lanczos.c); nearly full
+ *                     (ritz_pairs), near pairs by arrow.c; wide bands (eigen_wide_solve), block Lanczos (lanczos.c); nearly full
  *                     ones eigen_dense.c. A Sturm count (factor_negative_count, arrow_count) shows that no pair is missed
  *   condensation      reduction.c (reduction_compute): u = T x, K~ = T'KT, M~ = T'MT by Guyan (11-13) or IRS, their derivatives
  *   condensed pairs   eigen_dense.c, dsygvx on M phi = mu (K - s M) phi; eigen_guyan.c: Guyan's without K~ and M~, on arrow.c,
- *                     bordered band factors of four shifts at once; shift.c: the shift s < 0
- *   dense kernels     least_squares.c: damped step min |J h + r|^2 + mu |D h|^2, singular values; cholesky.c, positive.c,
- *                     symmetric.c (indefinite), product.c, roots.c (polynomial by its companion matrix), quadratic.c
- *                     (lambda^2 M + lambda C + K without symmetry, complex systems)
+ *                     bordered band factors of four shifts at once; eigen_band.c: the shift s < 0
+ *   dense kernels     least_squares.c: damped step min |J h + r|^2 + mu |D h|^2, singular values; symmetric.c
+ *                     (definite, indefinite), product.c, quadratic.c (lambda^2 M + lambda C + K without symmetry, complex
+ *                     systems, a polynomial by its companion matrix)
  *   public doors      eigenpairs.c, condense.c, matrix_entry.c: rotid_eigenpairs, rotid_condense, rotid_matrix_*
  *
  * Callers: every room that computes. The only room that calls LAPACKE. It must not know what a degree of freedom or parameter is;

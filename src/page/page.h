@@ -8,7 +8,7 @@
  *
  *   page_result_read   a file of JSON, every mistake with its place; page_state_count: the states of a deck      read.c
  *   page_compose       answer, tiles, sections, tables, places of figures, results by rank                        compose.c
- *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c, running.c; the others, basis and
+ *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c; the others, basis and
  *                      provenance: compose.c
  *   document_*         the page under construction: answers, headings, tables (struct table of src/report), figures  document.c
  *   words              causes, candidates and files in words; hidden_in_words: what may hide in a parameter       words.c
@@ -129,7 +129,6 @@ void answer_diagnose(struct document *document, const struct result *result);
 void answer_plain(struct document *document, const struct result *result);
 
 /* of a deck that is one state, or of one of its states */
-void section_speeds(struct document *document, const struct result *result);
 const char *answer_of_speeds(struct pool *pool, const rotid_speeds *speeds);
 /* of all states */
 void section_trust(struct document *document, const struct result *result);

@@ -8,7 +8,7 @@
  *   sling          copy.c (rotor_set_sling): end springs (44) from mass and centre of mass
  *   sections       section.c (section_of_segment, section_of_ring): S, I of annulus or rectangle less N holes, each
  *                  pi d^4/64 + S e^2/2; section_rods: S = N pi d^2/4, I = I_0 + S e^2/2 of a bundle (7)
- *   bundles        bundle.c (bundle_of_tierod, bundle_of_bars): rods in torsion and along the axis
+ *   bundles        section.c (bundle_of_tierod, bundle_of_bars): rods in torsion and along the axis
  *   parameters     parameter.c: parameter_find resolves a name ("core.E", "front.k", "cause.depth"); parameters_set writes x
  *   effects        hooks of struct effect_kind, implemented in src/diagnose/causes: field (factors on E, G, rho along z), section
  *                  (EI, kGS of a beam), tierod, spring, point (mass or ground spring), joint. Each returns its value or the

@@ -7,11 +7,11 @@
  *
  *   modes            spectrum.c (spectrum_compute): full and condensed frequencies, mesh error by two meshes (Richardson)
  *   numbers          numbering.c (numbering_choose): whether modes on the supports were counted; numbering_search: modes missed
- *   ends             exchange.c (exchange_warn): two bearings of a symmetric rotor that frequencies do not tell apart
+ *   ends             numbering.c (exchange_warn): two bearings of a symmetric rotor that frequencies do not tell apart
  *   pairing          compare.c (comparison_make): partner of each measured mode by NCO or number, MAC
  *   identification   identify.c (identify_run, identify_states): pair, fit by rotid_fit_states, pair again, at most 3 times
  *   mesh             identify.c (mesh_of_fit): a solid is fitted on the coarse mesh, f = rho_j f_coarse with rho_j held;
- *                    mesh_choice.c (mesh_choose): elements of sections without a number, from the noise of the frequencies
+ *                    spectrum.c (mesh_choose): elements of sections without a number, from the noise of the frequencies
  *   frequency and its standard deviation of a mode read at several sensors   point_fit.c (point_mean): weighted regression
  *                    f_j = c + b shape_j^2; point_fit, point_drop_outliers
  *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']

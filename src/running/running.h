@@ -7,7 +7,7 @@
  * In the fixed frame, q = (x, y), W the speed from x to y:
  *   M q'' + (C_b + C_i + W [0 P; -P 0]) q' + (K + K_b + W [0 C_i; -C_i 0]) q = f
  *
- *   loss           loss.c (loss_of_test): losses from the damping ratios of the test
+ *   loss           machine.c (loss_of_test): losses from the damping ratios of the test
  *   machine        machine.c (machine_rotor): the rotor of the test with what the machine has; coefficients_at: tables over speed
  *   matrices       system.c (system_build): K, M, P, losses and pull by src/model, on a basis of modes at rest with the static
  *                  motions by forces at the bearings and by gyroscopic moments; system_at: C(W), K(W)
