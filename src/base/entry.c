@@ -1,7 +1,6 @@
 /* What a public routine does first and last: reasons of failures, structs that begin with their size, texts of a status, the
  * entry. */
 #include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 

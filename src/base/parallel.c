@@ -1,5 +1,3 @@
-#include <fenv.h>
-#include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <time.h>

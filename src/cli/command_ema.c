@@ -2,7 +2,6 @@
 
 #include <complex.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/base.h"

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 
 #include "api/api.h"
 #include "cli/cli.h"

@@ -1,7 +1,6 @@
 /* The deck of a diagnosis, and where it is put. */
 #include "deck/deck.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -2,7 +2,6 @@
  * becomes data lines whose places are rows and columns of the table, so the readers of the cards judge them like any others. */
 #include <ctype.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

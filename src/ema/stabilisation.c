@@ -1,7 +1,6 @@
 #include "ema/ema.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,8 +1,5 @@
 #include "linalg/linalg.h"
 
-#include <stdint.h>
-#include <string.h>
-
 #include "linalg/machine.h"
 
 #define INLINE static inline __attribute__((always_inline))

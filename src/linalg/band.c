@@ -1,8 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 #include "linalg/machine.h"
 

@@ -1,6 +1,5 @@
 /* Condensation of a host's matrices. */
 #include <math.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 

@@ -2,8 +2,6 @@
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 #include "linalg/linalg.h"
 

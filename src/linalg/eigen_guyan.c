@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #define KD         3     /* of a chain of elements with two degrees of freedom a node */
 #define ENDS       4     /* degrees of freedom at both ends of a piece */

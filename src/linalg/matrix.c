@@ -1,7 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "linalg/machine.h"
 

@@ -1,7 +1,6 @@
 #include "linalg/linalg.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #define ROUNDING 1e-10 /* of the largest entry of a block: two triangles that a host computes in different ways */
 

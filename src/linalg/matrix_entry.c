@@ -1,5 +1,4 @@
 /* Matrices of a host: entries where its structure has a place for them, the dense matrix they stand for, products. */
-#include <stdint.h>
 
 #include "linalg/linalg.h"
 

@@ -2,7 +2,6 @@
 
 #include <cblas.h>
 #include <math.h>
-#include <stddef.h>
 
 #include "linalg/machine.h"
 

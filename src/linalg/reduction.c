@@ -2,7 +2,6 @@
 
 #include <cblas.h>
 #include <lapacke.h>
-#include <string.h>
 
 #define STRIP 24 /* columns: narrow enough to save most of the upper triangle, wide enough for dgemm */
 

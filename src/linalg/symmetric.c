@@ -1,6 +1,5 @@
 #include <lapacke.h>
 #include <math.h>
-#include <stddef.h>
 
 #include "linalg/linalg.h"
 

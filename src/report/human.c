@@ -1,7 +1,6 @@
 #include "report/report.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define DASH         "\xe2\x80\x93"

@@ -5,7 +5,6 @@
 #include "study/study.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define DRAWS           200 /* of a run: the mean of many runs wants no more of each */

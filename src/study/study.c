@@ -1,6 +1,5 @@
 #include "study/study.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* ---- what tells whether a deck has changed */
