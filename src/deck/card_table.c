@@ -154,13 +154,13 @@ const char *const deck_counts[] = {"ELASTIC", "ALL", NULL};
 static const struct deck_row modes[] = {OTHER("TYPE", .words = mode_type_words), OTHER("COUNT", .words = deck_counts, .standard = -1), OTHER("FILE", .what = ""), LAST};
 static const struct deck_row mode[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), LAST},
     frequencies[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
-static const struct deck_row measured[] = {
+const struct deck_row deck_measured_rows[] = {
     OTHER("FILE", .what = ""),
-    OTHER("AXIS", .words = axes, .standard = 2),
-    OTHER("DIRECTION", .words = axes),
-    OTHER("ORIGIN", .what = "[m]"),
-    OTHER("FLIP", .words = deck_answers),
-    OTHER("SCALE", .what = "(1)"),
+    {.option = "AXIS", WORD(struct measured_nodes, axis, axes), .standard = 2},
+    {.option = "DIRECTION", WORD(struct measured_nodes, component, axes)},
+    {.option = "ORIGIN", NUMBER(struct measured_nodes, origin, "[m]"), OPTIONAL},
+    {.option = "FLIP", WORD(struct measured_nodes, flip, deck_answers)},
+    {.option = "SCALE", ABOVE_0(struct measured_nodes, scale, "(1)"), OPTIONAL},
     OTHER("COUNT", .words = deck_counts, .standard = -1),
     OTHER("HAMMER", .what = ""),
     LAST};
@@ -279,7 +279,7 @@ const struct deck_card deck_card_table[] = {
     {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, OF_STATE},
-    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE, .once = 1},
+    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, deck_measured_rows, OF_STATE, .once = 1},
     {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES, .instead = "options on the card", .once = 1},
     {"WEIGHT", CARD_MEASURED, 6, deck_weight, "mass, standard deviation [kg]", deck_weight_rows, OF_STATE, .once = 1},
     {"CENTRE", CARD_MEASURED, 6, deck_weight, "position of the centre of mass, standard deviation [m]", deck_centre_rows, OF_STATE, .once = 1},

@@ -548,36 +548,12 @@ struct import {
     const struct card *card;
     const char *path;
     struct uff_file file;
-    int axis, component;
-    double origin, scale;
-    int flip;
+    struct measured_nodes at;
 };
 
 static struct place in_file(const struct import *import, int line)
 {
     return (struct place){import->path, line, 1};
-}
-
-static int read_options(struct import *import)
-{
-    static const char *const axes[] = {"X", "Y", "Z", NULL};
-    struct deck_reader *reader = import->reader;
-    const struct card_option *option;
-    int bad = 0;
-    import->axis = 2;
-    if ((option = card_option(import->card, "AXIS")))
-        bad |= (import->axis = deck_option_word(reader, option, axes)) < 0;
-    if ((option = card_option(import->card, "DIRECTION")))
-        bad |= (import->component = deck_option_word(reader, option, axes)) < 0;
-    if ((option = card_option(import->card, "FLIP")))
-        bad |= (import->flip = deck_option_word(reader, option, deck_answers)) < 0;
-    import->scale = 1;
-    if ((option = card_option(import->card, "SCALE")))
-        bad |= deck_option_number(reader, option, "", POSITIVE, &import->scale);
-    import->origin = import->flip > 0 ? reader->length : 0;
-    if ((option = card_option(import->card, "ORIGIN")))
-        bad |= deck_option_number(reader, option, "m", ANY, &import->origin);
-    return bad;
 }
 
 static int compare_sensors(const void *left, const void *right)
@@ -636,7 +612,7 @@ static int import_sensors(struct import *import)
         if (rotor->nsensor == DECK_MOST_LINES)
             return deck_error(reader, in_file(import, 1),
                               "the shapes have more than %d nodes, expected those of sensors on a rotor", DECK_MOST_LINES);
-        double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
+        double z = import->at.origin + (import->at.flip ? -1 : 1) * import->at.scale * file->node[i].x[import->at.axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
             if (!outside++) {
                 first = i;
@@ -689,7 +665,7 @@ static void place_components(struct import *import, const struct uff_shape *shap
 static int import_shape(struct import *import, const struct uff_shape *shape, double *target)
 {
     struct deck_reader *reader = import->reader;
-    int component = shape->component_count == 1 ? 0 : import->component;
+    int component = shape->component_count == 1 ? 0 : import->at.component;
     if (component >= shape->component_count)
         return deck_error(reader, in_file(import, shape->line),
                           "the shape has %d values a node, expected DIRECTION to be one of them", shape->component_count);
@@ -769,21 +745,23 @@ static int import_modes(struct import *import)
     job->measurement.nmode = count;
     bad |= import_hammer(import, count ? chosen[0] : NULL);
     if (!bad)
-        deck_uff_std(reader, import->path, &import->file, count, chosen, import->component);
+        deck_uff_std(reader, import->path, &import->file, count, chosen, import->at.component);
     return bad;
 }
 
 void deck_measured(struct deck_reader *reader, const struct card *card)
 {
-    struct import import = {.reader = reader, .card = card};
+    struct import import = {.reader = reader, .card = card, .at = {.scale = 1, .origin = NAN}};
     reader->measured_card = card;
     if (reader->modes_card) {
         deck_error(reader, card->place, "modes are given by *MODES and by *MEASURED, expected one of them");
         return;
     }
     const char *file = deck_option(reader, card, "FILE", "path of a universal file");
-    if (read_options(&import) || !file)
+    if (deck_read_options(reader, card, deck_measured_rows, &import.at) || !file)
         return;
+    if (isnan(import.at.origin))
+        import.at.origin = import.at.flip ? reader->length : 0;
     import.path = deck_path(reader, card, card_option(card, "FILE"));
     if (!import.path)
         return;

@@ -98,7 +98,13 @@ struct deck_card {
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
     deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
     deck_clamp_rows[], deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_weight_rows[], deck_centre_rows[],
-    deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[];
+    deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[], deck_measured_rows[];
+
+/* Of *MEASURED: where the nodes of the file lie on the rotor, z = origin + scale * coordinate, with flip the other way. */
+struct measured_nodes {
+    int axis, component, flip;
+    double origin, scale;
+};
 
 /* x along the horizontal; x along the load of the bearing, which the weight makes. */
 extern const char *const deck_axes[];

@@ -2,6 +2,7 @@
  *   STUDY                                     the command, seed, replicates
  *   DECKS, VARIANT, MODES, SENSORS, NOISE, HIDE  axes, a list each, whose entries have names that differ
  *   DATA, TRUTH, STARTS                       where the data and the starts come from */
+#include "deck/deck_row.h"
 #include "study/study.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #define DRAWS           200 /* of a run: the mean of many runs wants no more of each */
 #define MOST_REPLICATES 10000000
 #define MOST_GRID       1000
+#define SEED_MOST       4294967295.0
 
 const char *const plan_commands[] = {"identify", "diagnose", "speeds", NULL};
 
@@ -18,22 +20,6 @@ struct plan_reader {
     struct plan *plan;
     const struct card *starts_card, *truth_card, *hide_card;
 };
-
-static int whole_option(struct plan_reader *reader, const struct card *card, const char *name, double least, double most,
-                        double *value)
-{
-    const struct card_option *option = card_option(card, name);
-    double number;
-    if (!option || deck_option_number(&reader->fields, option, "", ANY, &number))
-        return 0;
-    if (number != floor(number) || number < least || number > most) {
-        deck_error(&reader->fields, option->value_place, "%s is %s, expected a whole number from %.0f to %.0f", name,
-                   option->value, least, most);
-        return 0;
-    }
-    *value = number;
-    return 1;
-}
 
 static void no_data(struct plan_reader *reader, const struct card *card)
 {
@@ -52,25 +38,26 @@ static void of_command(struct plan_reader *reader, const struct card_option *opt
 static void read_study(struct plan_reader *reader, const struct card *card)
 {
     static const char *const commands[] = {"IDENTIFY", "DIAGNOSE", "SPEEDS", NULL};
+    static const struct deck_row rows[] = {
+        {.option = "COMMAND", WORD(struct plan, command, commands)},
+        {.option = "BASELINE", WORD(struct plan, baseline, deck_answers)},
+        {.option = "REPLICATES", WHOLE(struct plan, replicates, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
+        {.option = "BOOTSTRAP", WHOLE(struct plan, bootstrap, ""), FROM_TO(100, 1000000), OPTIONAL},
+        {.option = "DRAWS", WHOLE(struct plan, draws, ""), FROM_TO(0, 1000000), OPTIONAL},
+        LAST};
     struct plan *plan = reader->plan;
-    const struct card_option *command = card_option(card, "COMMAND"), *baseline = card_option(card, "BASELINE");
-    double number;
-    int word;
+    const struct card_option *seed = card_option(card, "SEED");
+    double number = 0;
     no_data(reader, card);
-    if (command && (word = deck_option_word(&reader->fields, command, commands)) >= 0)
-        plan->command = (enum plan_command)word;
-    if (baseline && (word = deck_option_word(&reader->fields, baseline, deck_answers)) >= 0)
-        plan->baseline = word;
-    if (whole_option(reader, card, "SEED", 0, 4294967295.0, &number))
+    (void)deck_read_options(&reader->fields, card, rows, plan);
+    if (seed && !deck_option_number(&reader->fields, seed, "", ANY, &number) &&
+        (number != floor(number) || number < 0 || number > SEED_MOST))
+        deck_error(&reader->fields, seed->value_place, "SEED is %s, expected a whole number from 0 to %.0f", seed->value,
+                   SEED_MOST);
+    else if (seed)
         plan->seed = (unsigned long)number;
-    if (whole_option(reader, card, "REPLICATES", 1, MOST_REPLICATES, &number))
-        plan->replicates = (int)number;
-    if (whole_option(reader, card, "BOOTSTRAP", 100, 1000000, &number))
-        plan->bootstrap = (int)number;
-    if (whole_option(reader, card, "DRAWS", 0, 1000000, &number))
-        plan->draws = (int)number;
     if (plan->baseline)
-        of_command(reader, baseline, PLAN_IDENTIFY, commands);
+        of_command(reader, card_option(card, "BASELINE"), PLAN_IDENTIFY, commands);
     of_command(reader, card_option(card, "BOOTSTRAP"), PLAN_DIAGNOSE, commands);
     of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS, commands);
 }
@@ -232,17 +219,17 @@ static void read_starts(struct plan_reader *reader, const struct card *card)
 {
     struct plan *plan = reader->plan;
     const struct card_option *spread = card_option(card, "SPREAD"), *count = card_option(card, "COUNT");
-    double number;
+    static const struct deck_row rows[] = {
+        {.option = "COUNT", WHOLE(struct plan, count, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
+        {.option = "GRID", WHOLE(struct plan, grid, ""), FROM_TO(2, MOST_GRID), OPTIONAL},
+        LAST};
     reader->starts_card = card;
     no_data(reader, card);
     if (!deck_option(&reader->fields, card, "SPREAD", "part of the start, such as 0.7"))
         return;
     if (!deck_option_number(&reader->fields, spread, "", POSITIVE, &plan->spread) && plan->spread > 1e3)
         deck_error(&reader->fields, spread->value_place, "SPREAD is %s, expected a part of the start such as 0.7", spread->value);
-    if (whole_option(reader, card, "COUNT", 1, MOST_REPLICATES, &number))
-        plan->count = (int)number;
-    if (whole_option(reader, card, "GRID", 2, MOST_GRID, &number))
-        plan->grid = (int)number;
+    (void)deck_read_options(&reader->fields, card, rows, plan);
     if (count && card_option(card, "GRID"))
         deck_error(&reader->fields, count->place, "COUNT and GRID are both given, expected one of them");
 }
