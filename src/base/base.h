@@ -189,7 +189,18 @@ const char **message_warnings(const struct message_list *list, struct pool *pool
 
 /* ----------------------------------------------------------------------------------------------------------------- order */
 
-/* Numbers in order. */
+/* Numbers, and what has numbers, in order. */
+
+/* Defines NAME, which qsort and bsearch compare elements of TYPE by: by the number FIRST of `it`, of equal ones by SECOND. */
+#define ORDER_BY(NAME, TYPE, FIRST, SECOND)                                                                                      \
+    static int NAME(const void *left, const void *right)                                                                         \
+    {                                                                                                                            \
+        const TYPE *it = left;                                                                                                   \
+        double a = (double)(FIRST), behind_a = (double)(SECOND);                                                                 \
+        it = right;                                                                                                              \
+        double b = (double)(FIRST), behind_b = (double)(SECOND);                                                                 \
+        return a != b ? (a > b) - (a < b) : (behind_a > behind_b) - (behind_a < behind_b);                                       \
+    }
 
 /* value [count], increasing; none is NaN. */
 void sort_doubles(size_t count, double *value);

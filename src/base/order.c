@@ -3,27 +3,19 @@
 
 #include "base/base.h"
 
-static int compare(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
+ORDER_BY(of_doubles, double, *it, 0)
 
 void sort_doubles(size_t count, double *value)
 {
-    qsort(value, count, sizeof *value, compare);
+    qsort(value, count, sizeof *value, of_doubles);
 }
 
-static int compare_ints(const void *left, const void *right)
-{
-    int a = *(const int *)left, b = *(const int *)right;
-    return (a > b) - (a < b);
-}
+ORDER_BY(of_ints, int, *it, 0)
 
 void sort_ints(size_t count, int *value)
 {
     if (count)
-        qsort(value, count, sizeof *value, compare_ints);
+        qsort(value, count, sizeof *value, of_ints);
 }
 
 double double_of_rank(size_t count, size_t rank, double *value)

@@ -556,17 +556,9 @@ static struct place in_file(const struct import *import, int line)
     return (struct place){import->path, line, 1};
 }
 
-static int compare_sensors(const void *left, const void *right)
-{
-    const struct sensor *a = left, *b = right;
-    return (a->position > b->position) - (a->position < b->position);
-}
+ORDER_BY(by_position, struct sensor, it->position, 0)
 
-static int compare_ids(const void *left, const void *right)
-{
-    int a = *(const int *)left, b = *(const int *)right;
-    return (a > b) - (a < b);
-}
+ORDER_BY(by_id, int, *it, 0)
 
 /* The nodes of all modes by rising id, [*count]; a file of finite elements may have a million. NULL without memory. */
 static int *shape_nodes(struct pool *pool, const struct uff_file *file, size_t *count)
@@ -580,7 +572,7 @@ static int *shape_nodes(struct pool *pool, const struct uff_file *file, size_t *
         for (int i = 0; uff_is_mode(&file->shape[k]) && i < file->shape[k].node_count; i++)
             id[at++] = file->shape[k].node[i];
     if (at)
-        qsort(id, at, sizeof *id, compare_ids);
+        qsort(id, at, sizeof *id, by_id);
     return id;
 }
 
@@ -607,7 +599,7 @@ static int import_sensors(struct import *import)
     int outside = 0, first = 0;
     double at = 0;
     for (int i = 0; i < file->node_count; i++) {
-        if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, compare_ids))
+        if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, by_id))
             continue;
         if (rotor->nsensor == DECK_MOST_LINES)
             return deck_error(reader, in_file(import, 1),
@@ -630,7 +622,7 @@ static int import_sensors(struct import *import)
                    file->node[first].id, at, outside > 1 ? pool_format(reader->pool, ", and %d more nodes are", outside - 1) : "",
                    reader->length);
     if (rotor->nsensor)
-        qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, compare_sensors);
+        qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, by_position);
     for (int s = 0; s < rotor->nsensor; s++)
         deck_add_place(reader, SENSOR_PLACES, in_file(import, 1));
     return outside > 0;

@@ -719,11 +719,7 @@ static int finish(struct extraction *job)
     return channels_compare(job->pool, job->set, job->first, job->last, job->usable, out);
 }
 
-static int by_frequency_of_mode(const void *a, const void *b)
-{
-    double x = ((const struct ema_mode *)a)->frequency_hz, y = ((const struct ema_mode *)b)->frequency_hz;
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_frequency_of_mode, struct ema_mode, it->frequency_hz, 0)
 
 static int is_cancelled(const struct extraction *job)
 {

@@ -3,11 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_frequency, double complex, cimag(*it), 0)
 
 void sort_poles(size_t count, double complex *pole)
 {

@@ -169,11 +169,7 @@ struct place {
     int id, order;
 };
 
-static int by_id(const void *a, const void *b)
-{
-    const struct place *p = a, *q = b;
-    return p->id != q->id ? (p->id < q->id ? -1 : 1) : (p->order > q->order) - (p->order < q->order);
-}
+ORDER_BY(by_id, struct place, it->id, it->order)
 
 static int has_place(const struct place *place, int count, int id)
 {
@@ -555,18 +551,12 @@ int listing_read(struct pool *pool, const char *path, const struct listing_optio
 
 #define RANGES_SHOWN 6
 
-static int ascending(const void *a, const void *b)
-{
-    int p = *(const int *)a, q = *(const int *)b;
-    return (p > q) - (p < q);
-}
-
 /* "1 to 3, 7": numbers in order, neighbours joined; what does not fit as a count. */
 static const char *range_text(struct pool *pool, int count, int *number)
 {
     const char *text = "";
     int ranges = 0;
-    qsort(number, (size_t)count, sizeof *number, ascending);
+    sort_ints((size_t)count, number);
     for (int i = 0; i < count && text;) {
         int last = i;
         while (last + 1 < count && number[last + 1] - number[last] <= 1)

@@ -70,12 +70,7 @@ struct growing {
     size_t item_room, node_count, node_room;
 };
 
-static int compare_ids(const void *left, const void *right)
-{
-    const struct placed *a = left, *b = right;
-    return a->node.id != b->node.id ? (a->node.id > b->node.id) - (a->node.id < b->node.id)
-                                    : (a->order > b->order) - (a->order < b->order);
-}
+ORDER_BY(by_id, struct placed, it->node.id, it->order)
 
 static int add_nodes(struct growing *g, const struct uff_set *set, int count, const struct uff_node *node)
 {
@@ -98,7 +93,7 @@ static int join_nodes(struct growing *g)
     if (!c->node)
         return ROTID_ERROR_MEMORY;
     if (g->node_count)
-        qsort(g->node, g->node_count, sizeof *g->node, compare_ids);
+        qsort(g->node, g->node_count, sizeof *g->node, by_id);
     for (size_t i = 0, first = 0; i < g->node_count; i++) {
         const struct placed *p = &g->node[i];
         if (i && g->node[first].node.id == p->node.id) {

@@ -43,11 +43,7 @@ static const char *base_name(const char *path, char name[NAME_MOST + 1])
     return name;
 }
 
-static int compare_ids(const void *left, const void *right)
-{
-    const int *a = left, *b = right;
-    return (*a > *b) - (*a < *b);
-}
+ORDER_BY(by_id, int, *it, 0)
 
 static int collect_nodes(struct writing *w)
 {
@@ -59,7 +55,7 @@ static int collect_nodes(struct writing *w)
     if (!w->node || !w->value || !w->known || !w->written || !w->difference)
         return ROTID_ERROR_MEMORY;
     memcpy(w->node, w->ema->point_node, (size_t)w->ema->npoint * sizeof *w->node);
-    qsort(w->node, (size_t)w->ema->npoint, sizeof *w->node, compare_ids);
+    qsort(w->node, (size_t)w->ema->npoint, sizeof *w->node, by_id);
     for (int i = 0; i < w->ema->npoint; i++)
         if (!i || w->node[i] != w->node[w->node_count - 1])
             w->node[w->node_count++] = w->node[i];
@@ -94,7 +90,7 @@ static int write_values(struct writing *w, struct uff_shape *shape, const double
     memset(w->value, 0, 3 * (size_t)w->node_count * sizeof *w->value);
     memset(w->known, 0, (size_t)w->node_count * sizeof *w->known);
     for (int p = 0; p < ema->npoint; p++) {
-        const int *at = bsearch(&ema->point_node[p], w->node, (size_t)w->node_count, sizeof *w->node, compare_ids);
+        const int *at = bsearch(&ema->point_node[p], w->node, (size_t)w->node_count, sizeof *w->node, by_id);
         int direction = abs(ema->point_direction[p]);
         if (!at || direction > 3 || !isfinite(value[p]))
             continue;

@@ -153,11 +153,7 @@ const struct transfer_result *frf_result_of(const struct frf_view *view)
 
 /* ---- sets 58 */
 
-static int by_id(const void *left, const void *right)
-{
-    const struct uff_node *a = left, *b = right;
-    return (a->id > b->id) - (a->id < b->id);
-}
+ORDER_BY(by_id, struct uff_node, it->id, 0)
 
 static int write_nodes(FILE *stream, const struct frf_view *view)
 {
@@ -432,11 +428,7 @@ struct ranked {
     int row;
 };
 
-static int by_frac(const void *left, const void *right)
-{
-    const struct ranked *a = left, *b = right;
-    return a->frac != b->frac ? (a->frac > b->frac) - (a->frac < b->frac) : a->row - b->row;
-}
+ORDER_BY(by_frac, struct ranked, it->frac, it->row)
 
 /* All functions, or the worst of many. */
 static struct table *table_of_functions(struct pool *pool, const struct transfer_result *of, int all)

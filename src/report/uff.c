@@ -207,11 +207,7 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
 
 /* ---- modes of a universal file as tables */
 
-static int by_id(const void *left, const void *right)
-{
-    const struct uff_node *a = left, *b = right;
-    return (a->id > b->id) - (a->id < b->id);
-}
+ORDER_BY(by_id, struct uff_node, it->id, 0)
 
 /* Index among the nodes. */
 static int find_node(const struct csv_universal *u, int id)

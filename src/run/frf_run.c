@@ -126,11 +126,7 @@ struct placed {
     double z;
 };
 
-static int by_id(const void *left, const void *right)
-{
-    const struct placed *a = left, *b = right;
-    return (a->id > b->id) - (a->id < b->id);
-}
+ORDER_BY(by_id, struct placed, it->id, 0)
 
 static int node_position(const struct job *job, const struct frf_measured *measured, struct message_list *notes,
                          struct placed *point)

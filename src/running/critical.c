@@ -209,11 +209,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     return status ? status : add_growing(pool, s, all, t);
 }
 
-static int by_speed(const void *a, const void *b)
-{
-    double x = ((const struct critical *)a)->speed, y = ((const struct critical *)b)->speed;
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_speed, struct critical, it->speed, 0)
 
 /* Newton from a speed within the bracket of a crossing: 0 where it ends in the bracket, at the mode that it began with. */
 static int newton(struct system *s, double h, double below, double above, const struct pair *from, double *speed, struct pair *to)

@@ -62,11 +62,7 @@ static void by_speed(const struct system *s, double complex lambda, const double
             v[i] += (lambda * s->dc[i + (ptrdiff_t)s->size * j] + s->dk[i + (ptrdiff_t)s->size * j]) * u[j];
 }
 
-static int by_imaginary(const void *a, const void *b)
-{
-    double x = cimag(((const struct pair *)a)->lambda), y = cimag(((const struct pair *)b)->lambda);
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_imaginary, struct pair, cimag(it->lambda), 0)
 
 static int is_a_wave(double complex lambda)
 {

@@ -29,11 +29,7 @@ static double decrement(double complex lambda)
     return 2 * pi * ratio(lambda) * cabs(lambda) / cimag(lambda);
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = ((const rotid_campbell_mode *)a)->frequency_hz, y = ((const rotid_campbell_mode *)b)->frequency_hz;
-    return (x > y) - (x < y);
-}
+ORDER_BY(by_frequency, rotid_campbell_mode, it->frequency_hz, 0)
 
 static int fill_campbell(struct run *r)
 {

@@ -126,11 +126,7 @@ struct choice { /* a sensor with its lot */
     int sensor;
 };
 
-static int compare(const void *left, const void *right)
-{
-    const struct choice *a = left, *b = right;
-    return (a->lot > b->lot) - (a->lot < b->lot);
-}
+ORDER_BY(by_lot, struct choice, it->lot, 0)
 
 /* A sensor that an effect or the hidden fault is about stays. */
 static int must_stay(const struct job *job, const struct truth *truth, int s)
@@ -167,7 +163,7 @@ static int choose(struct pool *pool, const struct study *study, const struct stu
         keep[s] = sensors->every && (s % sensors->every == 0 || choice[s].lot < 0);
     }
     if (sensors->keep) {
-        qsort(choice, (size_t)nsensor, sizeof *choice, compare);
+        qsort(choice, (size_t)nsensor, sizeof *choice, by_lot);
         for (int i = 0; i < sensors->keep && i < nsensor; i++)
             keep[choice[i].sensor] = 1;
     }

@@ -409,13 +409,7 @@ int uff_add_label(struct pool *pool, struct uff_label_list *labels, int id)
     return ROTID_OK;
 }
 
-static int compare_labels(const void *first, const void *second)
-{
-    const struct uff_label *a = first, *b = second;
-    if (a->id != b->id)
-        return a->id < b->id ? -1 : 1;
-    return (a->order > b->order) - (a->order < b->order);
-}
+ORDER_BY(by_id, struct uff_label, it->id, it->order)
 
 void uff_sort_labels(struct uff_label_list *labels)
 {
@@ -423,7 +417,7 @@ void uff_sort_labels(struct uff_label_list *labels)
     while (sorted < labels->count && labels->item[sorted - 1].id < labels->item[sorted].id)
         ++sorted;
     if (sorted < labels->count) /* most writers sort */
-        qsort(labels->item, labels->count, sizeof *labels->item, compare_labels);
+        qsort(labels->item, labels->count, sizeof *labels->item, by_id);
 }
 
 /* ---- reading over a set, or over what is left of it */
