@@ -109,8 +109,8 @@ static double bijection_chi(const struct job *job)
     return job->options.fit.bijection_chi > 0 ? job->options.fit.bijection_chi : standard.bijection_chi;
 }
 
-static rotid_identification *make(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
-                                  const struct identification *found)
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
+                                            const struct identification *found)
 {
     const rotid_fit_result *fit = found->fit;
     rotid_identification *out = fit ? POOL_NEW(pool, rotid_identification) : NULL;
@@ -148,16 +148,10 @@ static rotid_identification *make(struct pool *pool, const struct job *job, cons
     return out;
 }
 
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
-                                            const struct identification *found)
-{
-    return make(pool, job, bounds, found);
-}
-
 static int fill_state(struct pool *pool, const struct state *state, const rotid_parameter *bounds,
                       const struct identification *found, rotid_identified_state *out)
 {
-    const rotid_identification *part = make(pool, &state->job, bounds, found);
+    const rotid_identification *part = result_identification(pool, &state->job, bounds, found);
     if (!part)
         return 1;
     *out = (rotid_identified_state){.name = state->name,
@@ -210,7 +204,7 @@ rotid_identification *result_identification_states(struct pool *pool, const stru
                                                    const struct identification *found, const rotid_fit_result *fit)
 {
     rotid_identified_state *list = POOL_ARRAY(pool, rotid_identified_state, states->nstate);
-    rotid_identification *out = list ? make(pool, &states->state[0].job, states->bounds, &found[0]) : NULL;
+    rotid_identification *out = list ? result_identification(pool, &states->state[0].job, states->bounds, &found[0]) : NULL;
     if (!out)
         return NULL;
     for (int s = 0; s < states->nstate; s++) {

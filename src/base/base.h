@@ -276,6 +276,8 @@ int sized_copy(const struct sized_struct *structure, const void *given, char *fa
 
 /* Names in decks are compared without regard to case. */
 int same_text(const char *a, const char *b);
+/* Letter by letter; both may be NULL. */
+int equal_texts(const char *a, const char *b);
 
 /* Edits that make one text of the other without regard to case: a letter more, less, changed, or two neighbours exchanged; more
  * than a third of the letters, and 3 at most, count as TEXT_FAR, as do texts beyond 31 letters. */

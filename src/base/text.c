@@ -3,6 +3,11 @@
 #include <ctype.h>
 #include <string.h>
 
+int equal_texts(const char *a, const char *b)
+{
+    return a == b || (a && b && !strcmp(a, b));
+}
+
 int same_text(const char *a, const char *b)
 {
     for (; *a && *b; a++, b++)

@@ -20,7 +20,7 @@ static int judge_condensed(struct command *command, const struct job *job, const
     }
     for (int i = 0; i < c->count && alone; i++)
         if (export_master_id(model, i) > DMIG_MOST_ID) {
-            struct job_place place = job_sensor_place(job, i);
+            struct place place = job_sensor_place(job, i);
             return message_refuse(&command->messages, 1, place.file, place.line, place.column,
                                   "sensor %d cannot be the id of a GRID, expected at most %d", export_master_id(model, i),
                                   DMIG_MOST_ID);

@@ -191,11 +191,6 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
-static struct job_place job_place_of(struct place place)
-{
-    return (struct job_place){place.file, place.line, place.column};
-}
-
 /* Of the groups, tie rods, bars and sensors, in this order, and of what was measured. */
 static int keep_places(struct deck_reader *reader)
 {
@@ -203,13 +198,13 @@ static int keep_places(struct deck_reader *reader)
     static const enum deck_places from[] = {GROUP_PLACES, TIEROD_PLACES, BARS_PLACES, SENSOR_PLACES};
     const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars, rotor->nsensor};
     const struct card *measured = reader->modes_card ? reader->modes_card : reader->measured_card;
-    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2] + count[3]);
+    struct place *to = POOL_ARRAY(reader->pool, struct place, count[0] + count[1] + count[2] + count[3]);
     reader->job->part = to;
     for (int kind = 0; kind < 4 && to; kind++)
         for (int i = 0; i < count[kind]; i++)
-            *to++ = job_place_of(reader->place[from[kind]][i]);
+            *to++ = reader->place[from[kind]][i];
     if (measured)
-        reader->job->measured = job_place_of(measured->place);
+        reader->job->measured = measured->place;
     return reader->job->part ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -224,9 +219,7 @@ static void check_model(struct deck_reader *reader)
         status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
-        struct job_place part = job_part_place(job, failed);
-        struct place place = {part.file, part.line, part.column};
-        deck_error(reader, place, "%s", discrete_refusal(as, &job->rotor, failed));
+        deck_error(reader, job_part_place(job, failed), "%s", discrete_refusal(as, &job->rotor, failed));
     } else if (status) {
         reader->pool->out_of_memory = 1;
     }

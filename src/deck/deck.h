@@ -44,11 +44,6 @@
 #define DECK_MOST_CARDS    5000        /* names are compared with each other */
 #define DECK_MOST_MODES    100         /* and the highest number: a spectrum costs the cube of the number of modes */
 
-struct place {
-    const char *file;
-    int line, column;
-};
-
 struct field { /* of a data line, trimmed; empty between two commas */
     const char *text;
     struct place place; /* row and column where the line comes from a table */

@@ -300,9 +300,8 @@ static int find_value(const struct cause_card *c, const struct field *field, int
             return p;
         (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s [%s]", p ? ", " : "", known[p].name, known[p].unit);
     }
-    deck_error(c->reader, field->place, "%s is no parameter of TYPE=%s, expected %s", field->text, c->kind->id,
-               count ? list : "no data line");
-    return -1;
+    return -deck_error(c->reader, field->place, "%s is no parameter of TYPE=%s, expected %s", field->text, c->kind->id,
+                       count ? list : "no data line");
 }
 
 /* "mass, 0, 5": where a suspect's size is looked for. */

@@ -196,8 +196,7 @@ static int mode_of(struct deck_reader *reader, const struct card *card)
     for (int k = 0; k < m->nmode && reader->modes_card; k++)
         if (m->number[k] == number)
             return k;
-    deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
-    return -1;
+    return -deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
 }
 
 /* How many values are not zero. */

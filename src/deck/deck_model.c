@@ -106,10 +106,9 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     if (of && material < 0)
         deck_error(reader, card_option(card, "MATERIAL")->value_place,
                    "material %s is not defined, expected the name of a *MATERIAL", of);
-    if (name && deck_find_group(reader, rotor->ngroup, name, strlen(name)) >= 0) {
-        deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
-        return -1;
-    }
+    if (name && deck_find_group(reader, rotor->ngroup, name, strlen(name)) >= 0)
+        return -deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one",
+                           name);
     struct group group = {.name = name ? name : "", .layer_of = -1};
     if (material >= 0)
         group.material = reader->material[material];
@@ -172,10 +171,9 @@ static int host_of(struct deck_reader *reader, const struct card *card)
     if (name && host < 0)
         deck_error(reader, option->value_place, "group %s is not defined, expected the name of a *SHAFT", name);
     for (int s = 0; s < rotor->nsegment && host >= 0; s++)
-        if (rotor->segment[s].group == host && rotor->segment[s].rectangular) {
-            deck_error(reader, option->value_place, "group %s is a *BEAM, expected a round *SHAFT: layers are rings", name);
-            return -1;
-        }
+        if (rotor->segment[s].group == host && rotor->segment[s].rectangular)
+            return -deck_error(reader, option->value_place, "group %s is a *BEAM, expected a round *SHAFT: layers are rings",
+                               name);
     return host;
 }
 

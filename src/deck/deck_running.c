@@ -112,7 +112,7 @@ void deck_running(struct deck_reader *reader, const struct card *card)
     struct machine *machine = reader->machine;
     const struct rotor *rotor = &reader->job->rotor;
     const struct card_option *without = card_option(card, "WITHOUT");
-    machine->place = (struct job_place){card->place.file, card->place.line, card->place.column};
+    machine->place = card->place;
     machine->without_spring = POOL_ARRAY(reader->pool, int, rotor->nspring);
     machine->without_disk = POOL_ARRAY(reader->pool, int, rotor->ndisk);
     machine->without_effect = POOL_ARRAY(reader->pool, int, rotor->neffect);
@@ -460,7 +460,7 @@ int deck_check_runup(struct deck_reader *reader, const struct card *card, const 
     const struct machine *machine = reader->machine;
     struct runup_reading *reading = item;
     (void)card;
-    reading->place = (struct job_place){line->place.file, line->place.line, line->place.column};
+    reading->place = line->place;
     for (int j = 0; j < machine->nrunup; j++)
         if (machine->runup[j].number == reading->number && machine->runup[j].backward == reading->backward)
             return deck_error(reader, line->field[0].place, "critical speed %d is given twice, expected once for each whirl",
@@ -481,14 +481,13 @@ static int unknown_bearing(struct deck_reader *reader, const struct field *field
             continue;
         if (b->like == i)
             return i;
-        deck_error(reader, field->place, "%s is like %s, expected %s.%s", name, machine->bearing[b->like].name,
-                   machine->bearing[b->like].name, dot + 1);
-        return -1;
+        return -deck_error(reader, field->place, "%s is like %s, expected %s.%s", name, machine->bearing[b->like].name,
+                           machine->bearing[b->like].name, dot + 1);
     }
-    deck_error(reader, field->place,
-               "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
-               field->text);
-    return -1;
+    return -deck_error(
+        reader, field->place,
+        "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
+        field->text);
 }
 
 /* *IDENTIFY behind *RUNNING */

@@ -101,8 +101,7 @@ static char *copy_span(struct reader *reader, const char *begin, const char *end
     return copy;
 }
 
-static void text_error(struct reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void text_error(struct reader *reader, struct place place, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void text_error(struct reader *reader, struct place place, const char *format, ...)
 {
     char text[2 * DECK_LINE_LENGTH];
     va_list values;

@@ -39,8 +39,7 @@ int table_is_number(const char *text)
     return end != text && !*end;
 }
 
-static int refuse_table(struct splitter *s, int row, int column, const char *format, ...) __attribute__((format(printf, 4, 5)));
-static int refuse_table(struct splitter *s, int row, int column, const char *format, ...)
+__attribute__((format(printf, 4, 5))) static int refuse_table(struct splitter *s, int row, int column, const char *format, ...)
 {
     char text[512], cell[TABLE_CELL_LENGTH];
     va_list values;

@@ -124,9 +124,7 @@ struct search {
     struct listing *listing;
 };
 
-static void add(struct search *search, const char *kind, int line, const char *format, ...) __attribute__((format(printf, 4, 5)));
-
-static void add(struct search *search, const char *kind, int line, const char *format, ...)
+__attribute__((format(printf, 4, 5))) static void add(struct search *search, const char *kind, int line, const char *format, ...)
 {
     struct listing *listing = search->listing;
     char text[512];

@@ -60,15 +60,10 @@ static const char *values_of(struct pool *pool, const rotid_cause *cause)
     return or_nothing(text);
 }
 
-static int same_or_none(const char *a, const char *b)
-{
-    return a == b || (a && b && !strcmp(a, b));
-}
-
 static int same_cause(const rotid_cause *a, const rotid_cause *b)
 {
-    return !strcmp(a->id, b->id) && !strcmp(a->target, b->target) && same_or_none(a->name, b->name) &&
-           same_or_none(a->state, b->state);
+    return !strcmp(a->id, b->id) && !strcmp(a->target, b->target) && equal_texts(a->name, b->name) &&
+           equal_texts(a->state, b->state);
 }
 
 static int is_among(const rotid_candidate *c, int count, const rotid_cause cause[])
@@ -375,11 +370,6 @@ static struct table *table_of_misfit(struct pool *pool, const rotid_diagnosis *d
 
 /* ---- screen */
 
-static int same_state(const rotid_sensor_residual *a, const rotid_sensor_residual *b)
-{
-    return a->state == b->state || (a->state && b->state && !strcmp(a->state, b->state));
-}
-
 /* A line for each state. */
 static int print_sensors(const struct screen *to, const rotid_diagnosis *d, int columns)
 {
@@ -389,7 +379,7 @@ static int print_sensors(const struct screen *to, const rotid_diagnosis *d, int 
         char label[LABEL + 1];
         int measured = 0;
         strip_open(&strip, d->geometry->length_m, columns);
-        for (end = s; end < d->nsensors && same_state(&d->sensors[s], &d->sensors[end]); end++) {
+        for (end = s; end < d->nsensors && equal_texts(d->sensors[s].state, d->sensors[end].state); end++) {
             strip_digits(&strip, 1, &d->sensors[end].z_m, &d->sensors[end].rms);
             measured |= isfinite(d->sensors[end].rms);
         }
@@ -499,6 +489,14 @@ static void print_evidence(const struct screen *to, const rotid_diagnosis *d)
         print_round(to, d, i);
 }
 
+/* A table under a heading in place of its caption. */
+static void print_bare(const struct screen *to, struct table *table)
+{
+    if (table)
+        table->caption = "";
+    table_write_text(to->out, table, to->width);
+}
+
 static void print_shares(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
@@ -506,10 +504,7 @@ static void print_shares(const struct screen *to, const rotid_diagnosis *d)
         return;
     (void)fprintf(to->out, "\nEXPLANATIONS  shares of probability; nothing is wrong: %s before the data, %s after\n",
                   text_of_probability(to->pool, 3, v->nothing_prior), text_of_probability(to->pool, 3, v->nothing));
-    struct table *table = table_of_explanations(to->pool, d, to->verbose);
-    if (table)
-        table->caption = "";
-    table_write_text(to->out, table, to->width);
+    print_bare(to, table_of_explanations(to->pool, d, to->verbose));
 }
 
 static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
@@ -521,10 +516,7 @@ static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
                   d->nhidden && (v->kind == ROTID_ADEQUATE || v->adequate_after)
                       ? "; possible bias: shift by an effect this test cannot show"
                       : "");
-    struct table *table = table_of_verdict_values(to->pool, d, to->verbose);
-    if (table)
-        table->caption = "";
-    table_write_text(to->out, table, to->width);
+    print_bare(to, table_of_verdict_values(to->pool, d, to->verbose));
 }
 
 static void print_heading(const struct screen *to, const struct result_head *head)
@@ -718,10 +710,7 @@ static void print_gain(const struct screen *to, const rotid_diagnosis *d)
         return;
     (void)fprintf(to->out, "\n%s\n",
                   d->extended ? "GAIN  base model -> extended model" : "QUALITY  of the base model, without a cause");
-    struct table *quality = table_of_quality(to->pool, d);
-    if (quality)
-        quality->caption = "";
-    table_write_text(to->out, quality, to->width);
+    print_bare(to, table_of_quality(to->pool, d));
     if (d->extended)
         table_write_text(to->out, table_of_change(to->pool, d), to->width);
     for (int i = 0; i < 2; i++)

@@ -23,7 +23,7 @@ static int begin_as(struct pool *pool, enum discretisation as, struct job *job, 
     int failed, status = models_begin(pool, as, &job->rotor, &job->models, &size, &failed);
     job->options.solid = as == AS_SOLID;
     if (status == ROTID_ERROR_SECTION) {
-        struct job_place place = job_part_place(job, failed);
+        struct place place = job_part_place(job, failed);
         message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "the rotor cannot be compared as a %s: %s",
                     as == AS_SOLID ? "solid" : "beam", discrete_refusal(as, &job->rotor, failed));
     }

@@ -135,7 +135,7 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
 {
     int worst = -1, solid = job->options.solid;
     if (spectrum->apart) {
-        struct job_place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
+        struct place place = job_part_place(job, job->rotor.ngroup + job->rotor.ntierod + job->rotor.nbars);
         message_add(
             notes, SEVERITY_WARNING, NULL, 0, 0, /* notes with a place were printed when the deck was read */
             "%s:%d:%d: the mesh of the solid is not fine enough for mode %d, %.6g Hz: two meshes differ by more than 2 %% or "

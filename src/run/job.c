@@ -4,18 +4,18 @@
 #include <stdio.h>
 #include <string.h>
 
-struct job_place job_part_place(const struct job *job, int failed)
+struct place job_part_place(const struct job *job, int failed)
 {
     const struct rotor *rotor = &job->rotor;
     if (!job->part)
-        return (struct job_place){job->deck, 1, 1};
+        return (struct place){job->deck, 1, 1};
     return job->part[failed < rotor->ngroup + rotor->ntierod + rotor->nbars ? failed : 0];
 }
 
-struct job_place job_sensor_place(const struct job *job, int sensor)
+struct place job_sensor_place(const struct job *job, int sensor)
 {
     const struct rotor *rotor = &job->rotor;
-    return job->part ? job->part[rotor->ngroup + rotor->ntierod + rotor->nbars + sensor] : (struct job_place){job->deck, 1, 1};
+    return job->part ? job->part[rotor->ngroup + rotor->ntierod + rotor->nbars + sensor] : (struct place){job->deck, 1, 1};
 }
 
 int job_knows_frequency_noise(const struct job *job)
@@ -220,7 +220,7 @@ void check_sections(const struct job *job, int status, struct message_list *note
         least = fmin(least, of_section);
         most = fmax(most, of_element);
     }
-    struct job_place place = job_part_place(job, soft);
+    struct place place = job_part_place(job, soft);
     if (most > CONTRAST * least)
         message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column,
                     "%s: a section of %s has EI/L^3 = %.2g N/m beside %.2g N/m of an element of %s, expected at most %.0e times "

@@ -137,7 +137,7 @@ struct job_options {
 };
 
 /* Where a deck states something. */
-struct job_place {
+struct place {
     const char *file;
     int line, column;
 };
@@ -168,11 +168,11 @@ struct job {
     rotid_reference *reference; /* lines "paper error_percent = -3.83, 8.38, ..." of the heading */
 
     struct rotor rotor;
-    const struct job_place *part; /* [ngroup + ntierod + nbars + nsensor] of the rotor, or NULL where nobody stated them */
-    double mesh_error; /* relative, of the measured modes, of the elements that were chosen where none are stated; 0: all are
-                          stated */
-    struct job_place measured; /* card of the measured modes, file NULL where there is none */
-    struct models *models;     /* of it, as far as they are built, or NULL */
+    const struct place *part; /* [ngroup + ntierod + nbars + nsensor] of the rotor, or NULL where nobody stated them */
+    double mesh_error;     /* relative, of the measured modes, of the elements that were chosen where none are stated; 0: all are
+                              stated */
+    struct place measured; /* card of the measured modes, file NULL where there is none */
+    struct models *models; /* of it, as far as they are built, or NULL */
     const struct held_modes *held; /* what fits of the rotor as a solid hold their mesh to (mesh_hold), or NULL */
     struct job_measurement measurement;
     struct job_unknowns unknowns;
@@ -183,8 +183,8 @@ struct job {
 
 /* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line
  * of the deck where nobody stated parts. */
-struct job_place job_part_place(const struct job *job, int failed);
-struct job_place job_sensor_place(const struct job *job, int sensor);
+struct place job_part_place(const struct job *job, int failed);
+struct place job_sensor_place(const struct job *job, int sensor);
 
 /* How its modes are computed. */
 enum discretisation job_discretisation(const struct job *job);

@@ -91,7 +91,7 @@ struct probe {
 struct runup_reading {    /* a measured critical speed */
     int number, backward; /* from 1, of those with backward whirl, or with any other */
     double speed, std;    /* rad/s */
-    struct job_place place;
+    struct place place;
 };
 
 struct machine_unknown { /* a factor on all stiffness or all damping of a bearing and of those like it */
@@ -101,7 +101,7 @@ struct machine_unknown { /* a factor on all stiffness or all damping of a bearin
 
 /* What stands behind *RUNNING. */
 struct machine {
-    struct job_place place; /* of *RUNNING */
+    struct place place; /* of *RUNNING */
     int nbearing, nloss, npull, nchange, nunbalance, nprobe, nrunup, nunknown;
     struct runup_reading *runup;
     int runup_held; /* HOLDOUT=RUNUP: it takes no part in fits */

@@ -22,7 +22,7 @@ static int refuse_system(const struct search *s, int status, int failed, struct 
         message_add(notes, SEVERITY_ERROR, s->machine->place.file, s->machine->place.line, s->machine->place.column,
                     "the bearings do not hold the rotor, expected two *BEARING with stiffness, or more");
     if (status == ROTID_ERROR_SECTION) {
-        struct job_place place = job_part_place(s->job, failed);
+        struct place place = job_part_place(s->job, failed);
         message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "%s",
                     discrete_refusal(s->job->options.solid ? AS_SOLID : AS_BEAM, &s->job->rotor, failed));
     }

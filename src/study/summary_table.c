@@ -7,11 +7,6 @@
 #define MOST_ERROR 10   /* different reasons that are listed */
 #define ROUNDING   1e-9 /* relative, or of an error in per cent: below it stands nothing but that */
 
-static int equal_texts(const char *a, const char *b)
-{
-    return a == b || (a && b && !strcmp(a, b));
-}
-
 static int equal_numbers(double a, double b)
 {
     return a == b || (isnan(a) && isnan(b));

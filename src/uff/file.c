@@ -297,8 +297,7 @@ struct uff_run {
 };
 
 /* Remembers that the set at `line` was not read: the format gives its name, such as "set 151". */
-static void note_skip(struct uff_run *job, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void note_skip(struct uff_run *job, int line, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void note_skip(struct uff_run *job, int line, const char *format, ...)
 {
     char what[sizeof job->skip[0].what];
     va_list values;
