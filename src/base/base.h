@@ -279,15 +279,13 @@ int same_text(const char *a, const char *b);
 /* Letter by letter; both may be NULL. */
 int equal_texts(const char *a, const char *b);
 
-/* Edits that make one text of the other without regard to case: a letter more, less, changed, or two neighbours exchanged; more
- * than a third of the letters, and 3 at most, count as TEXT_FAR, as do texts beyond 31 letters. */
-#define TEXT_FAR 99
-int text_distance(const char *a, const char *b);
-
 /* Edits that make one word of the other without regard to case: a letter more, less, changed, or two neighbours exchanged.
  * TEXT_FAR where they are more than a third of its letters or more than 3, and of words beyond 31 letters. */
 #define TEXT_FAR 99
 int text_distance(const char *word, const char *other);
+/* Of the names that begin the structs of a list, `stride` apart and ended by NULL, the one fewest edits away; NULL: all are far.
+ */
+const char *text_nearest(const char *word, const void *list, size_t stride);
 
 /* Bytes of the UTF-8 character that begins here, 0 where there is none (RFC 3629). The text ends with a zero byte. */
 size_t text_utf8(const char *text);

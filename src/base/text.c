@@ -41,6 +41,18 @@ int text_distance(const char *word, const char *other)
     return d[m][n] > 3 || 3 * d[m][n] > (int)n ? TEXT_FAR : d[m][n];
 }
 
+const char *text_nearest(const char *word, const void *list, size_t stride)
+{
+    const char *nearest = NULL;
+    int least = TEXT_FAR;
+    for (const char *at = list, *name; (name = *(const char *const *)at); at += stride) {
+        int distance = text_distance(word, name);
+        nearest = distance < least ? name : nearest;
+        least = distance < least ? distance : least;
+    }
+    return nearest;
+}
+
 size_t text_utf8(const char *text)
 {
     const unsigned char *c = (const unsigned char *)text;

@@ -367,16 +367,10 @@ static struct option *long_options(struct command *command)
 /* The option that a misspelt "--word" or "--word=value" is closest to, or NULL. */
 static const char *nearest_option(const char *word)
 {
-    const char *nearest = NULL;
     char name[32];
-    int least = TEXT_FAR, length = (int)strcspn(word, "=") - 2;
+    int length = (int)strcspn(word, "=") - 2;
     (void)snprintf(name, sizeof name, "%.*s", length > 0 ? length : 0, length > 0 ? word + 2 : "");
-    for (const struct option_row *row = option_table; row->name && *name; row++) {
-        int distance = text_distance(name, row->name);
-        nearest = distance < least ? row->name : nearest;
-        least = distance < least ? distance : least;
-    }
-    return nearest;
+    return text_nearest(name, option_table, sizeof *option_table);
 }
 
 /* Says what getopt would have; word: where it stopped. */
@@ -440,13 +434,7 @@ static int refuse_option(struct command *command, const char *name)
 
 static int refuse_command(const char *name)
 {
-    const char *nearest = NULL;
-    int least = TEXT_FAR;
-    for (const struct command_entry *c = command_table; c->name; c++) {
-        int distance = text_distance(name, c->name);
-        nearest = distance < least ? c->name : nearest;
-        least = distance < least ? distance : least;
-    }
+    const char *nearest = text_nearest(name, command_table, sizeof *command_table);
     if (nearest)
         return terminal_end(EXIT_USAGE, "rotid: %s is no command: did you mean %s?\n", name, nearest);
     terminal_say("rotid: %s is no command, expected", name);

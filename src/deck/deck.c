@@ -18,25 +18,11 @@ static const double pi = 3.14159265358979323846;
 
 #define LAST_PHASE 8
 
-/* The card that a misspelt name is closest to, or NULL. */
-static const char *nearest_card(const char *name)
-{
-    const char *nearest = NULL;
-    int least = TEXT_FAR;
-    for (const struct deck_card *kind = deck_card_table; kind->name; kind++) {
-        int distance = text_distance(name, kind->name);
-        if (distance < least)
-            nearest = kind->name;
-        least = distance < least ? distance : least;
-    }
-    return nearest;
-}
-
 void deck_check_names(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind) {
-        const char *near = nearest_card(card->name);
+        const char *near = text_nearest(card->name, deck_card_table, sizeof *deck_card_table);
         if (strpbrk(card->name, "\t;=")) {
             deck_error(reader, card->place, "card *%s is not known, expected commas between a card and its options", card->name);
             return;
