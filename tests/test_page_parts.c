@@ -178,7 +178,7 @@ POOL_TEST(every_text_of_a_page_is_shown_so)
     document.now.headline = "headline: support_extra";
     document.now.next = "next: rotid diagnose /a/b/c2.inp";
     document_answer(&document, NULL);
-    document_section(&document, "one", "One");
+    document_section(&document, "one", "One", NULL);
     document_paragraph(&document, "paragraph: %s", "stiffness_local");
     document_heading(&document, "heading: step_stiffness");
     document_list(&document, 1, text);
@@ -189,7 +189,7 @@ POOL_TEST(every_text_of_a_page_is_shown_so)
     table->note = "note: tie_stiffness";
     document_table(&document, table);
     document.verbatim = 1;
-    document_section(&document, "provenance", "Provenance");
+    document_section(&document, "provenance", "Provenance", NULL);
     document_paragraph(&document, "as it is: added_inertia /a/b/c3.inp");
     document.verbatim = 0;
     assert_false(document.pool->out_of_memory);

@@ -10,8 +10,7 @@
 
 static void section_agreement(struct document *document, const struct result *result)
 {
-    document_section(document, "agreement", "Model and measurement");
-    document_figures(document, "shapes");
+    document_section(document, "agreement", "Model and measurement", "shapes");
     document_figures(document, "agreement");
     document_figures(document, "matrices");
     document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
@@ -26,26 +25,22 @@ static void section_identify(struct document *document, const struct result *res
     const rotid_identification *fit = result->identify;
     section_trust(document, result);
     if (fit->nstates) {
-        document_section(document, "states", "All states together");
-        document_figures(document, "states");
+        document_section(document, "states", "All states together", "states");
         document_table(document, table_of_states(document->pool, fit));
     }
-    document_section(document, "parameters", "What was identified");
-    document_figures(document, "parameters");
+    document_section(document, "parameters", "What was identified", "parameters");
     document_table(document, table_of_parameters(document->pool, fit));
-    document_section(document, "fit", "How the fit got there");
-    document_figures(document, "fit");
+    document_section(document, "fit", "How the fit got there", "fit");
     document_table(document, table_of_minimisers(document->pool, fit));
 }
 
 static void section_modes(struct document *document, const struct result *result)
 {
-    document_section(document, "model-modes", "Modes of the model");
-    document_figures(document, "modes");
+    document_section(document, "model-modes", "Modes of the model", "modes");
     document_table(document, table_of_model_modes(document->pool, result->modes));
     if (!result->modes->beside)
         return;
-    document_section(document, "beside", "The beam beside the solid");
+    document_section(document, "beside", "The beam beside the solid", NULL);
     if (result->modes->beside->sentence)
         document_paragraph(document, "In short, %s.", result->modes->beside->sentence);
     document_table(document, table_of_beside_modes(document->pool, result->modes->beside));
@@ -60,7 +55,7 @@ static void section_sensitivity(struct document *document, const struct result *
     for (int p = 0; p < s->nparameters && at; p++)
         at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
                          human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
-    document_section(document, "dependence", "Sensitivity");
+    document_section(document, "dependence", "Sensitivity", NULL);
     document_paragraph(document, "At %s, reduction %s.", or_nothing(at), s->reduction);
     document_figures(document, "sensitivity");
     document_table(document, table_of_sensitivity(pool, s));
@@ -71,7 +66,7 @@ static void section_transfer(struct document *document, const struct result *res
     const struct transfer_result *out = result->frf;
     struct pool *pool = document->pool;
     const char *at = "";
-    document_section(document, "transfer", "Transfer functions");
+    document_section(document, "transfer", "Transfer functions", NULL);
     document_paragraph(document, "%d synthesised %s from modes up to %s with the damping below; %s%s.", out->nfunctions,
                        human_plural(out->nfunctions, "function", "functions"), human_value(pool, out->modes_up_to_hz, "Hz"),
                        out->measured_file ? "measured ones from " : "none was measured", or_nothing(out->measured_file));
@@ -124,7 +119,7 @@ static void section_speeds(struct document *document, const struct result *resul
 {
     const rotid_speeds *s = result->speeds;
     struct pool *pool = document->pool;
-    document_section(document, "operation", "The machine in operation");
+    document_section(document, "operation", "The machine in operation", NULL);
     const char *stability = speeds_stability(pool, s);
     document_paragraph(document, "%s.", stability ? stability : "");
     document_figures(document, "speeds");
@@ -193,22 +188,20 @@ static void list_doubts(struct document *document, const struct ema_result *ema)
     const char **text = ema_doubts(document->pool, ema, &count);
     if (!text)
         return;
-    document_section(document, "doubts", "Doubtful modes and channels");
+    document_section(document, "doubts", "Doubtful modes and channels", NULL);
     document_list(document, count, text);
 }
 
 static void section_ema(struct document *document, const struct result *result)
 {
     const struct ema_result *ema = result->ema;
-    document_section(document, "modes-of-test", "Modes of the test");
-    document_figures(document, "ema-shapes");
+    document_section(document, "modes-of-test", "Modes of the test", "ema-shapes");
     document_table(document, table_of_test_modes(document->pool, ema));
     list_doubts(document, ema);
-    document_section(document, "poles", "Where the modes come from");
-    document_figures(document, "ema-poles");
+    document_section(document, "poles", "Where the modes come from", "ema-poles");
     if (!ema->ncurves)
         return;
-    document_section(document, "functions", "Measured and synthesised functions");
+    document_section(document, "functions", "Measured and synthesised functions", NULL);
     document_paragraph(document, "Synthesised: the modes of the result, with one term for the modes below and one for those "
                                  "above the band. FRAC is 1 where both are the same but for a factor.");
     document_figures(document, "ema-functions");
@@ -221,7 +214,7 @@ static void section_suggest(struct document *document, const struct result *resu
     const rotid_suggestion *s = result->suggest;
     struct pool *pool = document->pool;
     if (s->ntests) {
-        document_section(document, "tests", "Tests that could be made next");
+        document_section(document, "tests", "Tests that could be made next", NULL);
         if (s->verdict)
             document_paragraph(document, "The diagnosis: %s", s->verdict);
         document_figures(document, "tests");
@@ -229,12 +222,11 @@ static void section_suggest(struct document *document, const struct result *resu
         document_table(document, table_of_rivals(pool, s));
     }
     if (isfinite(s->speed_rpm)) {
-        document_section(document, "tests", "Tests at rest for a critical speed");
+        document_section(document, "tests", "Tests at rest for a critical speed", NULL);
         document_table(document, table_of_speed_tests(pool, s));
         return;
     }
-    document_section(document, "sensors", "Sensors and modes");
-    document_figures(document, "sensors");
+    document_section(document, "sensors", "Sensors and modes", "sensors");
     document_table(document, table_of_plans(pool, s));
     document_table(document, table_of_expected(pool, s));
 }
@@ -323,7 +315,7 @@ static void section_study(struct document *document, const struct result *result
 {
     const struct study_result *s = result->study;
     struct pool *pool = document->pool;
-    document_section(document, "study", "The study");
+    document_section(document, "study", "The study", NULL);
     document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->plan ? s->plan : "Decks as they stand", s->done, s->runs,
                        runs_of(s, s->runs), s->ncells, human_plural(s->ncells, "cell", "cells"),
                        isfinite(s->seconds) && s->done > 0
@@ -478,7 +470,7 @@ static void section_basis(struct document *document, int count, const struct res
         told |= result[i].nwarnings > 0 || new_facts(document->pool, &basics, result, i, value) > 0;
     if (!told)
         return;
-    document_section(document, "basis", "What it rests on");
+    document_section(document, "basis", "What it rests on", NULL);
     add_facts(document, &basics, count, result);
     for (int k = 1; k < result->head.nheading; k++)
         document_paragraph(document, "%s", result->head.heading[k]);
@@ -526,7 +518,7 @@ static void section_provenance(struct document *document, int count, const struc
     static const struct facts origin = {MOST_FACTS, name, origin_of};
     document->of = NULL;
     document->verbatim = 1;
-    document_section(document, "provenance", "Provenance");
+    document_section(document, "provenance", "Provenance", NULL);
     add_facts(document, &origin, count, result);
     for (int i = 0; i < count; i++)
         for (int k = 0; k < result[i].nlacking; k++)
@@ -640,8 +632,7 @@ static void answer_all(struct document *document, int count, const struct result
 
 static void compose_rotor(struct document *document)
 {
-    document_section(document, "model", "The rotor");
-    document_figures(document, "rotor");
+    document_section(document, "model", "The rotor", "rotor");
 }
 
 /* of: the deck where it is not that of the page, or NULL; drawn: the rotors are on the page already */

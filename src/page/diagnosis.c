@@ -267,7 +267,7 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
     on_today(&reasons, d);
     if (!reasons.count)
         return;
-    document_section(document, "trust", "Why");
+    document_section(document, "trust", "Why", NULL);
     document_list(document, reasons.count, reasons.text);
 }
 
@@ -303,7 +303,7 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
                 : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
         number_column(table, "z", "m", SHOW_TRIMMED(3), hidden[i].z_m);
     }
-    document_section(document, "hidden", "Possible bias of the parameters");
+    document_section(document, "hidden", "Possible bias of the parameters", NULL);
     document_paragraph(
         document, "The model explains the measurement, and so would a model with one of these causes in it, of a size below its "
                   "detection limit. The fit without the cause moves the parameter as far as this. The size is the smallest "
@@ -317,8 +317,7 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     if (!d->base || !fit || d->verdict.kind < 0 || !d->base->nparameters)
         return;
-    document_section(document, "verdict-parameters", "Parameters of the verdict");
-    document_figures(document, "correlation");
+    document_section(document, "verdict-parameters", "Parameters of the verdict", "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
     if (fit->nweighed)
         document_table(document, table_of_weighed(document->pool, fit->nweighed, fit->weighed));
@@ -335,7 +334,7 @@ static void section_explanations(struct document *document, const rotid_diagnosi
     const rotid_verdict *v = &d->verdict;
     if (!v->nexplanations)
         return;
-    document_section(document, "explanations", "Explanations");
+    document_section(document, "explanations", "Explanations", NULL);
     document_paragraph(
         document, "Probability that nothing is wrong: %s before the data, %s after. Something outside of the catalogue: %s.",
         text_of_probability(document->pool, 3, v->nothing_prior), text_of_probability(document->pool, 3, v->nothing),
@@ -348,8 +347,8 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
     struct pool *pool = document->pool;
     if (!d->nrounds)
         return;
-    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "Causes that were tried" : "Possible causes");
-    document_figures(document, "causes");
+    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "Causes that were tried" : "Possible causes",
+                     "causes");
     for (int i = 0; i < d->nrounds; i++) {
         const rotid_round *round = &d->rounds[i];
         int fitted = 0, count;
@@ -401,9 +400,9 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
                         deck);
     if (!n)
         return;
-    document_section(document, "look",
-                     d->verdict.ncauses ? "Inspect the rotor before you believe the verdict"
-                                        : "The measurement that would decide");
+    document_section(
+        document, "look",
+        d->verdict.ncauses ? "Inspect the rotor before you believe the verdict" : "The measurement that would decide", NULL);
     document_list(document, n, text);
 }
 
@@ -412,7 +411,7 @@ static void section_findings(struct document *document, const rotid_diagnosis *d
     struct pool *pool = document->pool;
     if (!d->ndata_findings && !d->nnumerical_findings)
         return;
-    document_section(document, "findings", "Measurement and numbers");
+    document_section(document, "findings", "Measurement and numbers", NULL);
     for (int i = 0; i < d->ndata_findings; i++)
         document_paragraph(document, "%s: %s. At the test: %s.", d->data_findings[i].id,
                            d->data_findings[i].text ? d->data_findings[i].text : "found", cause_check(d->data_findings[i].id));
@@ -434,7 +433,7 @@ static void section_detection_limits(struct document *document, const rotid_diag
 {
     if (!d->ndetectable)
         return;
-    document_section(document, "limits", "Detection limits");
+    document_section(document, "limits", "Detection limits", NULL);
     document_paragraph(document,
                        "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
                        "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
@@ -448,13 +447,12 @@ void section_diagnose(struct document *document, const struct result *result)
     const rotid_diagnosis *d = result->diagnose;
     if (d->base) {
         document_section(document, "misfit",
-                         d->extended || d->verdict.kind == ROTID_ADEQUATE ? "Model and measurement" : "Where the model misses");
-        document_figures(document, "shapes");
+                         d->extended || d->verdict.kind == ROTID_ADEQUATE ? "Model and measurement" : "Where the model misses",
+                         "shapes");
         document_figures(document, "agreement");
     }
     if (d->base && d->verdict.kind >= 0) {
-        document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality of the model");
-        document_figures(document, "gain");
+        document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality of the model", "gain");
         document_table(document, table_of_quality(document->pool, d));
     }
     section_explanations(document, d);
@@ -464,8 +462,7 @@ void section_diagnose(struct document *document, const struct result *result)
     section_parameters(document, d);
     section_findings(document, d);
     if (d->base) {
-        document_section(document, "modes-compared", "Mode by mode");
-        document_figures(document, "matrices");
+        document_section(document, "modes-compared", "Mode by mode", "matrices");
         document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->extended ? d->extended : d->base,
                                                          d->extended ? "Modes of the extended model" : NULL));
         if (d->extended)
@@ -473,8 +470,7 @@ void section_diagnose(struct document *document, const struct result *result)
                                                              "Modes of the model without the cause"));
     }
     if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */
-        document_section(document, "places", "Where on the rotor");
-        document_figures(document, "places");
+        document_section(document, "places", "Where on the rotor", "places");
     }
     section_detection_limits(document, d);
 }

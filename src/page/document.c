@@ -248,7 +248,7 @@ static int is_like(const char *id, const char *like)
     return !strncmp(id, like, length) && (!id[length] || (id[length] == '-' && id[length + 1] >= '0' && id[length + 1] <= '9'));
 }
 
-void document_section(struct document *document, const char *id, const char *text)
+void document_section(struct document *document, const char *id, const char *text, const char *figures)
 {
     struct heading *heading = POOL_NEW(document->pool, struct heading);
     int taken = 0;
@@ -264,6 +264,8 @@ void document_section(struct document *document, const char *id, const char *tex
     (void)fprintf(document->body, "%s<section id=\"%s\">\n", document->in_section ? "</section>\n" : "", id);
     document->in_section = 1;
     element(document, "h2", text);
+    if (figures)
+        document_figures(document, figures);
 }
 
 void document_heading(struct document *document, const char *text)

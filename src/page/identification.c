@@ -220,7 +220,7 @@ void answer_identify(struct document *document, const struct result *result)
 void section_trust(struct document *document, const struct result *result)
 {
     const struct reasons reasons = reasons_of(document->pool, result);
-    document_section(document, "trust", "How far to trust it");
+    document_section(document, "trust", "How far to trust it", NULL);
     document_list(document, reasons.count, reasons.text);
     if (!fit_is_inadequate(result->identify)) /* else something shows already */
         section_hidden(document, result->identify, result->identify->nhidden, result->identify->hidden);

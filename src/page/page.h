@@ -84,8 +84,9 @@ void document_close(struct document *document);
 /* Puts the answer that was made among those of the page. */
 void document_answer(struct document *document, const char *of);
 void document_tile(struct document *document, const char *name, const char *value, const char *note);
-/* What is added from here on belongs to this section. An id that is taken gets a number. */
-void document_section(struct document *document, const char *id, const char *heading);
+/* What is added from here on belongs to this section, which begins with these figures, NULL: none. An id that is taken gets a
+ * number. */
+void document_section(struct document *document, const char *id, const char *heading, const char *figures);
 void document_heading(struct document *document, const char *text);
 void document_paragraph(struct document *document, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void document_list(struct document *document, int count, const char *const text[]);
