@@ -15,7 +15,7 @@
  *                  (theta_from, theta_to) for RODS; build.c: the equivalent cylinder (6) for TUBE
  *   joints         hinge.c (hinge_condense): K := K - g g' c/(1 + c k), a rotational spring in series, condensed
  *   masses, springs at any place   lumped.c (lumped_add): carried by the static shapes of the element
- *   spin           gyroscopic.c (beam_gyroscopic): polar inertia P; beam_spread: a stiffness spread over a group
+ *   spin           deflection.c (beam_gyroscopic): polar inertia P; beam_spread: a stiffness spread over a group
  *   bars           bar.c (bar_open, bar_assemble, bar_differentiate): torsion and axial motion on the same mesh
  *   assembly       assembly.c (beam_assemble, beam_differentiate); deflection.c: deflection between nodes and in members
  *

@@ -16,11 +16,11 @@
  *                    the information, wider where the scores of the channels scatter more
  *   modes.c          modes_of_pole: std of frequency and damping from C; modes_judge: quality flags, MAC
  *   tests.c          ema_average: modes of several tests, and the scatter between them
- *   poles.c          residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
+ *   modes.c          residue_of_mode: std of A from spread + mix C mix'; impacts.c: impacts_spread adds the noise of the force
  *   per_point.c      per_point_frequencies: a pole for each channel (local_fit) where the channels disagree
  *   modes.c          shapes_of_mode: A_cr to a real shape (mode_axis), its std, MPC, MPD, modal mass
  *   tests.c          ema_average: modes of several tests, and the scatter between them
- *   poles.c          ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
+ *   modes.c          ema_synthesise: H_c from the modes; channels.c: channels_compare, FRAC of measured and synthesised
  *
  * src/cli calls it for rotid ema; src/import writes its modes to a file, src/report shows them. It knows no rotor and no file. */
 

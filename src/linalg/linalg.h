@@ -16,7 +16,7 @@
  *   dense kernels     least_squares.c: damped step min |J h + r|^2 + mu |D h|^2, singular values; symmetric.c
  *                     (definite, indefinite), product.c, quadratic.c (lambda^2 M + lambda C + K without symmetry, complex
  *                     systems, a polynomial by its companion matrix)
- *   public doors      eigenpairs.c, condense.c, matrix_entry.c: rotid_eigenpairs, rotid_condense, rotid_matrix_*
+ *   public doors      matrix_entry.c: rotid_eigenpairs, rotid_condense, rotid_matrix_*
  *
  * Callers: every room that computes. The only room that calls LAPACKE. It must not know what a degree of freedom or parameter is;
  * derivatives of eigenvectors (Nelson) are in src/modal. */

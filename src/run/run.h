@@ -15,7 +15,7 @@
  *   frequency and its standard deviation of a mode read at several sensors   point_fit.c (point_mean): weighted regression
  *                    f_j = c + b shape_j^2; point_fit, point_drop_outliers
  *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']
- *                    of the modes and of those left out; frf_agreement.c: FRAC, scale, level
+ *                    of the modes and of those left out; compare.c: FRAC, scale, level
  *   sensitivity      sensitivity.c (sensitivity_run): E_k over steps (29), d ln f/d ln x; growth_run: growth of the functionals
  *   pictures, checks mode_shapes.c; beside.c (beam_vs_solid_make): beam beside solid; job.c (check_units): frequencies in a wrong
  * unit
