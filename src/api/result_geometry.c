@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "diagnose/causes/causes.h"
-
 static rotid_material material_of(const struct material *material)
 {
     return (rotid_material){.name = material->name,

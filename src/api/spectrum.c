@@ -52,8 +52,7 @@ int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environmen
 
 void rotid_check_free(rotid_check *check)
 {
-    if (check)
-        pool_free(check->memory);
+    pool_free(check ? check->memory : NULL);
 }
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
@@ -180,6 +179,5 @@ int rotid_spectrum_of_type(const rotid_deck *deck, int type, const double *x, in
 
 void rotid_spectrum_free(rotid_spectrum *spectrum)
 {
-    if (spectrum)
-        pool_free(spectrum->memory);
+    pool_free(spectrum ? spectrum->memory : NULL);
 }

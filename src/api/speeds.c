@@ -114,6 +114,5 @@ int rotid_speeds_compute(const rotid_deck *deck, const rotid_speeds_options *opt
 
 void rotid_speeds_free(rotid_speeds *result)
 {
-    if (result)
-        pool_free(result->memory);
+    pool_free(result ? result->memory : NULL);
 }

@@ -150,6 +150,5 @@ int rotid_suggest(const rotid_deck *deck, const rotid_suggest_options *options, 
 
 void rotid_suggestion_free(rotid_suggestion *result)
 {
-    if (result)
-        pool_free(result->memory);
+    pool_free(result ? result->memory : NULL);
 }

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/base.h"
 #include "export/export.h"
 #include "fit/fit.h"
 

@@ -4,8 +4,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/base.h"
-
 void command_print_messages(struct command *command)
 {
     static const char *const words[] = {"note: ", "warning: ", ""};

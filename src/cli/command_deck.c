@@ -3,7 +3,6 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
-#include "running/running.h"
 
 /* The place of a message as the user knows it: the library calls an override by its text alone. */
 static const char *place_of(const struct command *command, const char *file)

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/base.h"
-
 #define DIGITS 1e-5 /* of a function: what six digits in a file leave of it */
 
 /* Whole or not there. */

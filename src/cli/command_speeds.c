@@ -4,12 +4,6 @@
 
 #include "api/api.h"
 #include "cli/cli.h"
-#include "running/running.h"
-
-static int refuse_deck(struct command *command, const char *why)
-{
-    return command_fail(command, message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->job->deck, 1, 1, "%s", why));
-}
 
 /* FROM:TO[:N] or a list of speeds, in rpm */
 static int parse_speeds(struct command *command, struct speeds_options *options)
@@ -103,8 +97,10 @@ int command_speeds(struct command *command)
                                      .seed = command->seed,
                                      .threads = command->threads};
     if (!machine)
-        return refuse_deck(command,
-                           "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards");
+        return command_fail(
+            command,
+            message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->job->deck, 1, 1,
+                           "the deck has no *RUNNING, expected the machine in operation behind it, with its *BEARING cards"));
     int code = parse_speeds(command, &options);
     if (!code)
         code = command_fit_deck(command, command->read->nparameter || machine->nunknown, NULL, &fit);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "deck/deck_row.h"
-#include "rotid.h"
 
 /* Beside the whole rotor; ten times and more from where solutions fail. */
 #define SHORTEST 1e-7

@@ -290,10 +290,10 @@ int deck_option_group(struct deck_reader *reader, const struct card *card, const
 typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
 /* What no row says of an item of a list; it may complete it. 0, or 1 after an error. */
 typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
-deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_shaft, deck_beam, deck_layer, deck_perforation,
-    deck_preload, deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured,
-    deck_noise, deck_weight, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running,
-    deck_bearing, deck_pedestal, deck_operation;
+deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_sections, deck_layer, deck_perforation, deck_preload,
+    deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise,
+    deck_weight, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing,
+    deck_pedestal, deck_operation;
 deck_item_check deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change, deck_check_runup,
     deck_check_unknown;
 

@@ -6,8 +6,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "diagnose/causes/causes.h"
-
 struct comparing {
     unsigned bits;
     const char *card;

@@ -8,8 +8,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "rotid.h"
-
 static void add(struct deck_reader *reader, enum severity severity, struct place place, const char *format, va_list values)
 {
     char text[1024], cell[TABLE_CELL_LENGTH];

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "rotid.h"
-
 /* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
 static int read_reference(struct deck_reader *reader, const struct data_line *line)
 {

@@ -116,26 +116,6 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     return POOL_ADD(reader->pool, rotor->group, rotor->ngroup, &group) ? -1 : rotor->ngroup - 1;
 }
 
-/* A section of each data line. One that states no elements has some until those of all are chosen. */
-static void add_sections(struct deck_reader *reader, const struct card *card, int rectangular,
-                         void (*check)(struct deck_reader *, const struct data_line *, const struct segment *))
-{
-    struct rotor *rotor = &reader->job->rotor;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout);
-    for (int i = 0; i < count && group >= 0; i++) {
-        struct segment s = {
-            .group = group, .rectangular = rectangular, .length = 1e6}; /* of an error: every position is inside */
-        int bad = deck_read_values(reader, &card->line[i], rectangular ? deck_beam_rows : deck_shaft_rows, reader->layout, &s);
-        if (!bad && check)
-            check(reader, &card->line[i], &s);
-        if (!s.elements)
-            (void)POOL_ADD(reader->pool, reader->open_section, reader->nopen, &rotor->nsegment);
-        s.elements = s.elements ? s.elements : 1;
-        if (POOL_ADD(reader->pool, rotor->segment, rotor->nsegment, &s))
-            return;
-    }
-}
-
 static void check_diameters(struct deck_reader *reader, const struct data_line *line, const struct segment *s)
 {
     if (s->inner >= s->outer)
@@ -147,14 +127,24 @@ static void check_diameters(struct deck_reader *reader, const struct data_line *
                    s->stiff_outer);
 }
 
-void deck_shaft(struct deck_reader *reader, const struct card *card)
+/* *SHAFT or *BEAM: a section of each data line. One that states no elements has some until those of all are chosen. */
+void deck_sections(struct deck_reader *reader, const struct card *card)
 {
-    add_sections(reader, card, 0, check_diameters);
-}
-
-void deck_beam(struct deck_reader *reader, const struct card *card)
-{
-    add_sections(reader, card, 1, NULL);
+    struct rotor *rotor = &reader->job->rotor;
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout),
+        rectangular = !strcmp(card->name, "BEAM");
+    for (int i = 0; i < count && group >= 0; i++) {
+        struct segment s = {
+            .group = group, .rectangular = rectangular, .length = 1e6}; /* of an error: every position is inside */
+        int bad = deck_read_values(reader, &card->line[i], rectangular ? deck_beam_rows : deck_shaft_rows, reader->layout, &s);
+        if (!bad && !rectangular)
+            check_diameters(reader, &card->line[i], &s);
+        if (!s.elements)
+            (void)POOL_ADD(reader->pool, reader->open_section, reader->nopen, &rotor->nsegment);
+        s.elements = s.elements ? s.elements : 1;
+        if (POOL_ADD(reader->pool, rotor->segment, rotor->nsegment, &s))
+            return;
+    }
 }
 
 /* ------------------------------------------------------------------------------------------------ *LAYER */

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "deck/deck_row.h"
-#include "rotid.h"
 
 #define LINE 100 /* a card longer than this goes on in the next line */
 

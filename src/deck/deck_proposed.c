@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "suggest/suggest.h"
-
 #define WIDER 1e3 /* bounds of the stiffness of a support, from its start */
 
 /* *UNITS states none of a rotational stiffness. */

@@ -7,7 +7,6 @@
 #include <strings.h>
 
 #include "file/file.h"
-#include "rotid.h"
 
 /* Where the characters of a deck come from: a file, or the memory of a host. What was read is kept: writers edit that text. */
 
@@ -28,11 +27,6 @@ static int deck_source_open(struct deck_source *source, const char *path, int is
     *source = (struct deck_source){.text = NULL};
     source->stream = file_open(is_deck && !strcmp(path, "-") ? "/dev/stdin" : path, 0, &source->information);
     return source->stream ? 0 : errno;
-}
-
-static void deck_source_open_memory(struct deck_source *source, const struct deck_memory *memory)
-{
-    *source = (struct deck_source){.text = memory->text, .left = memory->length};
 }
 
 /* Bytes that it holds, -1 where nobody knows: a pipe. */
@@ -449,9 +443,8 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
                           struct deck_text *text)
 {
     struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
-    struct deck_source source;
+    struct deck_source source = {.text = memory->text, .left = memory->length};
     *text = (struct deck_text){.end = {memory->name, 1, 1}, .memory = memory->name, .directory = memory->directory};
-    deck_source_open_memory(&source, memory);
     return conclude(&reader, read_source(&reader, &source, memory->name));
 }
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "file/file.h"
-#include "rotid.h"
 
 struct splitter {
     struct pool *pool;

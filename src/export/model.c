@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "linalg/linalg.h"
-
 static void place_chain(const struct mesh *mesh, const struct chain *chain, double end, const char *member,
                         struct export_node *node)
 {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "report/report.h"
-#include "rotor/rotor.h"
 
 /* What a command found, of several states one after the other; job: of each, or NULL. */
 static void print_states(const struct screen *to, const struct result *result, const struct job *const *job,

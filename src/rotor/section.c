@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "rotid.h"
 #include "rotor/rotor.h"
 
 static const double pi = 3.14159265358979323846;

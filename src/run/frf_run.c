@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linalg/linalg.h"
-
 static int refuse_points(struct message_list *notes, const struct job *job, const char *format, int id)
 {
     return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, format, id);
@@ -577,15 +575,6 @@ static int frf_make_bands(struct pool *pool, const struct job *job, const struct
     return ROTID_OK;
 }
 
-/* Lines, quantity and window: those of the measured set (NULL: none) within LOW and HIGH but a line at 0 Hz, else those of the
- * card, by default 1601 from half the lowest measured frequency to 1.1 times the highest. ROTID_OK, ROTID_ERROR_MEMORY,
- * ROTID_ERROR_ARGUMENT with an error in the list. */
-static int frf_choose_lines(struct pool *pool, const struct job *job, const struct frf_set *set, struct message_list *notes,
-                            struct frf_result *out)
-{
-    return set ? measured_lines(job, set, notes, out) : requested_lines(pool, job, notes, out);
-}
-
 #define STRANGE 0.1 /* loss of FRAC with measured frequencies that no scatter of them explains */
 #define ABOVE   4   /* modes are taken up to this many times the highest line; the rest is static to within 1/16 squared */
 
@@ -727,7 +716,9 @@ int frf_run(struct pool *pool, const struct job *job, const struct identificatio
 {
     const struct comparison *compared = identified ? &identified->compared : NULL;
     *out = (struct frf_result){.is_measured = measured != NULL};
-    int status = frf_choose_lines(pool, job, measured ? measured->set : NULL, notes, out);
+    /* lines, quantity and window: those of the measured set within LOW and HIGH but a line at 0 Hz, else those of the card, by
+     * default 1601 from half the lowest measured frequency to 1.1 times the highest */
+    int status = measured ? measured_lines(job, measured->set, notes, out) : requested_lines(pool, job, notes, out);
     if (!status)
         status = frf_choose_rows(pool, job, measured, notes, out);
     if (!status)

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "fit/fit.h"
-#include "linalg/linalg.h"
 #include "run/run.h"
 
 #define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */

@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "linalg/linalg.h"
 #include "run/run.h"
 
 #define WITHIN       1e-8 /* of a vector: what is shown, paired and compared needs no more, and frequencies have the square of it */

@@ -1,7 +1,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "modal/modal.h"
 #include "running/running.h"
 
 int machine_nominal(struct pool *pool, const struct machine *machine, const double *x, struct machine_values *values)

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "modal/modal.h"
 #include "running/running.h"
 
 #define MORE_MODES  3    /* beyond the highest measured one */

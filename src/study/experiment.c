@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "modal/modal.h"
-#include "model/model.h"
-
 /* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
  * the same in every run of it, whatever the runs leave out or who computes them. Runs that differ in a variant, in the modes
  * fitted or in the sensors kept so see the same noise, and their difference is that of the variant. */
