@@ -30,7 +30,6 @@ static int column_of(const struct strip *strip, double z)
     return column >= strip->columns - 1 ? strip->columns - 1 : column >= 0 ? (int)column : 0; /* NaN: 0 */
 }
 
-/* One digit a column, the largest value there rounded to the nearest; '+' from 9.5; values that are not finite leave no trace. */
 void strip_digits(struct strip *strip, int count, const double *z, const double *value)
 {
     for (int i = 0; i < count; i++) {
@@ -55,7 +54,6 @@ static double interpolate(int count, const rotid_localisation *point, double at)
     return 0;
 }
 
-/* From 0 (' ') to 1 ('@'), between the points [count] with increasing z by straight lines. */
 void strip_density(struct strip *strip, int count, const rotid_localisation *point)
 {
     static const char scale[] = " .:-=+*#%@";
@@ -83,7 +81,6 @@ static void write_at(struct strip *strip, int column, const char *text, int most
     }
 }
 
-/* "^", or "^---^" where it spans more than a column, with a label behind or before it. */
 void strip_mark(struct strip *strip, double from, double to, const char *label)
 {
     int first = column_of(strip, from), last = column_of(strip, to), columns = text_columns(label);

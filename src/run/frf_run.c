@@ -556,7 +556,6 @@ static int frf_make_bands(struct pool *pool, const struct job *job, const struct
             if (compared->number[k] == band.mode) {
                 band.measured = k;
                 band.measured_hz = job->measurement.frequency_hz[k];
-                out->any_swapped = 1;
             }
         if (highest(&band) < from || lowest(&band) > to)
             continue;

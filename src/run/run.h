@@ -574,7 +574,6 @@ struct frf_band {
 
 struct frf_result {
     int is_measured; /* there are measured functions beside */
-    int any_swapped; /* frequencies of the model were replaced by measured ones in `moved` */
     enum frf_quantity quantity;
     int nline;
     const double *frequency_hz; /* [nline] > 0 */
