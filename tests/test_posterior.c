@@ -156,3 +156,28 @@ UNIT_TEST(what_no_data_tell_apart_keeps_the_ratio_of_the_priors)
     assert_int_equal(checked, 1);
     rmdir(directory);
 }
+
+/* Of a normal that is cut at its mean half is left: m + s sqrt(2/pi), s sqrt(1 - 2/pi); of one far wider than its bounds a
+ * uniform one; of two explanations the mixture. The mean is inside its interval. */
+UNIT_TEST(averages_are_cut_at_the_bounds_as_their_intervals_are)
+{
+    static const struct {
+        double mean, std, lower, upper, value, deviation;
+    } cut[] = {{5, 0.1, 1, 9, 5, 0.1},
+               {1, 0.1, 1, 9, 1.0797884560802865, 0.06028102749890869},
+               {9, 0.1, 1, 9, 8.9202115439197135, 0.06028102749890869},
+               {8.9, 1e6, 1, 9, 5, 2.3094010767585030},
+               {8.9, 400, 1, 9, 5, 2.3094010767585030},
+               {3, 0, 1, 9, 3, 0}};
+    for (size_t i = 0; i < sizeof cut / sizeof *cut; i++) {
+        double mean = cut[i].mean, std = cut[i].std, value, deviation, lower, upper;
+        struct explanation item[2] = {{.probability = 0.25, .evidence = {.mean = &mean, .std = &std}},
+                                      {.probability = 0.75, .evidence = {.mean = &mean, .std = &std}}};
+        const struct posterior p = {.count = 2, .item = item};
+        const rotid_parameter bounds = {"x", "1", cut[i].lower, cut[i].upper, 2};
+        posterior_average(&p, &bounds, 0, &value, &deviation, &lower, &upper);
+        assert_close(value, cut[i].value, 1e-3, 0);
+        assert_close(deviation, cut[i].deviation, 1e-3, 1e-12);
+        assert_true(lower <= value * (1 + 1e-8) && value <= upper * (1 + 1e-8));
+    }
+}

@@ -33,11 +33,13 @@
 #define LEAST_SHARE    1e-7 /* of an explanation whose causes count for the marginals */
 #define LEAST_MARGINAL 0.001
 #define LISTED_SHARE   0.99
-#define HARMLESS       0.2   /* a cause below it is none */
-#define ODDS           3.0   /* of anything over nothing, times those before */
-#define SUSPECTED      10.0  /* times: a cause that the user suspects */
-#define RUNUP_MOST     12    /* explanations that measured critical speeds judge, those within WITHIN */
-#define EXCLUDED       0.05  /* of the probability of another explanation */
+#define HARMLESS       0.2  /* a cause below it is none */
+#define ODDS           3.0  /* of anything over nothing, times those before */
+#define SUSPECTED      10.0 /* times: a cause that the user suspects */
+#define RUNUP_MOST     12   /* explanations that measured critical speeds judge, those within WITHIN */
+#define EXCLUDED       0.05 /* of the probability of another explanation */
+#define LN_2PI         1.83787706640934548
+#define NARROW         1e-3  /* share of a normal between its bounds: below, it is flat there */
 #define NEAR_PLACE     0.125 /* of the length: half of the interval of a place that is named */
 
 static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};
@@ -906,15 +908,38 @@ static double quantile(const struct posterior *p, const rotid_parameter *bounds,
     return (lower + upper) / 2;
 }
 
+/* Mean and deviation of unknown q in an explanation: of its normal, cut at the bounds as for the quantiles. With a, b the bounds
+ * from the mean over the deviation s, f the normal density and F = P(a < z < b): the mean moves by s (f(a) - f(b))/F, and
+ *   variance/s^2 = 1 + (a f(a) - b f(b))/F - ((f(a) - f(b))/F)^2. */
+static void cut_moments(const struct evidence *e, const rotid_parameter *bounds, int q, double *mean, double *std)
+{
+    *mean = e->mean[q];
+    *std = e->std[q];
+    if (!(*std > 0))
+        return;
+    double a = (bounds->lower - *mean) / *std, b = (bounds->upper - *mean) / *std,
+           inside = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2, at_a = exp(-a * a / 2 - LN_2PI / 2),
+           at_b = exp(-b * b / 2 - LN_2PI / 2);
+    double shift = (at_a - at_b) / inside, spread = 1 + (a * at_a - b * at_b) / inside - shift * shift;
+    int flat = inside < NARROW && fabs(a) < 1 && fabs(b) < 1;
+    if (inside < NARROW && !flat)
+        return; /* bounds in the tail of a normal that a run-up moved */
+    *mean = flat ? (bounds->lower + bounds->upper) / 2 : *mean + shift * *std;
+    *std = flat ? (bounds->upper - bounds->lower) / sqrt(12) : *std * sqrt(fmax(0, spread));
+}
+
 void posterior_average(const struct posterior *p, const rotid_parameter *bounds, int q, double *mean, double *std, double *lower,
                        double *upper)
 {
     double sum = 0, square = 0;
-    for (int i = 0; i < p->count; i++)
-        sum += p->item[i].probability * p->item[i].evidence.mean[q];
+    double own, spread;
     for (int i = 0; i < p->count; i++) {
-        double apart = p->item[i].evidence.mean[q] - sum;
-        square += p->item[i].probability * (apart * apart + p->item[i].evidence.std[q] * p->item[i].evidence.std[q]);
+        cut_moments(&p->item[i].evidence, bounds, q, &own, &spread);
+        sum += p->item[i].probability * own;
+    }
+    for (int i = 0; i < p->count; i++) {
+        cut_moments(&p->item[i].evidence, bounds, q, &own, &spread);
+        square += p->item[i].probability * ((own - sum) * (own - sum) + spread * spread);
     }
     *mean = sum;
     *std = sqrt(square);
