@@ -11,12 +11,11 @@
  *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
  *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
  *   5 refit      refit.c (refit_cause): fits with one cause more; far_starts.c
- *   6 posterior  laplace.c (evidence_of_fit): ln Z of a fit; posterior.c (posterior_run, posterior_verdict): beam search over
- * sets of causes, probabilities, averaged moduli; discrepancy.c: noise that an approximate cause leaves; advice.c 7 doubts     of
- * the data, after which 3 to 6 are repeated (round.c, round_run): pairing.c; faults.c with sensor_check.c and sensor_field.c:
- * channels; noise_check.c: level of the noise 8 evidence   evidence.c, leave_out.c: single causes for the reader; modes and
- * sensors left out 9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx =
- * (J'J)^-1 J'c s
+ *   6 posterior  posterior.c (posterior_run): probabilities, averaged moduli; search.c, scan_pairs.c: beam search over sets;
+ *                laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; verdict.c; advice.c
+ *   7 data       3 to 6 again behind what they show (round.c, round_run): pairing.c; faults.c: channels; level of the noise
+ *   8 evidence   evidence.c, leave_out.c: single causes for the reader, modes and sensors left out
+ *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
  *
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
  * properties of a cause by struct cause_kind; it must not read files, print, or change the deck. */
@@ -140,7 +139,7 @@ struct diagnosis {
     int nlikely;
     struct candidate *likely;  /* [nlikely] that stand in the final model beside those, without being named, */
     double likely_probability; /* and how probable the model with all of them is */
-    int nalternative;        /* ambiguous: the causes of candidates that cannot be told apart, best first */
+    int nalternative;          /* ambiguous: the causes of candidates that cannot be told apart, best first */
     struct candidate *alternative;
     struct states extended_states;  /* without states where nothing was named */
     struct job extended_job;        /* the first of them */
@@ -553,8 +552,8 @@ int refit_held(struct pool *pool, const int *number, const int *holdout, const r
                struct refit *refit);
 
 /* What the rotor as a solid in all states promises, by its residual at x, from which the beam's columns take what is fitted
- * anyway: to the first order in a change of the moduli; its mesh is held there. 0 where the rotor can be no solid, or one that is too large, as is noted
- * where notes is not NULL. Statuses of memory only. */
+ * anyway: to the first order in a change of the moduli; its mesh is held there. 0 where the rotor can be no solid, or one that is
+ * too large, as is noted where notes is not NULL. Statuses of memory only. */
 int scan_solid(struct pool *pool, struct states *states, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes);
 
@@ -923,6 +922,42 @@ int fault_correct(struct engine *engine, const struct candidate *fault);
 /* The explanations of the data of an engine whose first round has been fitted (`result`): search, evidence, probabilities. Fits
  * and lists hang on the engine's pool; the fits that the search made are in posterior_free. */
 int posterior_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
+/* The search that it makes: fills the list of a posterior whose data are open. Statuses of memory and cancellation only. */
+int search_run(struct engine *engine, struct round_result *result, struct posterior *posterior);
+
+#define SEARCH_WITHIN  7.0   /* of the best, in ln P */
+#define POSTERIOR_NEAR 0.125 /* of the length: half of the interval of a place that is named */
+
+/* A fault of the measurement rather than of the model. */
+int candidate_is_fault(const struct candidate *c);
+/* The same cause at the same target in the same states, whatever its variant and whoever asked for it; that near the same place
+ * too, where it has one, far from which it is another one; that model, with what is fixed of it. Of two channels that are one,
+ * whichever is the copy. */
+int posterior_same_cause(const struct candidate *a, const struct candidate *b);
+int posterior_same_name(const struct posterior *p, const struct candidate *a, const struct candidate *b);
+int posterior_same_model(const struct candidate *a, const struct candidate *b);
+/* Whether a set has a cause by its name; whether two sets have the same models; the item that does, or NULL. */
+int posterior_has(const struct posterior *p, const struct explanation *e, const struct candidate *c);
+int posterior_same_set(const struct explanation *a, const struct explanation *b);
+struct explanation *posterior_find(const struct posterior *p, const struct explanation *e);
+/* ln of the prior of a set. */
+double posterior_prior_of(const struct posterior *p, const struct explanation *e);
+/* Behind the list; NULL: it is full. */
+struct explanation *posterior_append(struct posterior *p, const struct explanation *e);
+/* The most probable first. */
+void posterior_sort(struct posterior *p);
+/* Room for means and deviations of the deck's unknowns. ROTID_OK or ROTID_ERROR_MEMORY. */
+int posterior_room(struct pool *pool, int nown, struct evidence *evidence);
+/* Evidence and probability, not normalised, of a set by its fit; else_scan: with something else too, NULL: without. */
+int posterior_score(struct engine *engine, struct posterior *p, const struct scan *else_scan, struct explanation *e);
+/* The fit of a set and its states: those of the base where it has none of its own. */
+const struct rotid_fit_result *explanation_fit(const struct engine *engine, const struct explanation *e);
+const struct states *explanation_states(const struct engine *engine, const struct explanation *e);
+/* column [2 * MOST_MEMBERS] of the faults in it, *nfault. */
+int explanation_faults(const struct engine *engine, const struct explanation *e, struct fault_column *column, int *nfault);
+/* fit_explains. */
+int explanation_explains(const struct engine *engine, const struct posterior *p, const struct explanation *e);
+
 /* The marginals of a list whose items have their probabilities; something_else and nothing, which are 0 before, likewise.
  * ROTID_OK or ROTID_ERROR_MEMORY. */
 int posterior_marginals(struct pool *pool, struct posterior *p);

@@ -1,0 +1,632 @@
+/* The search for explanations, a beam: the most probable sets that were not expanded yet are scanned for one more cause, each
+ * addition is scored by the evidence of its columns, the most promising are fitted, as is the set with one cause less and, where
+ * no single cause leaves nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within
+ * SEARCH_WITHIN of the best. What was not fitted enters by its columns; widths that are free are integrated at last
+ * (over_width.c); something else comes beside the likeliest, where it leads beside every single cause. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "diagnose/diagnose.h"
+#include "fit/fit.h"
+
+#define FAULTS    24   /* proposed beside a set */
+#define BEAM      4    /* sets expanded in a pass */
+#define FITTED    8    /* fits of a pass, the first three times as many */
+#define PAIRS     8    /* of causes that are proposed together */
+#define ELSE_MOST 3    /* sets of a size */
+#define LINEAR    10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
+
+/* Whether a set stands where a larger one does not have its causes: its fit may have ended in another minimum. */
+static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *larger)
+{
+    int all = 1;
+    for (int m = 0; m < set->nmember; m++)
+        all &= posterior_has(p, larger, &set->member[m]);
+    return !all && set->refit && !set->again;
+}
+
+/* The values of a fit in the members, found by the names of their effects. */
+static void take_values(const struct engine *engine, const struct refit *refit, struct candidate *c)
+{
+    c->result.refitted = 1;
+    c->result.chi2 = refit->chi2;
+    c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
+    c->other_chi2 = refit->other_chi2;
+    c->other_place = refit->other_place;
+    if (candidate_is_fault(c))
+        return;
+    const struct state *home = &refit->states.state[c->home];
+    int e = effect_named(home, c->effect.name);
+    if (e >= 0)
+        candidate_values(refit, home, e, c);
+}
+
+/* ---- proposals */
+
+enum { ADDS_FAULT = -1, ANEW = -2 };
+
+struct proposal {
+    int parent, candidate; /* number in the list; of the parent's scan; ADDS_FAULT: of the measurement; ANEW: from
+                             the base, one cause less or two */
+    struct scan *scan;
+    double gain; /* of ln Z over the parent, linear */
+    struct explanation set;
+};
+
+/* ln of the mean over places and widths, and the item that counts most. */
+static double gain_of(const struct states *states, const struct scan *scan, int index, int *best)
+{
+    const struct scan_candidate *c = &scan->candidate[index];
+    double sum = -INFINITY, most = -INFINITY;
+    *best = c->best;
+    if (!c->count)
+        return c->promise / 2;
+    for (int i = c->first; i < c->first + c->count; i++) {
+        double one = evidence_of_item(scan, &states->state[c->home].job.rotor, i);
+        sum = log_sum(sum, one);
+        if (one > most) {
+            most = one;
+            *best = i;
+        }
+    }
+    return sum - log(c->count);
+}
+
+/* ln Z of a single cause by its columns alone where the fit goes no further than they do: then the sum over all places and widths
+ * counts, not the normal about the best one. */
+static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent,
+                           struct explanation *e)
+{
+    const struct scan_candidate *c = &scan->candidate[index];
+    int best;
+    if (c->best < 0 || !e->refit)
+        return;
+    double drop = scan->item[c->best].drop, fitted = scan->chi2 - e->refit->chi2;
+    if (fabs(drop - fitted) > 1 || fitted > 30)
+        return;
+    double columns = parent->evidence.log_exact + gain_of(states, scan, index, &best), more = columns - e->evidence.log_exact;
+    if (e->evidence.log_stated > e->evidence.log_exact + 1 || fabs(e->evidence.log_z - e->evidence.log_exact) > 3)
+        return; /* it leaves something, or the noise is another one: columns know neither */
+    e->evidence.log_exact += more;
+    e->evidence.log_stated += more;
+    e->evidence.log_z += more;
+    e->log_posterior += more;
+    e->by_columns = 1;
+}
+
+/* A cause whose columns lie within those of the unknowns: no fit tells it from what it was added to. */
+static int is_inseparable(const struct proposal *p)
+{
+    const struct scan_candidate *c = p->candidate < 0 ? NULL : &p->scan->candidate[p->candidate];
+    return c && c->count && c->best < 0;
+}
+
+/* Those that can be fitted before the others. */
+static int by_gain(const void *a, const void *b)
+{
+    const struct proposal *one = a, *two = b;
+    if (is_inseparable(one) != is_inseparable(two))
+        return is_inseparable(one) - is_inseparable(two);
+    double first = one->set.log_posterior, second = two->set.log_posterior;
+    return (first < second) - (first > second);
+}
+
+/* Whether a cause in one state alone is the same in all: no other state in which it could act has modes that are fitted. */
+static int is_common(const struct engine *engine, const struct scan *scan, int index)
+{
+    const struct scan_candidate *c = &scan->candidate[index], *all = NULL;
+    for (int i = 0; i < scan->ncandidate && c->state >= 0 && !all; i++)
+        if (scan->candidate[i].state < 0 && scan->candidate[i].cause == c->cause && !strcmp(scan->candidate[i].target, c->target))
+            all = &scan->candidate[i];
+    int others = 0;
+    for (int s = 0, mode = 0; all && s < engine->states.nstate; mode += engine->states.state[s].job.measurement.nmode, s++)
+        for (int k = 0; k < engine->states.state[s].job.measurement.nmode && s != c->state && all->in[s]; k++)
+            others += !engine->holdout[mode + k];
+    return all && !others;
+}
+
+static double best_stated(const struct posterior *p)
+{
+    double best = -INFINITY;
+    for (int i = 0; i < p->count; i++)
+        if (p->item[i].refit || !p->item[i].nmember)
+            best = fmax(best, p->item[i].evidence.log_exact + p->item[i].log_prior);
+    return best;
+}
+
+/* All positions count from the other end. */
+static int is_turned(const struct candidate *c)
+{
+    return candidate_is_fault(c) && !c->sensor[0] && c->effect.value[2] >= 0.5;
+}
+
+/* A channel has one fault. */
+static int has_fault_there(const struct explanation *e, const struct candidate *c)
+{
+    int found = 0;
+    for (int m = 0; m < e->nmember; m++)
+        for (int k = 0; k < 2 && candidate_is_fault(&e->member[m]) && e->member[m].home == c->home; k++)
+            found |= e->member[m].sensor[k] == c->sensor[0] || (c->sensor[1] && e->member[m].sensor[k] == c->sensor[1]);
+    return found;
+}
+
+/* Faults of the measurement as additions to a set. */
+static int propose_faults(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal,
+                          int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    struct fault_proposal fault[FAULTS];
+    int found, status = faults_propose(engine->pool, explanation_states(engine, from), engine->number, engine->holdout,
+                                       explanation_fit(engine, from), from->data, scan, FAULTS, fault, &found);
+    for (int i = 0; i < found && *count < most && !status; i++) {
+        struct proposal one = {.parent = parent, .candidate = ADDS_FAULT, .scan = scan, .gain = fault[i].gain, .set = *from};
+        struct explanation *set = &one.set;
+        if (has_fault_there(from, &fault[i].fault) || (parent && is_turned(&fault[i].fault))) /* others are added to that */
+            continue;
+        set->member[set->nmember++] = fault[i].fault;
+        set->outside += fault[i].outside;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = posterior_prior_of(p, set);
+        set->evidence.log_z += one.gain;
+        set->evidence.log_stated = set->evidence.log_exact = from->evidence.log_exact + one.gain;
+        set->evidence.log_else = -INFINITY;
+        set->log_posterior = set->evidence.log_exact + set->log_prior;
+        if (!posterior_find(p, set))
+            proposal[(*count)++] = one;
+    }
+    return status;
+}
+
+/* A set of physical causes with one less: what led to it may not be needed any more. A set that was fitted is so again where the
+ * larger one has a cause at another place. */
+static void propose_removals(const struct posterior *p, int parent, struct proposal *proposal, int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    for (int m = 0; m < from->nmember && from->nmember > 1 && *count < most; m++) {
+        struct proposal one = {.parent = parent, .candidate = ANEW, .set = *from};
+        struct explanation *set = &one.set;
+        int physical = 1;
+        set->nmember--;
+        for (int k = m; k < set->nmember; k++)
+            set->member[k] = from->member[k + 1];
+        for (int k = 0; k < from->nmember; k++)
+            physical &= !candidate_is_fault(&from->member[k]) && !from->member[k].cause->solid;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = posterior_prior_of(p, set);
+        set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
+        struct explanation *known = posterior_find(p, set);
+        if (physical && (!known || stands_elsewhere(p, known, from)))
+            proposal[(*count)++] = one;
+    }
+}
+
+/* The additions to a set, behind the *count there are. */
+static int propose(struct engine *engine, struct posterior *p, int parent, struct scan *scan, struct proposal *proposal, int most,
+                   int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    const struct states *states = explanation_states(engine, from);
+    for (int i = 0; i < scan->ncandidate && *count < most; i++) {
+        struct proposal one = {.parent = parent, .candidate = i, .scan = scan, .set = *from};
+        int best;
+        if (is_common(engine, scan, i))
+            continue;
+        one.set.member[one.set.nmember++] = candidate_listed(scan, i);
+        one.set.refit = NULL;
+        one.set.scan = NULL;
+        one.set.expanded = 0;
+        one.gain = gain_of(states, scan, i, &best);
+        one.set.log_prior = posterior_prior_of(p, &one.set);
+        one.set.evidence.log_stated = one.set.evidence.log_exact = from->evidence.log_exact + one.gain;
+        one.set.evidence.log_z = from->evidence.log_z - from->evidence.log_stated + one.set.evidence.log_stated;
+        one.set.evidence.log_else = -INFINITY;
+        one.set.log_posterior = one.set.evidence.log_stated + one.set.log_prior;
+        int status = posterior_room(engine->pool, engine->nown, &one.set.evidence);
+        if (status)
+            return status;
+        const struct scan_item *item = best < 0 ? NULL : &scan->item[best];
+        for (int q = 0; q < engine->nown; q++) {
+            double shift = item && isfinite(scan->shift[q + (ptrdiff_t)best * scan->nfree])
+                               ? item->amplitude * scan->shift[q + (ptrdiff_t)best * scan->nfree]
+                               : 0;
+            one.set.evidence.mean[q] =
+                fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
+            one.set.evidence.std[q] = from->evidence.std[q];
+        }
+        struct candidate *member = &one.set.member[one.set.nmember - 1];
+        if (item) {
+            member->effect = item->effect;
+            if (!member->fixed[member->cause->size])
+                member->effect.value[member->cause->size] += item->amplitude * item->unit;
+        }
+        if (posterior_find(p, &one.set))
+            continue;
+        proposal[(*count)++] = one;
+    }
+    return ROTID_OK;
+}
+
+/* The cause of an item of the scan at this amplitude. */
+static struct candidate cause_of_item(const struct scan *scan, int item, double amplitude)
+{
+    const struct scan_item *i = &scan->item[item];
+    struct candidate c = candidate_listed(scan, i->candidate);
+    const char *name = c.effect.name;
+    c.effect = i->effect;
+    c.effect.name = name;
+    if (!c.fixed[c.cause->size])
+        c.effect.value[c.cause->size] += amplitude * i->unit;
+    return c;
+}
+
+/* Two causes at once beside the base, behind the *count there are. */
+static int propose_pairs(struct engine *engine, struct posterior *p, struct scan *scan, struct proposal *proposal, int most,
+                         int *count)
+{
+    const struct explanation *from = &p->item[0];
+    struct scan_pair pair[PAIRS];
+    int found, status = scan_pairs(engine->pool, scan, PAIRS, pair, &found);
+    for (int i = 0; i < found && *count < most && !status; i++) {
+        struct proposal one = {.parent = 0, .candidate = ANEW, .scan = scan, .gain = pair[i].drop / 2, .set = *from};
+        struct explanation *set = &one.set;
+        for (int m = 0; m < 2; m++)
+            set->member[set->nmember++] = cause_of_item(scan, pair[i].item[m], pair[i].amplitude[m]);
+        struct effect *second = &set->member[1].effect;
+        if (!strcmp(second->name, set->member[0].effect.name) &&
+            !(second->name = pool_format(engine->pool, "%s_2", second->name)))
+            return ROTID_ERROR_MEMORY;
+        set->refit = NULL;
+        set->scan = NULL;
+        set->expanded = 0;
+        set->log_prior = posterior_prior_of(p, set);
+        set->log_posterior = from->evidence.log_exact + one.gain + set->log_prior;
+        if (!posterior_find(p, set))
+            proposal[(*count)++] = one;
+    }
+    return status;
+}
+
+struct task {
+    const struct engine *engine;
+    struct posterior *p;
+    struct proposal *proposal;
+    struct refit *refit;
+    struct evidence_data **data; /* of its own where a fault was put right */
+    struct pool *pool;
+};
+
+/* The set fitted anew from the model without a cause, from the values that its causes have. */
+static int refit_set(struct pool *pool, const struct engine *e, const struct explanation *set, const double *x,
+                     struct refit *refit)
+{
+    struct states states = e->states;
+    rotid_fit_result *fit = NULL;
+    int status = states_started_at(pool, &e->states, x, &states);
+    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    for (int m = 0; m < set->nmember && !status; m++) {
+        const struct candidate *c = &set->member[m];
+        status = states_with_effect(pool, &states, NULL, &c->effect, c->cause, c->fixed, c->in, &states);
+    }
+    if (!status)
+        status = refit_states(pool, &states, e->number, e->holdout, e->environment, &fit);
+    if (!status)
+        status = refit_keep(pool, &states, fit, refit);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+static int fit_task(void *context, int index, int worker)
+{
+    struct task *t = context;
+    const struct engine *e = t->engine;
+    const struct proposal *proposal = &t->proposal[index];
+    const struct explanation *parent = &t->p->item[proposal->parent];
+    const struct states *states = explanation_states(e, parent);
+    double *deck = POOL_ARRAY(&t->pool[index], double, states->nparameter);
+    (void)worker;
+    if (!deck)
+        return ROTID_ERROR_MEMORY;
+    t->data[index] = parent->data;
+    if (proposal->candidate == ANEW)
+        return refit_set(&t->pool[index], e, &proposal->set, explanation_fit(e, parent)->x, &t->refit[index]);
+    if (proposal->candidate == ADDS_FAULT)
+        return fault_refit(&t->pool[index], states, e->nown, e->number, e->holdout, explanation_fit(e, parent), e->environment,
+                           &t->proposal[index].set.member[proposal->set.nmember - 1], &t->refit[index], &t->data[index]);
+    const double *x = explanation_fit(e, parent)->x;
+    for (int p = 0; p < states->nparameter; p++)
+        deck[p] = p < e->nown ? e->deck_start[p] : x[p];
+    return refit_cause(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, proposal->candidate,
+                       e->environment, &t->refit[index]);
+}
+
+/* Fits the first `count` proposals and enters them; the others enter by their columns. */
+static int fit_proposals(struct engine *engine, struct round_result *result, struct posterior *p, struct proposal *proposal,
+                         int count)
+{
+    struct refit *refit = result->refit + result->nrefit;
+    struct task task = {engine,
+                        p,
+                        proposal,
+                        refit,
+                        POOL_ARRAY(engine->pool, struct evidence_data *, count),
+                        POOL_ARRAY(engine->pool, struct pool, count)};
+    if (result->nrefit + count > result->room || !task.pool || !task.data)
+        return ROTID_ERROR_MEMORY;
+    result->nrefit += count;
+    for (int i = 0; i < count; i++)
+        pool_open(&task.pool[i], engine->pool->allocator);
+    int status = parallel_for(engine->threads, count, fit_task, &task);
+    for (int i = 0; i < count; i++)
+        pool_absorb(engine->pool, &task.pool[i]);
+    for (int i = 0; i < count && !status; i++) {
+        struct explanation e = proposal[i].set;
+        if (!refit[i].fit)
+            continue;
+        e.refit = &refit[i];
+        e.data = task.data[i];
+        e.evidence = (struct evidence){0};
+        for (int m = 0; m < e.nmember; m++)
+            take_values(engine, &refit[i], &e.member[m]);
+        status = posterior_score(engine, p, NULL, &e);
+        if (!status && proposal[i].candidate >= 0)
+            prefer_columns(explanation_states(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
+                           &p->item[proposal[i].parent], &e);
+        struct explanation *known = posterior_find(p, &e);
+        if (known) {
+            known->again = e.again = 1;
+            if (!status && e.log_posterior > known->log_posterior)
+                *known = e;
+        } else if (!status && !posterior_append(p, &e)) {
+            status = ROTID_ERROR_MEMORY;
+        }
+    }
+    return status;
+}
+
+/* ---- the search */
+
+/* Whether a single cause or none leaves no more than noise. */
+static int is_explained(const struct engine *engine, const struct posterior *p)
+{
+    int any = 0;
+    for (int i = 0; i < p->count && !any; i++)
+        any = (p->item[i].refit || !p->item[i].nmember) && explanation_explains(engine, p, &p->item[i]);
+    return any;
+}
+
+static int has_fit(const struct explanation *e)
+{
+    return (e->refit || !e->nmember) && !e->something_else;
+}
+
+/* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too,
+ * but solids, whose scans and fits take their time. */
+static int next_parent(const struct engine *engine, const struct posterior *p, int taken)
+{
+    int best = -1, lead = -1;
+    for (int i = 0; i < p->count; i++)
+        if (has_fit(&p->item[i]) && (lead < 0 || p->item[i].log_posterior > p->item[lead].log_posterior))
+            lead = i;
+    if (lead < 0)
+        return -1;
+    int explained = explanation_explains(engine, p, &p->item[lead]);
+    double least = p->item[lead].log_posterior - SEARCH_WITHIN;
+    for (int i = 0; i < p->count; i++) {
+        const struct explanation *e = &p->item[i];
+        int solid = 0;
+        for (int m = 0; m < e->nmember; m++)
+            solid |= e->member[m].cause->solid;
+        if (has_fit(e) && !e->expanded && !(solid && (explained || e->log_posterior < least)) &&
+            (best < 0 || e->log_posterior > p->item[best].log_posterior))
+            best = i;
+    }
+    return best >= 0 && (p->item[best].log_posterior >= least || (taken < BEAM && !explained)) ? best : -1;
+}
+
+static int enter_singles(struct engine *engine, const struct round_result *result, struct posterior *p)
+{
+    const struct scan *scan = &result->scan;
+    struct explanation e = {.data = p->data};
+    int status = posterior_score(engine, p, NULL, &e);
+    if (!status)
+        posterior_append(p, &e);
+    for (int i = 0; i < result->nrefit && !status; i++) {
+        const struct refit *refit = &result->refit[i];
+        int index = result->candidate[i];
+        if (!refit->fit || is_common(engine, scan, index))
+            continue;
+        struct candidate member = candidate_listed(scan, index);
+        const struct rotor *rotor = &refit->states.state[member.home].job.rotor;
+        if (!member.cause->solid)
+            member.effect.name = rotor->effect[rotor->neffect - 1].name;
+        take_values(engine, refit, &member);
+        if (is_unweighed_accelerometer(&engine->states.state[member.home].job, &member.effect))
+            continue;
+        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data};
+        e.member[0] = member;
+        status = posterior_score(engine, p, NULL, &e);
+        if (!status)
+            prefer_columns(&engine->states, scan, index, &p->item[0], &e);
+        if (!status && !posterior_find(p, &e))
+            posterior_append(p, &e);
+    }
+    return status;
+}
+
+/* A set that several parents lead to stays once, from where it promises most. Returns how many there are. */
+static int keep_first(struct proposal *proposal, int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        int known = 0;
+        for (int k = 0; k < kept && !known; k++)
+            known = posterior_same_set(&proposal[k].set, &proposal[i].set);
+        if (!known)
+            proposal[kept++] = proposal[i];
+    }
+    return kept;
+}
+
+static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
+{
+    struct pool *pool = engine->pool;
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + MOST_MEMBERS) + PAIRS,
+                status = ROTID_OK;
+    struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
+    if (!proposal)
+        return ROTID_ERROR_MEMORY;
+    *more = 0;
+    while (taken < (pass ? BEAM : 1) && !status && (parent = pass ? next_parent(engine, p, taken) : 0) >= 0) {
+        struct explanation *from = &p->item[parent];
+        from->expanded = 1;
+        taken++;
+        propose_removals(p, parent, proposal, most, &count);
+        if (from->nmember == MOST_MEMBERS)
+            continue;
+        struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;
+        from->scan = scan;
+        if (!scan)
+            return ROTID_ERROR_MEMORY;
+        if (parent)
+            status = scan_run(pool, &from->refit->states, engine->number, engine->holdout, from->refit->fit->x, SCAN_ALL, scan);
+        if (!status)
+            status = propose(engine, p, parent, scan, proposal, most, &count);
+        if (!status)
+            status = propose_faults(engine, p, parent, scan, proposal, most, &count);
+    }
+    if (!status && !pass && !is_explained(engine, p))
+        status = propose_pairs(engine, p, &result->scan, proposal, most, &count);
+    if (status || !count)
+        return status;
+    qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
+    count = keep_first(proposal, count);
+    double best = best_stated(p);
+    while (fits < count && fits < (pass ? FITTED : 3 * FITTED) && proposal[fits].set.log_posterior > best - SEARCH_WITHIN &&
+           !is_inseparable(&proposal[fits]))
+        fits++;
+    status = fit_proposals(engine, result, p, proposal, fits);
+    for (int i = fits; i < count && !status; i++) {
+        struct explanation *e = &proposal[i].set;
+        if (proposal[i].candidate == ANEW || proposal[i].gain > LINEAR ||
+            !explanation_explains(engine, p, &p->item[proposal[i].parent]))
+            continue;
+        e->log_posterior = e->evidence.log_z + e->log_prior;
+        if (!posterior_find(p, e))
+            posterior_append(p, e);
+    }
+    *more = fits > 0 || !pass;
+    return status;
+}
+
+/* The first cause of a set whose width is free; NULL: none, or its ln Z is over all widths already. */
+static const struct candidate *free_width(const struct explanation *e)
+{
+    for (int m = 0; m < e->nmember && e->refit && !e->by_columns; m++)
+        if (e->member[m].cause->width >= 0 && !e->member[m].fixed[e->member[m].cause->width])
+            return &e->member[m];
+    return NULL;
+}
+
+/* Evidence over the widths that are free, of the sets that count. What it is to a zone it is in the likeliest set that has it;
+ * the others take it from there. */
+static int integrate_widths(struct engine *engine, struct posterior *p)
+{
+    struct fault_column column[2 * MOST_MEMBERS];
+    double best = -INFINITY, *more = POOL_ARRAY(engine->pool, double, p->count + 1);
+    if (!more)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < p->count; i++)
+        best = fmax(best, p->item[i].log_posterior);
+    for (int i = 0, from; i < p->count; i++) {
+        struct explanation *e = &p->item[i];
+        const struct candidate *zone = e->log_posterior > best - SEARCH_WITHIN ? free_width(e) : NULL;
+        for (from = 0; zone && from < i; from++)
+            if (more[from] && free_width(&p->item[from]) && posterior_same_model(free_width(&p->item[from]), zone) &&
+                posterior_same_name(p, free_width(&p->item[from]), zone))
+                break;
+        if (!zone)
+            continue;
+        double before = e->evidence.log_z;
+        struct strip_case strips = {.states = &e->refit->states,
+                                    .fit = e->refit->fit,
+                                    .number = engine->number,
+                                    .holdout = engine->holdout,
+                                    .nown = engine->nown,
+                                    .nmember = e->nmember,
+                                    .member = e->member,
+                                    .fault = column,
+                                    .environment = engine->environment};
+        int status = from < i ? ROTID_OK : explanation_faults(engine, e, column, &strips.nfault);
+        if (!status && from == i)
+            status = evidence_over_widths(engine->pool, e->data, &strips, &e->evidence);
+        if (status)
+            return status;
+        more[i] = from < i ? more[from] : e->evidence.log_z - before;
+        e->evidence.log_z = before + more[i];
+        e->log_posterior += more[i];
+    }
+    return ROTID_OK;
+}
+
+/* Something else beside set i of the list; *best: raised to its ln P. */
+static int add_else_beside(struct engine *engine, struct posterior *p, int i, double *best)
+{
+    struct explanation e = p->item[i];
+    int status = ROTID_OK;
+    e.evidence = (struct evidence){0};
+    if (!e.scan) {
+        struct scan *scan = POOL_NEW(engine->pool, struct scan);
+        status = scan ? scan_run(engine->pool, explanation_states(engine, &e), engine->number, engine->holdout,
+                                 explanation_fit(engine, &e)->x, SCAN_FIELDS, scan)
+                      : ROTID_ERROR_MEMORY;
+        e.scan = scan;
+    }
+    if (!status)
+        status = posterior_score(engine, p, e.scan, &e);
+    e.something_else = 1;
+    e.log_prior = posterior_prior_of(p, &e);
+    e.log_posterior = e.evidence.log_else + e.log_prior;
+    if (status || !isfinite(e.log_posterior))
+        return status;
+    *best = fmax(*best, e.log_posterior);
+    posterior_append(p, &e);
+    return ROTID_OK;
+}
+
+/* Something else beside the likeliest sets; where it leads, beside every cause that was fitted, as what is likely alone need not
+ * be so beside it. */
+static int add_something_else(struct engine *engine, struct posterior *p)
+{
+    int listed = p->count, status = ROTID_OK, tried[MOST_MEMBERS + 1] = {0};
+    double best = -INFINITY;
+    for (int pass = 0; pass < 2 && !status && (!pass || best > p->item[0].log_posterior); pass++) {
+        memset(tried, 0, sizeof tried);
+        for (int i = 0; i < listed && !status; i++) {
+            int n = p->item[i].nmember, rank = !n || p->item[i].refit ? tried[n]++ : -1;
+            if (pass ? n == 1 && rank >= ELSE_MOST : rank >= 0 && rank < ELSE_MOST)
+                status = add_else_beside(engine, p, i, &best);
+        }
+    }
+    return status;
+}
+
+int search_run(struct engine *engine, struct round_result *result, struct posterior *p)
+{
+    int more = 1, status = enter_singles(engine, result, p);
+    for (int pass = 0; pass < SEARCH_PASSES && more && !status; pass++) {
+        status = engine_stage(engine, "search of explanations, pass", pass + 1);
+        if (!status)
+            status = expand(engine, result, p, pass, &more);
+    }
+    if (status)
+        return status;
+    posterior_sort(p);
+    status = integrate_widths(engine, p);
+    posterior_sort(p);
+    return status ? status : add_something_else(engine, p);
+}
