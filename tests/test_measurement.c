@@ -383,6 +383,53 @@ POOL_TEST(blocks_that_end_before_the_decay_are_warned_of)
     assert_int_equal(warnings_of_a_decay(6), 0);
 }
 
+/* A decay that rings, in steps of 1/levels of its range, over a force of so many steps: what the messages say of it. */
+static int warnings_of_steps(int force_levels, int levels, double decay, const char *said)
+{
+    static const struct measurement_options options = {.transfer = {.block = 1}};
+    struct measurement m;
+    struct message_list messages;
+    double force[2 * SAMPLES] = {0}, response[2 * SAMPLES] = {0};
+    for (int i = 0; i < 29; i++)
+        force[30 + i] = round(force_levels * sin(3.141592653589793 * i / 28)) / force_levels;
+    for (int i = 30; i < 2 * SAMPLES; i++)
+        response[i] = round(levels / 2. * exp(-decay * (i - 30) / RATE) * sin(0.9 * (i - 30))) / levels;
+    struct uff_function f = {.type = UFF_TIME,
+                             .response_node = 1,
+                             .response_direction = 3,
+                             .ordinate = UFF_REAL_SINGLE,
+                             .count = 2 * SAMPLES,
+                             .is_even = 1,
+                             .step = 1 / RATE};
+    f.abscissa.specific_type = 17;
+    struct uff_function g = f;
+    f.numerator.specific_type = 13;
+    g.numerator.specific_type = 12;
+    g.response_node = 5;
+    begin();
+    write_real(&f, force);
+    write_real(&g, response);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    return warnings(&messages, said);
+}
+
+/* Converters of which more is in use, up to 24 bits, are not accused, nor decays of a few samples. */
+POOL_TEST(records_of_few_levels_are_warned_of)
+{
+    static const double few[] = {0, 1, 2, 3, 5, 5}, grid[] = {-2, 0, 1, 3, 5, 9, 0, 0},
+                        pulse[] = {0, 0.13, 0.52, 1.31, 0.9, 0.2, 0};
+    assert_int_equal(warnings_of_steps(1 << 16, 30, 8, "1 of 2 channels have fewer than 256 levels (here the response at 5:+Z"),
+                     1);
+    assert_int_equal(warnings_of_steps(30, 30, 8, "2 of 2 channels have fewer than 256 levels"), 1);
+    assert_int_equal(warnings_of_steps(30, 1 << 16, 8, "(here the force at 1:+Z, 31 from its least"), 1);
+    for (int levels = 600; levels <= 1 << 24; levels *= 2)
+        for (double decay = 8; decay < 1000; decay *= 5)
+            assert_int_equal(warnings_of_steps(levels, levels, decay, "levels"), 0);
+    assert_int_equal(values_levels(6, few), 0);
+    assert_int_equal(values_levels(8, grid), 12);
+    assert_int_equal(values_levels(7, pulse), 0);
+}
+
 POOL_TEST(records_that_do_not_fit_are_named)
 {
     struct measurement m;

@@ -7,7 +7,7 @@
  *
  *   listing.c      listing_read: what a file holds and what in it is doubtful. Of the values of a function are kept: number,
  *                  first, last, least, greatest, sum, root mean square, a hash (struct values), from which follow dead, clipped
- *                  and repeated channels; listing_summarise: sentences
+ *                  and repeated channels; values_levels: coarse ones; listing_summarise: sentences
  *   measurement.c  measurement_read: the transfer functions of a test (type 4) with their coherences (type 6), else pairs of
  *                  time records (type 1), of which transfer_compute of src/signal makes H(f). Functions are listed first
  *                  (struct contents), so that only the values that are wanted are read. A response goes with its force by load
@@ -83,6 +83,12 @@ void values_close(struct values *values);
 /* Whether a record of a time signal stopped at the limit of its converter: the greatest or the least value stands there at least
  * three times in a row, and the signal was on its way when it got there. */
 int values_are_clipped(const struct values *values);
+
+/* Levels of the converter from the least to the greatest of count finite samples, where fewer than COARSE_LEVELS; else 0, also
+ * where the samples do not show that they are multiples of a step: fewer than six distinct ones, as of a pulse that is short and
+ * clean, or distances apart that are no multiples of the least one, as of any signal with more digits. */
+#define COARSE_LEVELS 256
+int values_levels(long long count, const double *sample);
 
 /* Whether two functions have the same values, all of them. */
 int values_are_same(const struct values *a, const struct values *b);

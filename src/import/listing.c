@@ -107,6 +107,42 @@ int values_are_clipped(const struct values *values)
     return 0;
 }
 
+#define LEVELS_LEAST     6    /* by chance one in half a million sets of six values has the distances of a grid */
+#define LEVELS_TOLERANCE 0.02 /* of a step: six digits of a text round 256 of them to 0.0013 */
+
+int values_levels(long long count, const double *sample)
+{
+    double level[COARSE_LEVELS], step = INFINITY; /* rising */
+    int n = 0;
+    for (long long i = 0; i < count; ++i) {
+        int low = 0, high = n;
+        while (low < high) {
+            int middle = (low + high) / 2;
+            if (level[middle] < sample[i])
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        if (low < n && level[low] == sample[i])
+            continue;
+        if (n == COARSE_LEVELS)
+            return 0;
+        memmove(level + low + 1, level + low, (size_t)(n - low) * sizeof *level);
+        level[low] = sample[i];
+        ++n;
+    }
+    for (int i = 1; i < n; ++i)
+        step = fmin(step, level[i] - level[i - 1]);
+    if (n < LEVELS_LEAST || !((level[n - 1] - level[0]) / step < COARSE_LEVELS - 1.5))
+        return 0;
+    for (int i = 1; i < n; ++i) {
+        double steps = (level[i] - level[i - 1]) / step;
+        if (fabs(steps - round(steps)) > LEVELS_TOLERANCE)
+            return 0;
+    }
+    return 1 + (int)lround((level[n - 1] - level[0]) / step);
+}
+
 int values_are_same(const struct values *a, const struct values *b)
 {
     return a->count == b->count && a->hash == b->hash && a->min == b->min && a->max == b->max && a->rms == b->rms;

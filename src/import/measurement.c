@@ -447,6 +447,28 @@ static void warn_of_leakage(const struct loading *l, const struct time_record *r
             count, used, 100 * transfer->impact[worst].tail);
 }
 
+/* A decay below half a step of the converter reads zero: no scatter of the impacts, which would show, but an early end. */
+static void warn_of_steps(const struct loading *l)
+{
+    const struct uff_function *worst = NULL;
+    int read = 0, coarse = 0, least = COARSE_LEVELS;
+    char place[PLACE_MOST];
+    for (int i = 0; i < l->contents->count; i++) {
+        const struct uff_function *f = &l->contents->item[i].function;
+        int levels = l->values[i] ? values_levels(f->count, l->values[i]) : 0;
+        read += l->values[i] != NULL;
+        coarse += levels > 0;
+        worst = levels && levels < least ? f : worst;
+        least = levels && levels < least ? levels : least;
+    }
+    if (worst)
+        message_add(l->messages, SEVERITY_WARNING, l->path, worst->line, 1,
+                    "%d of %d channels have fewer than %d levels (here the %s at %s, %d from its least to its greatest value): "
+                    "damping and masses are off by more than their standard deviations, expected a smaller input range",
+                    coarse, read, COARSE_LEVELS, is_force(&worst->numerator) ? "force" : "response",
+                    place_text(worst->response_node, worst->response_direction, place), least);
+}
+
 static void say_bad(const struct loading *l)
 {
     message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1,
@@ -515,8 +537,10 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
             say_bad(&l);
         else if (status == ROTID_ERROR_ARGUMENT)
             message_add(messages, SEVERITY_ERROR, path, 1, 1, "no time record is left to use, expected a force with an impact");
-        else if (!status)
+        else if (!status) {
             warn_of_leakage(&l, record, &out->transfer);
+            warn_of_steps(&l);
+        }
     }
     out->from_records = !status;
     out->record_count = count;
