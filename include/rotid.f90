@@ -668,6 +668,8 @@ module rotid
     real(c_double) :: p_value = 0
     integer(c_int) :: ncauses = 0
     type(c_ptr) :: causes = c_null_ptr ! rotid_cause
+    integer(c_int) :: nlikely_causes = 0
+    type(c_ptr) :: likely_causes = c_null_ptr ! rotid_cause
     integer(c_int) :: nalternatives = 0
     type(c_ptr) :: alternatives = c_null_ptr ! texts
     integer(c_int) :: nalternative_causes = 0

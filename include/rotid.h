@@ -769,7 +769,9 @@ typedef struct rotid_verdict {
     int adequate_after; /* the model with the causes that were named is adequate for these data */
     double p_value;     /* of the base model: the smallest of the tests */
     int ncauses;
-    rotid_cause *causes; /* named, as they stand in the extended model, which may hold likely ones beside them (sentence) */
+    rotid_cause *causes; /* named, as they stand in the extended model */
+    int nlikely_causes;
+    rotid_cause *likely_causes; /* not named, but in the extended model beside those, which alone are next to excluded */
     int nalternatives;
     const char **alternatives; /* ids of the candidates that cannot be told apart, best first */
     int nalternative_causes;

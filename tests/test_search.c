@@ -93,7 +93,11 @@ UNIT_TEST(what_is_named_has_the_place_that_it_has_in_the_likeliest_model)
     assert_close(value_of(&d->verdict.causes[0], "z"), 0.117401, 0.05, 0);
     assert_close(value_of(&d->verdict.causes[0], "stiffness"), 552.412, 0.15, 0);
     assert_true(d->verdict.adequate_after);
-    assert_true(strstr(d->verdict.sentence, " %% stiffness of left (") || strstr(d->verdict.sentence, " % stiffness of left ("));
+    assert_non_null(strstr(d->verdict.sentence, " % stiffness of left ("));
+    assert_int_equal(d->verdict.nlikely_causes, 1);
+    assert_string_equal(d->verdict.likely_causes[0].id, "stiffness");
+    assert_close(value_of(&d->verdict.likely_causes[0], "factor"), 1.0262, 0.002, 0);
+    assert_int_equal(d->extended->nparameters, d->base->nparameters + 3);
     rotid_diagnosis_free(d);
 }
 

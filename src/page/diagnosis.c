@@ -27,16 +27,18 @@ static const char *sentence_of(struct pool *pool, const char *text)
     return or_nothing(pool_format(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : ""));
 }
 
-/* "step_stiffness and added_mass" */
-static const char *names(struct pool *pool, const rotid_diagnosis *d)
+/* "step_stiffness and added_mass"; all: those that are likely beside what was named, too */
+static const char *names(struct pool *pool, const rotid_diagnosis *d, int all)
 {
+    const rotid_verdict *v = &d->verdict;
     const char *text = "";
-    for (int i = 0; i < d->verdict.ncauses && text; i++)
+    int count = v->ncauses + (all ? v->nlikely_causes : 0);
+    for (int i = 0; i < count && text; i++)
         text = pool_format(pool, "%s%s%s", text,
-                           !i                            ? ""
-                           : i + 1 == d->verdict.ncauses ? " and "
-                                                         : ", ",
-                           cause_label(pool, d, &d->verdict.causes[i]));
+                           !i               ? ""
+                           : i + 1 == count ? " and "
+                                            : ", ",
+                           cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses]));
     return or_nothing(text);
 }
 
@@ -46,7 +48,7 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
     case ROTID_ADEQUATE:
         return *shifts ? pool_format(pool, "Adequate; effects below the detection limits may shift %s", shifts) : "Adequate";
     case ROTID_NAMED:
-        return pool_format(pool, "Named: %s%s%s", names(pool, d),
+        return pool_format(pool, "Named: %s%s%s", names(pool, d, 0),
                            *shifts ? "; effects below the detection limits may shift " : "", shifts);
     case ROTID_AMBIGUOUS:
         return pool_format(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
@@ -186,7 +188,7 @@ static const char *interrupted(struct pool *pool, const rotid_diagnosis *d)
                                     pool,
                                     "The diagnosis was interrupted before a verdict. A round that was finished would name %s; "
                                     "the rounds that did not run may speak against that.",
-                                    names(pool, d)))
+                                    names(pool, d, 0)))
                               : "The diagnosis was interrupted before a verdict. The finished part stands below: it shows where "
                                 "the model misses "
                                 "the measurement, and does not say why.";
@@ -211,7 +213,7 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
     const rotid_verdict *v = &d->verdict;
     struct pool *pool = document->pool;
     const char *both =
-        d->extended ? or_nothing(pool_format(pool, "without \xe2\x86\x92 with %s", plain_text(pool, names(pool, d)))) : NULL;
+        d->extended ? or_nothing(pool_format(pool, "without \xe2\x86\x92 with %s", plain_text(pool, names(pool, d, 1)))) : NULL;
     for (int p = 0; fit && p < d->base->nparameters && p < TILES_MOST - 3; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         double was = d->base->parameters[p].value;

@@ -161,9 +161,11 @@ static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
     (void)fputc(']', out);
     write_key(out, "causes");
     (void)fputc('[', out);
-    for (int i = 0; i < d->verdict.ncauses; i++) {
+    const rotid_verdict *v = &d->verdict;
+    for (int i = 0; i < v->ncauses + v->nlikely_causes; i++) {
         (void)fputs(i ? "," : "", out);
-        write_text(out, plain_text(pool, cause_label(pool, d, &d->verdict.causes[i])));
+        write_text(out,
+                   plain_text(pool, cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses])));
     }
     (void)fputc(']', out);
 }

@@ -52,6 +52,7 @@ TABLE(verdict_record, rotid_verdict) = {
     FLAG(rotid_verdict, adequate_after, 0),
     NUMBER(rotid_verdict, p_value, MAY_BE_NULL | PROBABILITY),
     STRUCTS(rotid_verdict, causes, 0, cause_record),
+    STRUCTS(rotid_verdict, likely_causes, SINCE_LATER, cause_record),
     TEXTS(rotid_verdict, alternatives, 0),
     STRUCTS(rotid_verdict, alternative_causes, 0, cause_record),
     INTEGERS(rotid_verdict, alternative_sets, SINCE_LATER),
