@@ -175,7 +175,7 @@ ROTID_API int rotid_deck_read(const char *path, int noverride, const char *const
                               char *failure, rotid_deck **deck);
 /* The same of the deck text [length], which need not end with a zero. `name` stands for its file in messages and in `path`; NULL:
  * "deck". What it includes and the measured data it names are read relative to `directory`; where that is NULL they are not read
- * but an error with its place (ROTID_ERROR_SYNTAX). The text is not needed behind the call. */
+ * but an error with its place (ROTID_ERROR_SYNTAX). No text is needed behind the call. */
 ROTID_API int rotid_deck_read_text(size_t length, const char *text, const char *name, const char *directory, int noverride,
                                    const char *const *override, const rotid_environment *environment, char *failure,
                                    rotid_deck **deck);

@@ -271,6 +271,30 @@ UNIT_TEST(runs_say_why_they_failed)
     rotid_deck_free(deck);
 }
 
+/* Paths and names are of the call alone: a host may free them, as Fortran and Python do at once. */
+UNIT_TEST(names_of_the_caller_may_go_behind_the_call)
+{
+    static const char text[] = MODEL "*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n";
+    const double x[] = {1e300};
+    char failure[512], name[64], directory[64];
+    rotid_deck *deck;
+    rotid_spectrum *spectrum;
+    for (int memory = 0; memory < 2; memory++) {
+        const char *path = folder_write("given.inp", text);
+        (void)snprintf(name, sizeof name, "%s", path);
+        (void)snprintf(directory, sizeof directory, "%s", folder);
+        assert_status(memory ? rotid_deck_read_text(strlen(text), text, name, directory, 0, NULL, NULL, NULL, &deck)
+                             : rotid_deck_read(name, 0, NULL, NULL, NULL, &deck),
+                      ROTID_OK);
+        memset(name, 'x', sizeof name);
+        memset(directory, 'x', sizeof directory);
+        assert_status(rotid_spectrum_compute(deck, x, 3, NULL, failure, &spectrum), ROTID_ERROR_EIGEN);
+        assert_memory_equal(failure, path, strlen(path));
+        assert_true(failure[strlen(path)] == ':');
+        rotid_deck_free(deck);
+    }
+}
+
 /* A message longer than the buffer is cut off between two characters. */
 UNIT_TEST(a_long_reason_is_cut_off_between_characters)
 {

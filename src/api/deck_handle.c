@@ -190,9 +190,11 @@ static int show_states(const struct states *states, struct pool *own, const roti
     return ROTID_OK;
 }
 
+/* The places in the cards and the origin keep the path, the name and the directory: those of the caller may go. */
 static int read_deck(struct pool *own, const struct deck_memory *memory, const char *path, int noverride, const char *const *text,
                      struct call *call, rotid_deck *deck)
 {
+    struct deck_memory kept = memory ? *memory : (struct deck_memory){0};
     struct message_list *messages = &call->notes;
     message_open(messages, own); /* they stay with the deck */
     struct deck_handle *handle = POOL_NEW(own, struct deck_handle);
@@ -201,11 +203,14 @@ static int read_deck(struct pool *own, const struct deck_memory *memory, const c
         return ROTID_ERROR_MEMORY;
     *handle = (struct deck_handle){.own = own};
     deck->memory = handle;
-    deck->path = pool_copy_text(own, path);
+    deck->path = kept.name = pool_copy_text(own, path);
+    kept.directory = kept.directory ? pool_copy_text(own, kept.directory) : NULL;
+    if (own->out_of_memory)
+        return ROTID_ERROR_MEMORY;
     deck->length = deck->mass = deck->centre = NAN;
     int status = parse_overrides(own, noverride, text, messages, override);
     if (!status)
-        status = deck_read_states(own, path, memory, noverride, override, messages, &handle->states);
+        status = deck_read_states(own, deck->path, memory ? &kept : NULL, noverride, override, messages, &handle->states);
     if (!status)
         status = weigh(&handle->states.state[0].job, &call->environment, deck);
     if (!status)
