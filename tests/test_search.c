@@ -133,6 +133,18 @@ UNIT_TEST(what_leads_beside_something_else_need_not_lead_alone)
     rotid_diagnosis_free(d);
 }
 
+/* Of 504.7 and 506.6 Hz one is no mode: without shapes only the fits can tell. */
+UNIT_TEST(a_mode_that_was_counted_twice_is_left_out)
+{
+    rotid_diagnosis *d = diagnosed("twice");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_int_equal(d->ndata_findings, 1);
+    assert_string_equal(d->data_findings[0].id, "mode_pairing");
+    assert_int_equal(d->data_findings[0].nmodes, 1);
+    assert_int_equal(d->data_findings[0].modes[0], 3);
+    rotid_diagnosis_free(d);
+}
+
 /* Chance leaves as much in one of a thousand cases. */
 UNIT_TEST(an_improbable_misfit_that_no_cause_explains_is_no_explained_one)
 {

@@ -8,6 +8,8 @@
 
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */
 #define EXPLAINED   0.01
+#define LEAST_KEPT  3 /* modes */
+#define PI          3.14159265358979324
 #define AS_WELL     2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
 
 int pairing_drop(struct engine *engine, int k)
@@ -120,6 +122,60 @@ int pairing_adopt(struct engine *engine, const struct job_measurement *measured,
     return pairing_note(engine, measured->number);
 }
 
+/* Chi2 that a mode left out has to cost: 0.03 of the tests have one (so probable before), and its frequency, of relative
+ * deviation s, could be any of the band: -2 ln(0.03 sqrt(2 pi) s/ln(f_n/f_1)). */
+static double cost_of_false_mode(const struct job_measurement *measured, int k)
+{
+    double band = log(measured->frequency_hz[measured->nmode - 1] / measured->frequency_hz[0]);
+    return -2 * log(0.03 * sqrt(2 * PI) * measured->frequency_std[k] / fmax(band, measured->frequency_std[k]));
+}
+
+/* Without shapes a mode may have been counted twice, as where a rotor that is not quite round has it in two planes: one is left
+ * out, and those above are numbered one lower, where the model needs no cause then, and none explains the data as well otherwise.
+ * rival: chi2 of the best one. */
+static int count_once(struct engine *engine, double rival, int *changed)
+{
+    struct job best = {.deck = NULL};
+    const struct job_measurement *measured = &engine->job->measurement;
+    int at = -1, dof = 0, status = ROTID_OK;
+    double least = INFINITY;
+    for (int k = 0; k < measured->nmode && measured->nmode > LEAST_KEPT && !status; k++) {
+        struct job job;
+        rotid_fit_result *fit = NULL;
+        status = job_started_at(engine->pool, engine->job, engine->deck_start, &job);
+        if (!status)
+            status = data_copy(engine->pool, &job);
+        if (status || measured->holdout[k])
+            continue;
+        data_remove_mode(&job, k);
+        for (int i = k; i < job.measurement.nmode; i++)
+            job.measurement.number[i]--;
+        int fitted = refit_job(engine->pool, &job, job.measurement.number, job.measurement.holdout, engine->environment, &fit);
+        status = fitted == ROTID_ERROR_MEMORY || fitted == ROTID_STOP_CANCELLED ? fitted : ROTID_OK;
+        if (fit && fit->chi2 < least) {
+            least = fit->chi2;
+            dof = fit->dof;
+            best = job;
+            at = k;
+        }
+        rotid_fit_free(fit);
+    }
+    if (status || at < 0 || dof < 1 || chi_square_tail(least, dof) < EXPLAINED ||
+        least + cost_of_false_mode(measured, at) + LEAST_MARGIN > rival)
+        return status;
+    const char *text =
+        pool_format(engine->pool,
+                    "measured mode %d (%.6g Hz) is no mode of its own: a mode measured twice, or the pair of a rotor "
+                    "that is not quite round; it is left out, and those above are numbered one lower",
+                    measured->number[at], measured->frequency_hz[at]);
+    status = text ? data_add_pairing(engine, measured->number[at], 0, text) : ROTID_ERROR_MEMORY;
+    engine->job->measurement = best.measurement;
+    engine->job->measurement.paired = *changed = 1;
+    engine->number = best.measurement.number;
+    engine->holdout = best.measurement.holdout;
+    return status;
+}
+
 /* Without shapes the numbers are the user's: rigid-body modes may have been counted, or modes missed. Another numbering counts
  * where with it the model needs no cause, and none explains the data as well without. */
 static int renumber(struct engine *engine, const struct round_result *result, int *changed)
@@ -137,9 +193,11 @@ static int renumber(struct engine *engine, const struct round_result *result, in
     int status = states_started_at(engine->pool, &engine->states, engine->deck_start, &states);
     if (!status)
         status = numbering_search(engine->pool, &states, engine->number, engine->holdout, engine->environment, &best);
-    if (status || !best.shift || chi_square_tail(best.chi2, engine->fit->dof) < EXPLAINED ||
-        best.chi2 + PARAMETER_PENALTY + LEAST_MARGIN > rival)
+    if (status)
         return status;
+    if (!best.shift || chi_square_tail(best.chi2, engine->fit->dof) < EXPLAINED ||
+        best.chi2 + PARAMETER_PENALTY + LEAST_MARGIN > rival)
+        return engine->states.nstate == 1 ? count_once(engine, rival, changed) : ROTID_OK;
     struct job_measurement *measured = &engine->states.state[best.state].job.measurement;
     int at = states_modes(&engine->states, best.state), was = measured->number[best.from];
     const char *text = numbering_text(engine->pool, &engine->states, &best);
