@@ -383,10 +383,11 @@ POOL_TEST(blocks_that_end_before_the_decay_are_warned_of)
     assert_int_equal(warnings_of_a_decay(6), 0);
 }
 
-/* A decay that rings, in steps of 1/levels of its range, over a force of so many steps: what the messages say of it. */
-static int warnings_of_steps(int force_levels, int levels, double decay, const char *said)
+/* A decay that rings, in steps of 1/levels of its range, over a pulse of 28 samples in so many steps: what the messages say of
+ * it. */
+static int warnings_of_records(int force_levels, int levels, double decay, double window, const char *said)
 {
-    static const struct measurement_options options = {.transfer = {.block = 1}};
+    const struct measurement_options options = {.transfer = {.block = 1, .pretrigger = 25 / RATE, .force_window = window}};
     struct measurement m;
     struct message_list messages;
     double force[2 * SAMPLES] = {0}, response[2 * SAMPLES] = {0};
@@ -418,16 +419,27 @@ POOL_TEST(records_of_few_levels_are_warned_of)
 {
     static const double few[] = {0, 1, 2, 3, 5, 5}, grid[] = {-2, 0, 1, 3, 5, 9, 0, 0},
                         pulse[] = {0, 0.13, 0.52, 1.31, 0.9, 0.2, 0};
-    assert_int_equal(warnings_of_steps(1 << 16, 30, 8, "1 of 2 channels have fewer than 256 levels (here the response at 5:+Z"),
-                     1);
-    assert_int_equal(warnings_of_steps(30, 30, 8, "2 of 2 channels have fewer than 256 levels"), 1);
-    assert_int_equal(warnings_of_steps(30, 1 << 16, 8, "(here the force at 1:+Z, 31 from its least"), 1);
+    assert_int_equal(
+        warnings_of_records(1 << 16, 30, 8, 0, "1 of 2 channels have fewer than 256 levels (here the response at 5:+Z"), 1);
+    assert_int_equal(warnings_of_records(30, 30, 8, 0, "2 of 2 channels have fewer than 256 levels"), 1);
+    assert_int_equal(warnings_of_records(30, 1 << 16, 8, 0, "(here the force at 1:+Z, 31 from its least"), 1);
     for (int levels = 600; levels <= 1 << 24; levels *= 2)
         for (double decay = 8; decay < 1000; decay *= 5)
-            assert_int_equal(warnings_of_steps(levels, levels, decay, "levels"), 0);
+            assert_int_equal(warnings_of_records(levels, levels, decay, 0, "levels"), 0);
     assert_int_equal(values_levels(6, few), 0);
     assert_int_equal(values_levels(8, grid), 12);
     assert_int_equal(values_levels(7, pulse), 0);
+}
+
+/* A third of the pulse is kept, two thirds, all of it. */
+POOL_TEST(a_force_window_that_cuts_the_pulse_is_warned_of)
+{
+    static const char said[] = "the force window cuts 1 of 1 pulses";
+    assert_int_equal(warnings_of_records(1 << 16, 1 << 16, 8, 10 / RATE, said), 1);
+    assert_int_equal(warnings_of_records(1 << 16, 1 << 16, 8, 20 / RATE, said), 1);
+    assert_int_equal(warnings_of_records(1 << 16, 1 << 16, 8, 40 / RATE, said), 0);
+    assert_int_equal(warnings_of_records(1 << 16, 1 << 16, 8, 0, said), 0);
+    assert_int_equal(warnings_of_records(1 << 16, 1 << 16, 8, -1, said), 0);
 }
 
 POOL_TEST(records_that_do_not_fit_are_named)

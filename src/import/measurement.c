@@ -271,7 +271,8 @@ static int contents_values(struct uff_reader *reader, const struct content *item
     return status;
 }
 
-#define MOST_TAIL 0.1 /* of the rms of a block, in its last tenth */
+#define MOST_TAIL 0.1  /* of the rms of a block, in its last tenth */
+#define MOST_LOST 0.01 /* of the rms of the force */
 
 static int is_record(const struct content *item)
 {
@@ -447,6 +448,22 @@ static void warn_of_leakage(const struct loading *l, const struct time_record *r
             count, used, 100 * transfer->impact[worst].tail);
 }
 
+/* What a window takes off the pulse, or off what rings behind it, is a factor on the force that every impact has alike. */
+static void warn_of_lost_force(const struct loading *l, const struct time_record *record, const struct transfer *transfer)
+{
+    int count = 0, used = 0, worst = 0;
+    for (int i = 0; i < transfer->nimpact; i++) {
+        used += transfer->impact[i].used;
+        count += transfer->impact[i].lost > MOST_LOST;
+        worst = transfer->impact[i].lost > transfer->impact[worst].lost ? i : worst;
+    }
+    if (2 * count > used) /* else noise, where few samples tell it */
+        message_add(l->messages, SEVERITY_WARNING, l->path, record[transfer->impact[worst].record].line, 1,
+                    "the force window cuts %d of %d pulses or what rings behind them (here %.0f %% of the rms): masses and "
+                    "damping are off, expected a longer --force-window, or none",
+                    count, used, 100 * transfer->impact[worst].lost);
+}
+
 /* A decay below half a step of the converter reads zero: no scatter of the impacts, which would show, but an early end. */
 static void warn_of_steps(const struct loading *l)
 {
@@ -539,6 +556,7 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
             message_add(messages, SEVERITY_ERROR, path, 1, 1, "no time record is left to use, expected a force with an impact");
         else if (!status) {
             warn_of_leakage(&l, record, &out->transfer);
+            warn_of_lost_force(&l, record, &out->transfer);
             warn_of_steps(&l);
         }
     }

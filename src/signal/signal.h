@@ -86,8 +86,10 @@ struct impact { /* one found in a record */
     long long sample; /* of the largest force */
     double peak;      /* N, from the base line of the force; negative where the hammer's cable has that sign */
     double width;     /* s at the threshold */
-    double tail;    /* rms of the response over the last tenth of the block, windowed, over that of all of it: above some 0.1 the
-                       block ends too early and lines leak (longer block, or exponential window); 0 where it is not used */
+    double tail; /* rms of the response over the last tenth of the block, windowed, over that of all of it: above some 0.1 the
+                    block ends too early and lines leak (longer block, or exponential window); 0 where it is not used */
+    double lost; /* rms of the force that a given window takes away within what is kept by default, over the rms of that; without
+                    the noise before the impact, and 0 where less than 5 samples tell it */
     int is_double;  /* a second pulse above the threshold inside the block */
     int is_cut;     /* the block does not fit into the record or before the next impact */
     int is_clipped; /* force or response stays at its largest value: overload */

@@ -511,7 +511,8 @@ void estimator_smooth(int nline, const double *force, double *variance, double *
 #define HIGHEST 0.45 /* of the sampling rate: up to there the filters of a converter are flat */
 #define RINGING_SAMPLES                                                                                                          \
     128 /* in which the steepest anti-alias filter of an analyser rings down; less cut off bends the lines below it */
-#define FASTEST 1e12 /* Hz, and its inverse the slowest sampling: spectra stay within the range of double */
+#define QUIET_LEAST 5    /* samples before an impact that tell the noise of the force */
+#define FASTEST     1e12 /* Hz, and its inverse the slowest sampling: spectra stay within the range of double */
 
 struct worker { /* workspace of one thread */
     struct fft fft;
@@ -695,10 +696,15 @@ static void transform(const struct work *work, struct worker *worker, int column
         worker->force[j] = force[j] - force_mean;
         worker->response[j] = response[j] - response_mean;
     }
-    double keep =
-        work->options->force_window > 0 ? work->options->force_window : fmax(10 * impact->width, RINGING_SAMPLES / work->rate);
-    if (work->options->force_window >= 0 && !impact->is_double) /* a second hit that is kept belongs to the force */
+    double needed = fmax(10 * impact->width, RINGING_SAMPLES / work->rate),
+           keep = work->options->force_window > 0 ? work->options->force_window : needed;
+    if (work->options->force_window >= 0 && !impact->is_double) { /* a second hit that is kept belongs to the force */
+        int reach = (int)fmin(n, begin + ceil(needed * work->rate)), from = (int)fmin(reach, begin + ceil(keep * work->rate));
+        double whole = squares(reach, worker->force), noise = squares(quiet, worker->force) / quiet * (reach - from);
         window_force(n, (int)fmin(n, begin + ceil(keep * work->rate)), (int)fmin(n, keep * work->rate / 4), worker->force);
+        double gone = whole - squares(reach, worker->force) - (1 + 6 * sqrt(2. / quiet)) * noise; /* six deviations of it */
+        impact->lost = quiet >= QUIET_LEAST && gone > 0 ? sqrt(gone / whole) : 0;
+    }
     for (int j = 0; j < n; j++) {
         worker->force[j] *= work->exponential[j];
         worker->response[j] *= work->exponential[j];
