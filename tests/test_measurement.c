@@ -343,6 +343,23 @@ POOL_TEST(responses_find_their_force)
     check_records(&m);
 }
 
+/* A sensor that was not connected at one of four impacts. */
+POOL_TEST(an_impact_without_its_response_is_left_out)
+{
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {0};
+    begin();
+    for (int i = 0; i < 4; i++) {
+        write_measurement(10 + i, 5, i == 1 ? 0 : 2, 30 + i, 1);
+        write_measurement(20 + i, 9, -3, 40 + i, 1);
+    }
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    check_records(&m);
+    assert_int_equal(m.transfer.nimpact, 8);
+    assert_int_equal(m.set.frf[0].averages, 3);
+}
+
 /* y' = -decay y + force: of a block of a second the last tenth has about exp(-0.95 decay) sqrt(2 decay) of the rms, which is
  * 0.142 for a decay of 3 and 0.012 for one of 6, on both sides of the tenth that is let pass. */
 static int warnings_of_a_decay(double decay)

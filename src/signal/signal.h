@@ -93,7 +93,7 @@ struct impact { /* one found in a record */
     int is_double;  /* a second pulse above the threshold inside the block */
     int is_cut;     /* the block does not fit into the record or before the next impact */
     int is_clipped; /* force or response stays at its largest value: overload */
-    int used;
+    int used;       /* not cut, not clipped, not double, the response not constant */
 };
 
 struct time_record { /* one measurement: force and one response, sampled together */

@@ -298,6 +298,15 @@ static int split(struct pool *pool, const struct time_record *record, double rat
     return given || *shortest ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
 
+/* A channel that was not connected at this impact would halve the mean over two. */
+static int is_dead(int n, const double *response)
+{
+    int j = 1;
+    while (j < n && response[j] == response[0])
+        j++;
+    return j == n;
+}
+
 /* Which impacts of record `at` are used, once the length of the blocks is known. */
 static void judge(const struct time_record *record, double rate, const struct transfer_options *options, long long pre, int at,
                   struct block_plan *plan)
@@ -314,7 +323,7 @@ static void judge(const struct time_record *record, double rate, const struct tr
         int quiet = block_quiet(begin, &impact[k], rate);
         impact[k].is_clipped = impact_is_overload(plan->n, force, window_mean(quiet, force)) ||
                                impact_is_overload(plan->n, response, window_mean(quiet, response));
-        impact[k].used = !impact[k].is_clipped && (!impact[k].is_double || options->double_hits);
+        impact[k].used = !impact[k].is_clipped && (!impact[k].is_double || options->double_hits) && !is_dead(plan->n, response);
     }
 }
 
