@@ -116,9 +116,9 @@ struct transfer {
 };
 
 /* Transfer functions of nrecord records at sampling rate `rate` [Hz], 1e-12 ... 1e12. Records with the same response and
- * reference are averaged together, in the order in which the records name them first. Impacts that are cut, overloaded or double
- * are left out. Variance of a line, where there are two impacts or more: from their spread (delete-one jackknife of the chosen
- * estimator, weighted by S_ff; for two that is their difference), then averaged over 31 lines (estimator_jackknife,
+ * reference are averaged together, in the order in which the records name them first. Impacts that are cut, overloaded, double or
+ * dead are left out. Variance of a line, where there are two impacts or more: from their spread (delete-one jackknife of the
+ * chosen estimator, weighted by S_ff; for two that is their difference), then averaged over 31 lines (estimator_jackknife,
  * estimator_smooth): under noise of the response |h - E h|^2 over it is 1 in the mean, within 3 %; under
  * noise of the force, which follows |h|^2, within 20 %. It knows nothing of the bias of an estimator that trusts a noisy channel.
  * Coherence |S_xf|^2/(S_ff S_xx) where there are two or more; without noise it is 1, with noise alone 1/averages. A line without
