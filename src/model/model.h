@@ -12,8 +12,7 @@
  *                  less than half of their potential energy phi'K phi is in bending and shear
  *   mesh limit     discrete.c (discrete_mesh_limit): f - share (g - f) of a mesh f and a refined or coarse one g (Richardson)
  *   basis          model.c (model_in_basis): a solid for motions u = V q alone, q its unknowns
- *   one run        models.c (models_for_run, models_discretise): meshes, mode counts and vectors are made once and used again;
- *                  models_hold: the ratios f/f_coarse that a fit of a solid holds
+ *   one run        models.c (models_for_run, models_discretise): meshes, mode counts and vectors are made once and used again
  *   deflection     deflection.c: along the axis, at sensors, of members; meridian.c: the solid's mesh and motion for results
  *
  * Callers: run, diagnose, api, export, study, which give rotor_model.equations to src/modal or src/fit for modes and fits. Of
