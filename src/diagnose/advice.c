@@ -26,16 +26,19 @@ static int foresee(struct pool *pool, const struct job *job, const double *x, in
 {
     struct rotor_model model;
     struct prediction p;
-    int failed, status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, &model,
-                                    &failed);
+    struct pool matrices; /* of a solid they are large beside what is wanted of them */
+    pool_open(&matrices, pool->allocator);
+    int failed, status = model_open(&matrices, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
+                                    &model, &failed);
     future->count = count;
     if (!status)
-        status =
-            prediction_new(pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model.equations.nrigid + count, 0, &p);
+        status = prediction_new(&matrices, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model.equations.nrigid + count,
+                                0, &p);
     if (!status)
         status = prediction_compute(&p, x);
     for (int k = 0; k < count && !status; k++)
         future->hz[k] = prediction_hz(&p, model.equations.nrigid + k);
+    pool_close(&matrices);
     return status;
 }
 

@@ -459,14 +459,18 @@ int fault_columns(struct pool *pool, const struct states *states, const int *num
     int line = !fault->sensor[0], parameters = fault->nparameter, s = line ? 0 : sensor_find(job, fault->sensor[0]), status;
     if (!parameters || s < 0)
         return ROTID_OK;
-    status = open_channels(pool, states, fault->home, number, holdout, fit, d, &c);
+    struct pool scratch; /* the model of a solid is large beside its columns */
+    pool_open(&scratch, pool->allocator);
+    status = open_channels(&scratch, states, fault->home, number, holdout, fit, d, &c);
     for (int p = 0; p < parameters && !status; p++) {
         if (fault->fixed[p])
             continue;
         struct fault_column *to = &column[*count];
         *to = (struct fault_column){fault->cause, p, fault->effect.value[p], 0, 0, POOL_ARRAY(pool, double, d->nrow), NAN, NAN};
-        if (!to->column)
-            return ROTID_ERROR_MEMORY;
+        if (!to->column) {
+            status = ROTID_ERROR_MEMORY;
+            break;
+        }
         (*count)++;
         fault->cause->bounds(&job->rotor, &fault->effect, p, &to->lower, &to->upper);
         memset(to->column, 0, (size_t)d->nrow * sizeof *to->column);
@@ -491,6 +495,7 @@ int fault_columns(struct pool *pool, const struct states *states, const int *num
                 to->column[block->row + i] -= along / square * c.u[block->row + i];
         }
     }
+    pool_close(&scratch);
     return status;
 }
 

@@ -573,21 +573,22 @@ static int integrate_widths(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
-/* Something else beside set i of the list; *best: raised to its ln P. */
-static int add_else_beside(struct engine *engine, struct posterior *p, int i, double *best)
+/* Something else beside set i of the list; *best: raised to its ln P. near: a scan whose fields along the rotor do for it, or
+ * NULL: they are looked for beside its own fit. */
+static int add_else_beside(struct engine *engine, struct posterior *p, int i, const struct scan *near, double *best)
 {
     struct explanation e = p->item[i];
+    struct pool scratch; /* the columns of a scan are large beside what is wanted of them */
+    struct scan own;
     int status = ROTID_OK;
     e.evidence = (struct evidence){0};
-    if (!e.scan) {
-        struct scan *scan = POOL_NEW(engine->pool, struct scan);
-        status = scan ? scan_run(engine->pool, explanation_states(engine, &e), engine->number, engine->holdout,
-                                 explanation_fit(engine, &e)->x, SCAN_FIELDS, scan)
-                      : ROTID_ERROR_MEMORY;
-        e.scan = scan;
-    }
+    pool_open(&scratch, engine->pool->allocator);
+    if (!e.scan && !near)
+        status = scan_run(&scratch, explanation_states(engine, &e), engine->number, engine->holdout,
+                          explanation_fit(engine, &e)->x, SCAN_FIELDS, &own);
     if (!status)
-        status = posterior_score(engine, p, e.scan, &e);
+        status = posterior_score(engine, p, e.scan ? e.scan : near ? near : &own, &e);
+    pool_close(&scratch);
     e.something_else = 1;
     e.log_prior = posterior_prior_of(p, &e);
     e.log_posterior = e.evidence.log_else + e.log_prior;
@@ -599,7 +600,7 @@ static int add_else_beside(struct engine *engine, struct posterior *p, int i, do
 }
 
 /* Something else beside the likeliest sets; where it leads, beside every cause that was fitted, as what is likely alone need not
- * be so beside it. */
+ * be so beside it. Scans of solids take their time: the many have the fields of the base. */
 static int add_something_else(struct engine *engine, struct posterior *p)
 {
     int listed = p->count, status = ROTID_OK, tried[MOST_MEMBERS + 1] = {0};
@@ -609,7 +610,7 @@ static int add_something_else(struct engine *engine, struct posterior *p)
         for (int i = 0; i < listed && !status; i++) {
             int n = p->item[i].nmember, rank = !n || p->item[i].refit ? tried[n]++ : -1;
             if (pass ? n == 1 && rank >= ELSE_MOST : rank >= 0 && rank < ELSE_MOST)
-                status = add_else_beside(engine, p, i, &best);
+                status = add_else_beside(engine, p, i, pass && engine->job->options.solid ? p->base : NULL, &best);
         }
     }
     return status;
