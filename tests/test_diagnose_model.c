@@ -183,6 +183,13 @@ static int stop(void *context)
     return 1;
 }
 
+static int add_no_number(void *user, const double *x, const double *value, rotid_matrix *k, rotid_matrix *m)
+{
+    (void)user, (void)x, (void)value, (void)m;
+    k->band[0] = NAN;
+    return 0;
+}
+
 static void wrong_input_is_refused(void **state)
 {
     rotid_host_diagnosis *d;
@@ -203,8 +210,11 @@ static void wrong_input_is_refused(void **state)
     REFUSED(ROTID_ERROR_ARGUMENT, "cause[3].add is NULL");
     cause[3].add = add;
     fails_at = 3;
-    REFUSED(ROTID_ERROR_CALLBACK, "matrices");
+    REFUSED(ROTID_ERROR_CALLBACK, "with cause[3]: model->matrices returned");
     fails_at = -1;
+    cause[3].add = add_no_number; /* is not left out without a word */
+    REFUSED(ROTID_ERROR_FINITE, "with cause[3]: the stiffness of model->matrices");
+    cause[3].add = add;
     data.measured.frequency_std = NULL;
     REFUSED(ROTID_ERROR_ARGUMENT, "frequency_std");
     data.measured.frequency_std = hz_std;

@@ -133,7 +133,9 @@ static int enter(struct host *h, rotid_host_explanation set, const double *x, in
     if (!status || status > 0) {
         int cancelled = fit->status == ROTID_STOP_CANCELLED;
         status = cancelled ? ROTID_STOP_CANCELLED : evidence_of_model(h->data, prior, nown, fit, with_else, &entered.evidence);
-    } else if (set.ncause && status != ROTID_ERROR_MEMORY && status != ROTID_ERROR_CALLBACK) {
+    } else if (set.ncause && (status == ROTID_ERROR_CALLBACK || status == ROTID_ERROR_FINITE)) {
+        return failure_say_of(h->failure, status, "with cause[%d]: ", set.cause[set.ncause - 1]);
+    } else if (set.ncause && status != ROTID_ERROR_MEMORY) {
         *h->failure = 0; /* the model has no fit with this cause */
         return ROTID_OK;
     }
