@@ -133,6 +133,16 @@ UNIT_TEST(what_leads_beside_something_else_need_not_lead_alone)
     rotid_diagnosis_free(d);
 }
 
+/* Its fit ends elsewhere; beside another one it is found, and then alone. */
+UNIT_TEST(a_cause_that_two_lead_to_is_found_alone)
+{
+    rotid_diagnosis *d = diagnosed("other_place");
+    names(d, "support_extra", "");
+    assert_close(value_of(&d->verdict.causes[0], "z"), 0.37148, 0.02, 0);
+    assert_close(value_of(&d->verdict.causes[0], "stiffness"), 1.45884e7, 0.05, 0);
+    rotid_diagnosis_free(d);
+}
+
 /* Of 504.7 and 506.6 Hz one is no mode: without shapes only the fits can tell. */
 UNIT_TEST(a_mode_that_was_counted_twice_is_left_out)
 {

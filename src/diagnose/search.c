@@ -18,12 +18,12 @@
 #define ELSE_MOST 3    /* sets of a size */
 #define LINEAR    10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
 
-/* Whether a set stands where a larger one does not have its causes: its fit may have ended in another minimum. */
-static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *larger)
+/* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
+static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *found)
 {
     int all = 1;
     for (int m = 0; m < set->nmember; m++)
-        all &= posterior_has(p, larger, &set->member[m]);
+        all &= posterior_has(p, found, &set->member[m]);
     return !all && set->refit && !set->again;
 }
 
@@ -201,7 +201,7 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
         set->log_prior = posterior_prior_of(p, set);
         set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
         struct explanation *known = posterior_find(p, set);
-        if (physical && (!known || stands_elsewhere(p, known, from)))
+        if (physical && (!known || stands_elsewhere(p, known, set)))
             proposal[(*count)++] = one;
     }
 }
