@@ -236,7 +236,7 @@ UNIT_TEST(a_broken_off_model_is_no_result)
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;
-    for (int k = 1; !ended; k += 5 * SPARSE) {
+    for (int k = 1; !ended; k += 2 * SPARSE) {
         struct host host = {.stop_at = k, .once = 1, .stage = "final model, causes"};
         const rotid_environment environment = environment_of(&host, NULL);
         assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);

@@ -206,6 +206,8 @@ POOL_TEST(the_drop_of_a_pair_is_the_least_within_the_bounds)
         for (int i = 0; i < ROWS; i++)
             own[i] /= sqrt(length);
         item[c] = (struct scan_item){.candidate = c, .usable = 1, .norm = 2, .lower = c % 2 ? 0 : -0.3, .upper = 0.4};
+        if (c > 3) /* nothing in the way */
+            item[c].lower = -(item[c].upper = 2);
         candidate[c] = (struct scan_candidate){.state = -1, .first = c, .count = 1, .best = c};
     }
     const struct scan scan = {
@@ -221,10 +223,10 @@ POOL_TEST(the_drop_of_a_pair_is_the_least_within_the_bounds)
         const struct scan_pair *p = &pair[i];
         double drop = square - least_on_a_grid(column + p->item[0] * ROWS, column + p->item[1] * ROWS, r, &item[p->item[0]],
                                                &item[p->item[1]]);
-        assert_close(p->drop, drop, 0, 1e-4);
+        assert_close(p->drop, drop, 0, 1e-3);
         assert_true(!i || pair[i - 1].drop >= p->drop);
         for (int k = 0; k < 2; k++)
             assert_true(p->amplitude[k] >= item[p->item[k]].lower && p->amplitude[k] <= item[p->item[k]].upper);
     }
-    assert_close(pair[0].drop, best, 0, 1e-4);
+    assert_close(pair[0].drop, best, 0, 1e-3);
 }
