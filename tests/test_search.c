@@ -65,6 +65,8 @@ UNIT_TEST(a_solid_far_from_the_beams_moduli_explains_all)
     rotid_diagnosis *d = diagnosed("soft_solid");
     names(d, "beam_theory", "");
     assert_true(d->verdict.adequate_after);
+    assert_int_equal(d->verdict.explanations[0].ncauses, 1); /* else what the mesh leaves is taken for another cause */
+    assert_true(d->verdict.explanations[0].probability > 0.9);
     rotid_diagnosis_free(d);
 }
 
