@@ -208,7 +208,7 @@ POOL_TEST(the_drop_of_a_pair_is_the_least_within_the_bounds)
         for (int i = 0; i < ROWS; i++)
             own[i] /= sqrt(length);
         item[c] = (struct scan_item){.candidate = c, .usable = 1, .norm = 2, .lower = c % 2 ? 0 : -0.3, .upper = 0.4};
-        if (c > 3) /* nothing in the way */
+        if (c > 1) /* nothing in the way */
             item[c].lower = -(item[c].upper = 2);
         candidate[c] = (struct scan_candidate){.state = -1, .first = c, .count = 1, .best = c};
     }
