@@ -337,6 +337,8 @@ int scan_is_field(const struct scan_candidate *c);
 int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
              enum scan_extent extent, struct scan *scan);
 
+/* The effect of an item, its size moved by the amplitude unless a user has fixed it. */
+struct effect scan_effect(const struct scan *scan, int item, double amplitude);
 /* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
 double scan_best_drop(const struct scan *scan, int candidate);
 

@@ -108,11 +108,8 @@ static struct candidate scanned(const struct round_result *result, int index)
     const struct scan_candidate *s = &scan->candidate[index];
     struct candidate c = candidate_listed(scan, index);
     c.result.predicted_drop = scan_best_drop(scan, index);
-    if (s->best >= 0) {
-        c.effect = scan->item[s->best].effect;
-        if (!s->fixed[s->cause->size])
-            c.effect.value[s->cause->size] += scan->item[s->best].amplitude * scan->item[s->best].unit;
-    }
+    if (s->best >= 0)
+        c.effect = scan_effect(scan, s->best, scan->item[s->best].amplitude);
     return c;
 }
 

@@ -283,22 +283,12 @@ static int choose_starts(const struct scan *scan, const struct scan_candidate *c
     return count;
 }
 
-static struct effect effect_of_item(const struct scan *scan, int item, double amplitude)
-{
-    const struct scan_item *i = &scan->item[item];
-    const struct scan_candidate *c = &scan->candidate[i->candidate];
-    struct effect effect = i->effect;
-    if (!c->fixed[c->cause->size])
-        effect.value[c->cause->size] += amplitude * i->unit;
-    return effect;
-}
-
 /* The effects to start from; a solid has but one. */
 static int starting_effects(const struct scan *scan, const struct scan_candidate *c, double length, struct effect *effect)
 {
     int item[STARTS], count = choose_starts(scan, c, length, item);
     for (int s = 0; s < count; s++)
-        effect[s] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
+        effect[s] = scan_effect(scan, item[s], scan->item[item[s]].amplitude);
     if (c->cause->solid)
         effect[count++] = c->effect;
     if (c->far)

@@ -365,6 +365,16 @@ int scan_run(struct pool *pool, const struct states *states, const int *number, 
     return status;
 }
 
+struct effect scan_effect(const struct scan *scan, int item, double amplitude)
+{
+    const struct scan_item *i = &scan->item[item];
+    const struct scan_candidate *c = &scan->candidate[i->candidate];
+    struct effect effect = i->effect;
+    if (!c->fixed[c->cause->size])
+        effect.value[c->cause->size] += amplitude * i->unit;
+    return effect;
+}
+
 double scan_best_drop(const struct scan *scan, int candidate)
 {
     const struct scan_candidate *c = &scan->candidate[candidate];

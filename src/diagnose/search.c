@@ -55,6 +55,15 @@ struct proposal {
     struct explanation set;
 };
 
+/* A set that has got its members, of another one that was fitted. */
+static void not_fitted(const struct posterior *p, struct explanation *set)
+{
+    set->refit = NULL;
+    set->scan = NULL;
+    set->expanded = 0;
+    set->log_prior = posterior_prior_of(p, set);
+}
+
 /* ln of the mean over places and widths, and the item that counts most. */
 static double gain_of(const struct states *states, const struct scan *scan, int index, int *best)
 {
@@ -127,11 +136,16 @@ static int is_common(const struct engine *engine, const struct scan *scan, int i
     return all && !others;
 }
 
+static int has_fit(const struct explanation *e)
+{
+    return (e->refit || !e->nmember) && !e->something_else;
+}
+
 static double best_stated(const struct posterior *p)
 {
     double best = -INFINITY;
     for (int i = 0; i < p->count; i++)
-        if (p->item[i].refit || !p->item[i].nmember)
+        if (has_fit(&p->item[i]))
             best = fmax(best, p->item[i].evidence.log_exact + p->item[i].log_prior);
     return best;
 }
@@ -167,10 +181,7 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
             continue;
         set->member[set->nmember++] = fault[i].fault;
         set->outside += fault[i].outside;
-        set->refit = NULL;
-        set->scan = NULL;
-        set->expanded = 0;
-        set->log_prior = posterior_prior_of(p, set);
+        not_fitted(p, set);
         set->evidence.log_z += one.gain;
         set->evidence.log_stated = set->evidence.log_exact = from->evidence.log_exact + one.gain;
         set->evidence.log_else = -INFINITY;
@@ -195,10 +206,7 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
             set->member[k] = from->member[k + 1];
         for (int k = 0; k < from->nmember; k++)
             physical &= !candidate_is_fault(&from->member[k]) && !from->member[k].cause->solid;
-        set->refit = NULL;
-        set->scan = NULL;
-        set->expanded = 0;
-        set->log_prior = posterior_prior_of(p, set);
+        not_fitted(p, set);
         set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
         struct explanation *known = posterior_find(p, set);
         if (physical && (!known || stands_elsewhere(p, known, set)))
@@ -218,11 +226,8 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
         if (is_common(engine, scan, i))
             continue;
         one.set.member[one.set.nmember++] = candidate_listed(scan, i);
-        one.set.refit = NULL;
-        one.set.scan = NULL;
-        one.set.expanded = 0;
+        not_fitted(p, &one.set);
         one.gain = gain_of(states, scan, i, &best);
-        one.set.log_prior = posterior_prior_of(p, &one.set);
         one.set.evidence.log_stated = one.set.evidence.log_exact = from->evidence.log_exact + one.gain;
         one.set.evidence.log_z = from->evidence.log_z - from->evidence.log_stated + one.set.evidence.log_stated;
         one.set.evidence.log_else = -INFINITY;
@@ -239,30 +244,12 @@ static int propose(struct engine *engine, struct posterior *p, int parent, struc
                 fmin(fmax(from->evidence.mean[q] - shift, states->bounds[q].lower), states->bounds[q].upper);
             one.set.evidence.std[q] = from->evidence.std[q];
         }
-        struct candidate *member = &one.set.member[one.set.nmember - 1];
-        if (item) {
-            member->effect = item->effect;
-            if (!member->fixed[member->cause->size])
-                member->effect.value[member->cause->size] += item->amplitude * item->unit;
-        }
-        if (posterior_find(p, &one.set))
-            continue;
-        proposal[(*count)++] = one;
+        if (item)
+            one.set.member[one.set.nmember - 1].effect = scan_effect(scan, best, item->amplitude);
+        if (!posterior_find(p, &one.set))
+            proposal[(*count)++] = one;
     }
     return ROTID_OK;
-}
-
-/* The cause of an item of the scan at this amplitude. */
-static struct candidate cause_of_item(const struct scan *scan, int item, double amplitude)
-{
-    const struct scan_item *i = &scan->item[item];
-    struct candidate c = candidate_listed(scan, i->candidate);
-    const char *name = c.effect.name;
-    c.effect = i->effect;
-    c.effect.name = name;
-    if (!c.fixed[c.cause->size])
-        c.effect.value[c.cause->size] += amplitude * i->unit;
-    return c;
 }
 
 /* Two causes at once beside the base, behind the *count there are. */
@@ -275,16 +262,16 @@ static int propose_pairs(struct engine *engine, struct posterior *p, struct scan
     for (int i = 0; i < found && *count < most && !status; i++) {
         struct proposal one = {.parent = 0, .candidate = ANEW, .scan = scan, .gain = pair[i].drop / 2, .set = *from};
         struct explanation *set = &one.set;
-        for (int m = 0; m < 2; m++)
-            set->member[set->nmember++] = cause_of_item(scan, pair[i].item[m], pair[i].amplitude[m]);
+        for (int m = 0; m < 2; m++) {
+            struct candidate *member = &set->member[set->nmember++];
+            *member = candidate_listed(scan, scan->item[pair[i].item[m]].candidate);
+            member->effect = scan_effect(scan, pair[i].item[m], pair[i].amplitude[m]);
+        }
         struct effect *second = &set->member[1].effect;
         if (!strcmp(second->name, set->member[0].effect.name) &&
             !(second->name = pool_format(engine->pool, "%s_2", second->name)))
             return ROTID_ERROR_MEMORY;
-        set->refit = NULL;
-        set->scan = NULL;
-        set->expanded = 0;
-        set->log_prior = posterior_prior_of(p, set);
+        not_fitted(p, set);
         set->log_posterior = from->evidence.log_exact + one.gain + set->log_prior;
         if (!posterior_find(p, set))
             proposal[(*count)++] = one;
@@ -395,13 +382,8 @@ static int is_explained(const struct engine *engine, const struct posterior *p)
 {
     int any = 0;
     for (int i = 0; i < p->count && !any; i++)
-        any = (p->item[i].refit || !p->item[i].nmember) && explanation_explains(engine, p, &p->item[i]);
+        any = has_fit(&p->item[i]) && explanation_explains(engine, p, &p->item[i]);
     return any;
-}
-
-static int has_fit(const struct explanation *e)
-{
-    return (e->refit || !e->nmember) && !e->something_else;
 }
 
 /* The next set to expand: the most probable that has a fit; where even the best leaves more than noise those far behind it too,
