@@ -5,7 +5,6 @@
 
 #include "support.h"
 
-#define TWO_PI 6.283185307179586
 
 double truth_free_free(int r, double x)
 {

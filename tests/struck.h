@@ -8,7 +8,6 @@
 
 #include "signal/signal.h"
 
-#define PI 3.14159265358979323846
 
 struct struck_mode {
     double frequency_hz, damping, residue; /* R = phi_response phi_force/m [1/kg] */

@@ -15,8 +15,7 @@
 #include "support.h"
 #include "uff/uff.h"
 
-#define TWO_PI 6.28318530717958647692
-#define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
 static char output[1 << 20], errors[1 << 16];
 

@@ -9,7 +9,6 @@
 #include "ema_truth.h"
 #include "support.h"
 
-#define TWO_PI 6.283185307179586
 
 static void compute(const struct frf_set *set, const struct ema_options *options, struct ema *out)
 {

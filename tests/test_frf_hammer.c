@@ -13,8 +13,7 @@
 #include "hammer/hammer.h"
 #include "support.h"
 
-#define TWO_PI 6.28318530717958647692
-#define HIGH   3000.0
+#define HIGH 3000.0
 
 static struct hammer_test truth;
 

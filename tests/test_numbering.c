@@ -9,7 +9,6 @@
 #include "reading.h"
 #include "run/run.h"
 
-#define PI      3.14159265358979323846
 #define BAR     "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n1.0, 0.05, 0, 40\n"
 #define ON(K)   "*SPRING, NAME=a\n0.1, " K "\n*SPRING, NAME=b\n0.9, " K "\n"
 #define AS_SEEN "1, 88.59\n2, 136.92\n3, 256.07\n4, 624.60\n"

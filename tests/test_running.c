@@ -11,8 +11,6 @@
 #include "running_case.h"
 #include "support.h"
 
-#define PI 3.14159265358979323846
-
 /* Shaft, disk in the middle, pins: a Jeffcott rotor but for 1e-4 of the mass. The stiffness is 48 EI/L^3 with shear. */
 #define LIGHT                                                                                                                    \
     "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n0.1\n*SHAFT, NAME=shaft, MATERIAL=s\n0.5, 0.03, 0, 8\n0.5, 0.03, 0, 8\n"  \

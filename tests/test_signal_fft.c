@@ -8,7 +8,6 @@
 #include "signal/signal.h"
 
 #define MOST 6000
-#define PI   3.14159265358979323846
 
 static double x[MOST];
 static double complex line[MOST / 2 + 1];

@@ -8,7 +8,6 @@
 #include "run/run.h"
 #include "support.h"
 
-#define TWO_PI 6.28318530717958647692
 #define POINTS 5
 
 /* A stepped free rotor of steel: three groups, points anywhere; the first elastic modes at about 310, 750 and 1430 Hz. */

@@ -31,7 +31,7 @@ static int fill_causes(struct pool *pool, int count, const struct candidate *can
 static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_verdict *out)
 {
     out->ncauses = fill_causes(pool, d->ncause, d->cause, &out->causes);
-    out->nlikely_causes = fill_causes(pool, d->nlikely, d->likely, &out->likely_causes);
+    out->nlikely_causes = fill_causes(pool, d->nlikely, d->cause + d->ncause, &out->likely_causes);
     out->nalternative_causes = fill_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
     for (int i = 0; i < out->nalternatives; i++)

@@ -187,6 +187,10 @@ int message_refuse(struct message_list *list, int status, const char *file, int 
 /* The texts of the warnings (pool) and how many there are; NULL where memory is out. */
 const char **message_warnings(const struct message_list *list, struct pool *pool, int *count);
 
+#define PI     3.14159265358979324
+#define TWO_PI 6.28318530717958648
+#define LN_2PI 1.8378770664093453
+
 /* ----------------------------------------------------------------------------------------------------------------- order */
 
 /* Numbers, and what has numbers, in order. */

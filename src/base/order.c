@@ -61,5 +61,5 @@ double random_uniform(struct random_stream *stream)
 double random_normal(struct random_stream *stream)
 {
     double radius = sqrt(-2 * log(random_uniform(stream)));
-    return radius * cos(6.283185307179586 * random_uniform(stream));
+    return radius * cos(TWO_PI * random_uniform(stream));
 }

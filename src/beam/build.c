@@ -2,8 +2,6 @@
 
 #include "beam/beam.h"
 
-static const double pi = 3.14159265358979323846;
-
 HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)
 {
     if (!(area > 0 && isfinite(area)))
@@ -12,7 +10,7 @@ HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure
         return refuse(failure, "inertia is %g, expected a positive number of m4", inertia);
     if (!outer || !inner)
         return refuse(failure, "%s is NULL, expected room for a diameter", outer ? "inner" : "outer");
-    double sum = 8 * inertia / area, difference = 2 * area / pi;
+    double sum = 8 * inertia / area, difference = 2 * area / PI;
     if (sum < difference * (1 - 1e-14)) /* a solid disc has sum = difference and must not fail on rounding */
         return ROTID_ERROR_SECTION;
     *outer = sqrt(sum + difference);

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
-
 /* The flexure function of a bar with E along the axis, G between the axis and the plane, and the contraction nu_a of the plane
  * solves a linear problem whose data are E/G and nu_a, and 1/k is G/E times an integral of the function: 1/k = c0 - c1 x with
  * x = nu_a G/E, whatever the section. Cowper's k = n (1 + nu)/(d0 + d1 nu), where x = nu/(2 (1 + nu)), gives both constants. */
@@ -100,7 +98,7 @@ static struct annulus annulus_of(const struct shear_layer *layer)
 {
     const struct section *section = layer->section;
     double q = section->stiff_outer / 2, p = section->ratio * q, pp = p * p, qq = q * q, depth = qq - pp;
-    double by_e = section->stiff_inertia / (pi / 4 * depth * (qq + pp)), by_g = section->stiff_area / (pi * depth);
+    double by_e = section->stiff_inertia / (PI / 4 * depth * (qq + pp)), by_g = section->stiff_area / (PI * depth);
     return (struct annulus){p, q, pp, qq, depth, layer->material.e * by_e, layer->material.g * by_g, by_e, by_g};
 }
 
@@ -164,7 +162,7 @@ static double of_layers(int count, struct shear_layer *layer)
         struct annulus a = annulus_of(&layer[i]);
         mean += a.g > 0 ? load(&a, 0) * layer[i].w + load(&a, 1) * layer[i + 1].w : 0;
     }
-    double shear = pi * j * j / mean;
+    double shear = PI * j * j / mean;
     for (int i = 0; i < count; i++) {
         const struct shear_layer *in = &layer[i], *out = &layer[i + 1];
         struct annulus a = annulus_of(in);
@@ -235,13 +233,13 @@ double contraction_stiffness(int count, struct shear_layer *layer)
             continue;
         sum += m->na * direct;
         layer[i].contraction = (struct shear_material){
-            .e = pi * (by_a - by_b) * m->na * m->na / (m->e * m->e * t.by_g),
-            .ep = -pi * (by_a + m->np * by_b) / (m->ep * m->ep * t.by_g),
-            .np = pi * by_b / (m->ep * t.by_g),
-            .na = pi * 2 * (direct - (by_a - by_b) * m->na / (m->e * t.by_g)),
+            .e = PI * (by_a - by_b) * m->na * m->na / (m->e * m->e * t.by_g),
+            .ep = -PI * (by_a + m->np * by_b) / (m->ep * m->ep * t.by_g),
+            .np = PI * by_b / (m->ep * t.by_g),
+            .na = PI * 2 * (direct - (by_a - by_b) * m->na / (m->e * t.by_g)),
         };
     }
-    return pi * sum;
+    return PI * sum;
 }
 
 double shear_stiffness_plain(const struct section *section, const struct material *material)

@@ -13,8 +13,6 @@
 #define HEAVIEST 1e7
 #define SOFTEST  1e6 /* between the moduli of two materials */
 
-static const double pi = 3.14159265358979323846;
-
 #define LAST_PHASE 8
 
 void deck_check_names(struct deck_reader *reader, const struct card *card)
@@ -257,7 +255,7 @@ static void refuse_contrast(struct deck_reader *reader, struct place place, doub
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *g = &rotor->segment[s];
         double e = rotor->group[g->group].material.e, d = g->outer, b = g->inner;
-        bending = fmax(bending, g->rectangular ? e * g->width * pow(g->height, 3) / 12 : e * pi / 64 * (pow(d, 4) - pow(b, 4)));
+        bending = fmax(bending, g->rectangular ? e * g->width * pow(g->height, 3) / 12 : e * PI / 64 * (pow(d, 4) - pow(b, 4)));
         if (g->length < SHORTEST * length)
             deck_error(reader, reader->place[GROUP_PLACES][g->group],
                        "a section of %s is %.3g m long in a rotor of %.4g m, expected at least %.1g of the length",
@@ -310,7 +308,7 @@ static void check_magnitudes(struct deck_reader *reader)
     double mass = 0, length = rotor_length(rotor);
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *g = &rotor->segment[s];
-        double area = g->rectangular ? g->height * g->width : pi / 4 * (g->outer * g->outer - g->inner * g->inner);
+        double area = g->rectangular ? g->height * g->width : PI / 4 * (g->outer * g->outer - g->inner * g->inner);
         mass += area * g->length * rotor->group[g->group].material.rho;
     }
     struct place place = rotor->ngroup ? reader->place[GROUP_PLACES][0] : reader->text.end;

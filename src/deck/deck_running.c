@@ -7,7 +7,6 @@
 #include "deck/deck_row.h"
 #include "running/running.h"
 
-#define pi           3.14159265358979323846
 #define MOST_POLES   1000
 #define MOST_SPEEDS  10000 /* of a table of a bearing */
 #define COEFFICIENTS 8     /* kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy */
@@ -448,7 +447,7 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
                    MOST_POLES);
         return;
     }
-    if (machine->line_hz > 0 && machine->poles > 0 && machine->high > 1.001 * 4 * pi * machine->line_hz / machine->poles)
+    if (machine->line_hz > 0 && machine->poles > 0 && machine->high > 1.001 * 4 * PI * machine->line_hz / machine->poles)
         deck_note(reader, card->line[0].field[1].place,
                   "the running range ends above %g rpm, the speed of the field of %g poles at %g Hz: without LINE the line "
                   "frequency follows the speed",

@@ -100,6 +100,13 @@ void data_remove_mode(struct job *job, int k)
     job->measurement.nmode--;
 }
 
+void data_remove_double(struct job *job, int k)
+{
+    data_remove_mode(job, k);
+    for (int l = k; l < job->measurement.nmode; l++)
+        job->measurement.number[l]--;
+}
+
 /* A nearly axisymmetric rotor has each mode twice: two measured modes of one shape and nearly one frequency. The second goes. */
 static int drop_doubles(struct engine *engine)
 {
@@ -119,10 +126,7 @@ static int drop_doubles(struct engine *engine)
                         job->measurement.frequency_hz[k]));
         if (status)
             return status;
-        data_remove_mode(job, k);
-        for (int l = k; l < job->measurement.nmode; l++)
-            job->measurement.number[l]--;
-        k--; /* another one may follow it */
+        data_remove_double(job, k--); /* another one may follow it */
     }
     return ROTID_OK;
 }

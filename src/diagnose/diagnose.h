@@ -135,10 +135,9 @@ struct diagnosis {
     int nround;
     struct diagnosis_round *round; /* the last one names nothing more */
     int ncause;
-    struct candidate *cause; /* [ncause] as they stand in the final model */
-    int nlikely;
-    struct candidate *likely;  /* [nlikely] that stand in the final model beside those, without being named, */
+    int nlikely;               /* that stand in the final model beside those, without being named, */
     double likely_probability; /* and how probable the model with all of them is */
+    struct candidate *cause;   /* [ncause + nlikely] as they stand there */
     int nalternative;          /* ambiguous: the causes of candidates that cannot be told apart, best first */
     struct candidate *alternative;
     struct states extended_states;  /* without states where nothing was named */
@@ -620,6 +619,8 @@ int data_prepare(struct engine *engine, const struct states *states);
 /* Gives a job its own copies of the data that the steps change. */
 int data_copy(struct pool *pool, struct job *job);
 void data_remove_mode(struct job *job, int k);
+/* A mode that was counted twice: the numbers of those behind it are one lower. */
+void data_remove_double(struct job *job, int k);
 /* The unit of its value follows from its id. */
 int data_add_finding(struct engine *engine, const rotid_data_finding *finding);
 /* A finding about measured modes; second 0: about the first alone. */

@@ -134,7 +134,7 @@ static int cause_intervals(const struct engine *engine)
     rotid_fit_result *fit = out->extended.fit;
     int status = ROTID_OK;
     for (int c = 0; c < out->ncause + out->nlikely && !status; c++) {
-        struct candidate *cause = c < out->ncause ? &out->cause[c] : &out->likely[c - out->ncause];
+        struct candidate *cause = &out->cause[c];
         const struct state *state = &out->extended_states.state[cause->home];
         const struct job *job = &state->job;
         int e = effect_named(state, cause->effect.name);
@@ -367,7 +367,7 @@ static const char *verdict_sentence(struct engine *engine)
     struct pool *pool = engine->pool;
     const struct job_units *units = &engine->states.state[0].job.units;
     const char *causes = list(pool, units, out->ncause, out->cause), *others = shares(pool, units, &out->posterior),
-               *likely = out->nlikely ? list(pool, units, out->nlikely, out->likely) : "";
+               *likely = out->nlikely ? list(pool, units, out->nlikely, out->cause + out->ncause) : "";
     if (likely && out->nlikely)
         likely = pool_format(pool, ", and with %.0f %% %s", 100 * out->likely_probability, likely);
     int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;

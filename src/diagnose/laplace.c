@@ -31,9 +31,7 @@
 #define PROFILE_MOST  0.6
 #define PROFILE_SCALE 0.08 /* correlation length, of the rotor's */
 #define LEFT_OPEN     0.24 /* -ln of the share of a normal of deviation 1/sqrt(2 pi) between -1/2 and 1/2 */
-#define LN_2PI        1.8378770664093453
 #define LN_2          0.69314718055994531
-#define PI            3.14159265358979324
 #define ROOT_HALF     0.70710678118654752
 
 double log_sum(double a, double b)

@@ -53,85 +53,53 @@ static int count_fitted(const struct job *job, const int *holdout)
 
 #define FOLLOWS 0.03 /* standard deviations, every row */
 
-/* of[m] := 1 for the rows of measured mode k of all; *frequency, *shape: the first ones (shape -1: none). */
-static void rows_of_mode(const struct states *states, const int *holdout, int k, const rotid_fit_result *fit, char *of,
-                         int *frequency, int *shape)
+/* marked [nresidual] := 1 for the rows of measured mode k of all, 0 for the others. */
+static void mark_rows(const struct states *states, const int *holdout, int k, const rotid_fit_result *fit, char *marked)
 {
-    int row = 0;
-    *frequency = *shape = -1;
-    for (int s = 0, mode = 0; s < states->nstate;
-         mode += states->state[s].job.measurement.nmode, row += fit->state_nresidual[s++]) {
+    int mode = 0, row = 0;
+    for (int s = 0; s < states->nstate; row += fit->state_nresidual[s++]) {
         const struct job *job = &states->state[s].job;
-        int nsensor = job->rotor.nsensor, next = row + count_fitted(job, holdout + mode);
-        for (int j = 0, line = row; j < job->measurement.nmode; line += !holdout[mode + j], j++)
-            for (int i = -1; i < nsensor && !holdout[mode + j]; i++) {
-                if (i >= 0 && (!job_fits_shapes(job) || !isfinite(job->measurement.shape[i + (ptrdiff_t)j * nsensor])))
-                    continue;
-                int at = i < 0 ? line : next++, *first = i < 0 ? frequency : shape;
-                if (mode + j != k)
-                    continue;
-                of[at] = 1;
-                *first = *first < 0 ? at : *first;
-            }
+        int nsensor = job_fits_shapes(job) ? job->rotor.nsensor : 0, line = row, next = row + count_fitted(job, holdout + mode);
+        for (int j = 0; j < job->measurement.nmode; j++, mode++) {
+            if (holdout[mode])
+                continue;
+            marked[line++] = mode == k;
+            for (int i = 0; i < nsensor; i++)
+                if (isfinite(job->measurement.shape[i + (ptrdiff_t)j * nsensor]))
+                    marked[next++] = mode == k;
+        }
     }
 }
 
-/* x [n] := the fit's, one Gauss-Newton step on without the rows marked; r [nresidual] := what is expected there. Returns 0, or 1
- * where the rest does not determine x, or a bound is in the way. */
-static int step_without(const rotid_parameter *bounds, const rotid_fit_result *fit, const char *marked, double *normal, double *x,
+/* x [n] := the fit's, one Gauss-Newton step on without the rows marked; r [nresidual] := what is expected there. work:
+ * [m * n + m + 3 n + least_squares_workspace]. Returns 0, or 1 where the rest does not determine x, or a bound is in the way. */
+static int step_without(const rotid_parameter *bounds, const rotid_fit_result *fit, const char *marked, double *work, double *x,
                         double *r)
 {
     int n = fit->n, m = fit->nresidual;
-    double unused, *g = normal + (ptrdiff_t)n * n;
-    memset(normal, 0, ((size_t)n + 1) * (size_t)n * sizeof *normal);
+    double *jacobian = work, *rest = jacobian + (ptrdiff_t)m * n, *one = rest + m, *held = one + n, *step = held + n, damping = 0,
+           length;
+    for (int i = 0; i < m; i++)
+        rest[i] = marked[i] ? 0 : fit->r[i];
     for (int p = 0; p < n; p++) {
-        const double *column = fit->jacobian + (ptrdiff_t)p * m;
-        for (int q = 0; q <= p; q++) {
-            const double *other = fit->jacobian + (ptrdiff_t)q * m;
-            for (int i = 0; i < m && !fit->at_bound[p] && !fit->at_bound[q]; i++)
-                normal[p + (ptrdiff_t)q * n] += marked[i] ? 0 : column[i] * other[i] * fabs(fit->x[p] * fit->x[q]);
-        }
-        for (int i = 0; i < m && !fit->at_bound[p]; i++)
-            g[p] += marked[i] ? 0 : column[i] * fit->r[i] * fabs(fit->x[p]);
-        if (fit->at_bound[p])
-            normal[p + (ptrdiff_t)p * n] = 1;
+        one[p] = 1;
+        held[p] = fit->at_bound[p];
+        for (int i = 0; i < m; i++)
+            jacobian[i + (ptrdiff_t)p * m] =
+                marked[i] || fit->at_bound[p] ? 0 : fit->jacobian[i + (ptrdiff_t)p * m] * fabs(fit->x[p]);
     }
-    if (positive_invert(n, normal, &unused))
+    if (n && least_squares_damped_step(m, n, jacobian, rest, one, held, INFINITY, &damping, step, &length, step + n))
         return 1;
     memcpy(r, fit->r, (size_t)m * sizeof *r);
     for (int p = 0; p < n; p++) {
-        double step = 0;
-        for (int q = 0; q < n; q++)
-            step -= normal[p + (ptrdiff_t)q * n] * g[q] * fabs(fit->x[p]);
-        x[p] = fit->x[p] + step;
+        double by = step[p] * fabs(fit->x[p]);
+        x[p] = fit->x[p] + by;
         for (int i = 0; i < m; i++)
-            r[i] += fit->jacobian[i + (ptrdiff_t)p * m] * step;
+            r[i] += fit->jacobian[i + (ptrdiff_t)p * m] * by;
         if (!(fit->at_bound[p] || (x[p] > bounds[p].lower && x[p] < bounds[p].upper)))
             return 1;
     }
     return 0;
-}
-
-/* Mode k of a state by its rows: the error of its frequency, and the difference of its shape, of which the residual plus what was
- * measured is the predicted one. */
-static void mode_by_rows(const struct job *job, int k, double frequency, const double *rows, double *error_percent, double *shape)
-{
-    int nsensor = job->rotor.nsensor;
-    const double *measured = rows ? job->measurement.shape + (ptrdiff_t)k * nsensor : NULL,
-                 *std = rows ? job->measurement.shape_std + (ptrdiff_t)k * nsensor : NULL;
-    double largest = 0, product = 0, square = 0, other = 0;
-    *error_percent = 100 * frequency * job->measurement.frequency_std[k];
-    for (int s = 0; s < nsensor && rows; s++)
-        largest = isfinite(measured[s]) ? fmax(largest, fabs(measured[s])) : largest;
-    for (int s = 0; s < nsensor && rows; s++) {
-        if (!isfinite(measured[s]))
-            continue;
-        double one = measured[s] / largest, predicted = *rows++ * std[s] + one;
-        product += one * predicted;
-        square += one * one;
-        other += predicted * predicted;
-    }
-    *shape = shape_difference(job, k, square > 0 && other > 0 ? product * product / (square * other) : (double)NAN);
 }
 
 /* *follows: whether the model does. The rest as mode_out_fit. */
@@ -140,34 +108,31 @@ static int mode_out_step(struct pool *pool, const struct states *states, const r
 {
     size_t n = (size_t)fit->n, m = (size_t)fit->nresidual;
     char *marked = POOL_ARRAY(pool, char, m);
-    double *normal = POOL_ARRAY(pool, double, n *(n + 2)), *x = normal + n * (n + 1), *r = POOL_ARRAY(pool, double, m);
-    int frequency, first, own;
-    *follows = 0;
-    if (!marked || !normal || !r)
+    double *work = POOL_ARRAY(pool, double, m *n + m + 3 * n + least_squares_workspace(fit->nresidual, fit->n)),
+           *x = POOL_ARRAY(pool, double, n), *r = POOL_ARRAY(pool, double, m);
+    if (!marked || !work || !x || !r)
         return ROTID_ERROR_MEMORY;
-    rows_of_mode(states, holdout, k, fit, marked, &frequency, &first);
-    if (frequency < 0 || step_without(states->bounds, fit, marked, normal, x, r))
-        return ROTID_OK;
-    *follows = 1;
+    mark_rows(states, holdout, k, fit, marked);
+    *follows = !step_without(states->bounds, fit, marked, work, x, r);
     for (int s = 0, mode = 0, row = 0; s < states->nstate && *follows; row += fit->state_nresidual[s], s++) {
         const struct job *job = &states->state[s].job;
         struct columns columns = {0};
-        double *of_state = state_values(pool, &states->state[s], x);
-        int status = !of_state                 ? ROTID_ERROR_MEMORY
-                     : fit->state_nresidual[s] ? columns_open(pool, job, number + mode, holdout + mode, NULL, of_state, &columns)
-                                               : ROTID_OK;
-        *follows = !status && columns.nrow == fit->state_nresidual[s];
+        double *own = state_values(pool, &states->state[s], x);
+        int is_here = k >= mode && k < mode + job->measurement.nmode, status = own ? ROTID_OK : ROTID_ERROR_MEMORY;
+        if (!status && (fit->state_nresidual[s] || is_here))
+            status = columns_open(pool, job, number + mode, holdout + mode, NULL, own, &columns);
         if (status == ROTID_ERROR_MEMORY)
             return status;
-        for (int i = 0; i < columns.nrow && *follows; i++) {
+        *follows = !status && columns.nrow == fit->state_nresidual[s];
+        for (int i = 0; i < fit->state_nresidual[s] && *follows; i++)
             *follows = fabs(columns.r[i] - r[row + i]) < FOLLOWS;
-            r[row + i] = columns.r[i];
+        if (is_here && *follows) {
+            const struct functional *f = &columns.functional;
+            *error_percent = 100 * (prediction_hz(&f->prediction, f->pair[k - mode]) / f->measured->frequency_hz[k - mode] - 1);
+            *shape = shape_difference(job, k - mode, functional_mac(f, k - mode));
         }
         mode += job->measurement.nmode;
     }
-    const struct job *job = job_of_mode(states, k, &own);
-    if (*follows)
-        mode_by_rows(job, own, r[frequency], first < 0 ? NULL : r + first, error_percent, shape);
     return ROTID_OK;
 }
 

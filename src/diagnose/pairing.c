@@ -8,8 +8,7 @@
 
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */
 #define EXPLAINED   0.01
-#define LEAST_KEPT  3 /* modes */
-#define PI          3.14159265358979324
+#define LEAST_KEPT  3   /* modes */
 #define AS_WELL     2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
 
 int pairing_drop(struct engine *engine, int k)
@@ -147,9 +146,7 @@ static int count_once(struct engine *engine, double rival, int *changed)
             status = data_copy(engine->pool, &job);
         if (status || measured->holdout[k])
             continue;
-        data_remove_mode(&job, k);
-        for (int i = k; i < job.measurement.nmode; i++)
-            job.measurement.number[i]--;
+        data_remove_double(&job, k);
         int fitted = refit_job(engine->pool, &job, job.measurement.number, job.measurement.holdout, engine->environment, &fit);
         status = fitted == ROTID_ERROR_MEMORY || fitted == ROTID_STOP_CANCELLED ? fitted : ROTID_OK;
         if (fit && fit->chi2 < least) {

@@ -21,7 +21,6 @@
 #define LEAST_MARGINAL 0.001
 #define SUSPECTED      10.0 /* times: a cause that the user suspects */
 #define RUNUP_MOST     12   /* explanations that measured critical speeds judge, those within SEARCH_WITHIN */
-#define LN_2PI         1.83787706640934548
 #define NARROW         1e-3 /* share of a normal between its bounds: below, it is flat there */
 
 static const double set_prior[MOST_MEMBERS + 1] = {0.50, 0.45, 0.035, 0.001};

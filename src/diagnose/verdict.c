@@ -118,15 +118,19 @@ static int accept(struct engine *engine, const struct posterior *p, const struct
     rotid_fit_result *fit = NULL;
     int status = ROTID_OK;
     out->likely_probability = model->probability;
-    for (int m = 0; m < model->nmember && !status; m++) {
-        int is_named = 0;
-        for (int i = 0; i < count; i++)
-            is_named |= posterior_same_name(p, &named[i], &model->member[m]);
-        struct candidate *cause = is_named ? &out->cause[out->ncause++] : &out->likely[out->nlikely++];
-        *cause = model->member[m];
-        cause->result.refitted = 1;
-        status = discrepancy_add(engine->pool, cause, &states);
-    }
+    for (int likely = 0; likely < 2; likely++) /* behind those that are named */
+        for (int m = 0; m < model->nmember && !status; m++) {
+            int is_named = 0;
+            for (int i = 0; i < count; i++)
+                is_named |= posterior_same_name(p, &named[i], &model->member[m]);
+            if (is_named == likely)
+                continue;
+            struct candidate *cause = &out->cause[out->ncause + out->nlikely];
+            *(likely ? &out->nlikely : &out->ncause) += 1;
+            *cause = model->member[m];
+            cause->result.refitted = 1;
+            status = discrepancy_add(engine->pool, cause, &states);
+        }
     if (!status)
         status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);
     if (status)
@@ -213,9 +217,8 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     struct candidate named[MOST_MEMBERS];
     int count = 0, status = ROTID_OK;
     out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
-    out->likely = POOL_ARRAY(engine->pool, struct candidate, MOST_MEMBERS);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
-    if (!out->cause || !out->likely || !out->alternative)
+    if (!out->cause || !out->alternative)
         return ROTID_ERROR_MEMORY;
     if (verdict->confident)
         status = choose_names(engine, p, named, &count);

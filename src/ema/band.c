@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586
-
 static void smooth_variance(int n, int half, const double *raw, double *smooth)
 {
     double mean = 0;

@@ -153,7 +153,6 @@ static int zoom_compute(struct pool *pool, const struct ema_band *band, double d
     return merge_tables(pool, nparts, part, table);
 }
 
-#define TWO_PI     6.283185307179586
 #define PROMINENCE 4    /* over the median */
 #define APART      0.01 /* relative: two peaks closer than this are one, with noise on it */
 #define PICK_REACH 0.02

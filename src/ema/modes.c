@@ -32,8 +32,6 @@ void residue_of_mode(const struct modal_fit *fit, int c, int r, const double *co
     *residue_std = fit->singular[c] ? NAN : sqrt(fmax(variance, 0)) / fit->scale;
 }
 
-#define TWO_PI 6.283185307179586
-
 void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int with_residuals, int n,
                     const double *frequency_hz, double complex *h)
 {

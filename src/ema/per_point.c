@@ -319,7 +319,7 @@ static void median_frequency(int n, const struct local_pole *local, double decay
         centre[which] = median_of((size_t)known, sorted);
         std[which] = MEDIAN_STD * robust_scatter(known, centre[which], sorted) / sqrt(known);
     }
-    double w = 6.283185307179586 * centre[0];
+    double w = TWO_PI * centre[0];
     modes_of_pole(w * CMPLX(-centre[1], sqrt(1 - centre[1] * centre[1])), NULL, mode);
     mode->frequency_std = std[0];
     mode->damping_std = std[1];

@@ -11,7 +11,6 @@
 #define REAL_PART                                                                                                                \
     1e-11 /* an imaginary part below that of the size is rounding; a pole so near to the end of the band is none                 \
            */
-#define PI 3.141592653589793
 
 struct number { /* complex: the product of C guards against infinities at ten times the cost */
     double re, im;
@@ -348,7 +347,6 @@ static int lscf_poles(struct pool *pool, const struct ema_band *band, int order,
     return ROTID_OK;
 }
 
-#define TWO_PI      6.283185307179586
 #define OVERDAMPED  0.2
 #define LOOSER      4 /* damping of a track, over that of a stable pole */
 #define GAP         2 /* orders that a track may advance at a time */

@@ -218,16 +218,10 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
 /* Predicted frequencies, correlation and residual of every mode at the last evaluation, those of a state from `first` on. */
 static void compare_modes(struct functional *f, int first, rotid_fit_result *result)
 {
-    int nmaster = f->prediction.model->nmaster;
     for (int k = 0; k < f->measured->nmode; k++) {
         result->predicted_hz[first + k] = prediction_hz(&f->prediction, f->pair[k]);
         result->residual[first + k] = functional_frequency_residual(f, k);
-        result->mac[first + k] = NAN;
-        if (!f->shape)
-            continue;
-        for (int s = 0; s < nmaster; s++)
-            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
-        result->mac[first + k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
+        result->mac[first + k] = functional_mac(f, k);
     }
 }
 

@@ -313,8 +313,7 @@ static int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid
 #define MOST_CYCLES 60    /* where the dense solver stands in */
 #define LAST_CYCLES 400   /* where none does: of a spectrum without a gap */
 #define FEW_FAR     16 /* full rows, each of which costs an arrow as much as another row of the band, and more with the others */
-#define PI          3.14159265358979323846
-#define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
+#define FAILURES    3  /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
 #define DEPTH       3 /* Krylov blocks a cycle */
 

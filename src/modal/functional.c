@@ -7,8 +7,6 @@
 #define NEAR_VALUE  1e-7
 #define NEAR_VECTOR 1e-9
 
-static const double two_pi = 6.28318530717958647692;
-
 int functional_fits(const rotid_measured *measured, int mode)
 {
     return !measured->holdout || !measured->holdout[mode];
@@ -69,7 +67,7 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
         scale_shapes(measured, nmaster, f->shape);
     for (int k = 0; k < nmode; k++) {
         f->pair[k] = model->nrigid + measured->number[k] - 1;
-        f->omega[k] = two_pi * measured->frequency_hz[k];
+        f->omega[k] = TWO_PI * measured->frequency_hz[k];
         if (!functional_fits(measured, k))
             continue;
         f->wanted[f->pair[k]] = 1;
@@ -137,6 +135,14 @@ static double hybrid_quotient_derivative(const struct functional *f, int mode, i
         denominator += measured[i] * m_phi;
     }
     return numerator / denominator;
+}
+
+double functional_mac(const struct functional *f, int mode)
+{
+    int nmaster = f->prediction.model->nmaster;
+    for (int s = 0; s < nmaster && f->shape; s++)
+        f->work[s] = prediction_at_sensor(&f->prediction, f->pair[mode], s);
+    return f->shape ? rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)mode * nmaster) : (double)NAN;
 }
 
 double functional_frequency_residual(const struct functional *f, int mode)

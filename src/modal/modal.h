@@ -240,8 +240,10 @@ int functional_fits(const rotid_measured *measured, int mode);
 /* Components of the shape that was measured of a mode, 0 where it is NaN or 0 everywhere. */
 int functional_count_components(const struct functional *f, int mode);
 
-/* The frequency residual of any mode, fitted or held out, at the last evaluation. */
+/* The frequency residual of any mode, fitted or held out, at the last evaluation; the correlation of its shape with that of its
+ * pair, NaN without shapes. */
 double functional_frequency_residual(const struct functional *f, int mode);
+double functional_mac(const struct functional *f, int mode);
 
 /* ----------------------------------------------------------------------------------------------------------------- joint */
 

@@ -511,7 +511,7 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
 
 double prediction_hz(const struct prediction *p, int k)
 {
-    return p->lambda[k] > 0 ? sqrt(p->lambda[k]) / 6.28318530717958647692 : 0;
+    return p->lambda[k] > 0 ? sqrt(p->lambda[k]) / TWO_PI : 0;
 }
 
 /* Component at sensor s of a vector as long as one of the prediction */

@@ -34,11 +34,7 @@ static const char *names(struct pool *pool, const rotid_diagnosis *d, int all)
     const char *text = "";
     int count = v->ncauses + (all ? v->nlikely_causes : 0);
     for (int i = 0; i < count && text; i++)
-        text = pool_format(pool, "%s%s%s", text,
-                           !i               ? ""
-                           : i + 1 == count ? " and "
-                                            : ", ",
-                           cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses]));
+        text = pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", extended_label(pool, d, i));
     return or_nothing(text);
 }
 

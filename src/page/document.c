@@ -164,8 +164,7 @@ static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
     const rotid_verdict *v = &d->verdict;
     for (int i = 0; i < v->ncauses + v->nlikely_causes; i++) {
         (void)fputs(i ? "," : "", out);
-        write_text(out,
-                   plain_text(pool, cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses])));
+        write_text(out, plain_text(pool, extended_label(pool, d, i)));
     }
     (void)fputc(']', out);
 }

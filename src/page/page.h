@@ -105,6 +105,8 @@ const char *plain_file(const char *path);                    /* the last part of
 const char *cause_check(const char *id);                     /* how to look for a cause */
 const char *cause_name(struct pool *pool, const char *id, const char *target); /* "joint between core and right" */
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
+/* Of cause i of the extended model: those that were named, then those that are likely beside them. */
+const char *extended_label(struct pool *pool, const rotid_diagnosis *d, int i);
 /* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
                             int causes);

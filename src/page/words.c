@@ -114,6 +114,12 @@ const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid
     return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
 }
 
+const char *extended_label(struct pool *pool, const rotid_diagnosis *d, int i)
+{
+    const rotid_verdict *v = &d->verdict;
+    return cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses]);
+}
+
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
 {
     const char *text = "";

@@ -5,7 +5,6 @@
 
 #include "report/report.h"
 
-#define TWO_PI  6.28318530717958647692
 #define DEGREES 57.295779513082321
 
 static struct transfer_agreement agreement(const struct frf_sums *sums, const struct frf_sums *moved)
@@ -250,7 +249,6 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
 #define PHASE_HEIGHT 9  /* -180 to 180 in steps of 45 degrees */
 #define DECADES      5  /* at most: what lies deeper says nothing */
 #define MARGIN       11
-#define PI           3.14159265358979323846
 
 struct canvas {
     int columns, rows;

@@ -19,7 +19,7 @@ static struct human_unit length = {1, "m"}, frequency = {1, "Hz"}; /* human_unit
 static void take_unit(const char *word, struct human_unit *unit)
 {
     static const struct human_unit units[] = {{1e2, "cm"},   {1e3, "mm"}, {1 / 0.0254, "in"},
-                                              {1e-3, "kHz"}, {60, "rpm"}, {6.283185307179586, "rad/s"}};
+                                              {1e-3, "kHz"}, {60, "rpm"}, {TWO_PI, "rad/s"}};
     for (size_t i = 0; word && i < sizeof units / sizeof *units; i++)
         if (!strcmp(units[i].text, word))
             *unit = units[i];

@@ -2,16 +2,14 @@
 
 #include "rotor/rotor.h"
 
-static const double pi = 3.14159265358979323846;
-
 static double disc_area(double d)
 {
-    return pi * d * d / 4;
+    return PI * d * d / 4;
 }
 
 static double disc_inertia(double d)
 {
-    return pi * d * d * d * d / 64;
+    return PI * d * d * d * d / 64;
 }
 
 void section_round(double outer, double inner, double stiff_outer, struct section *section)
@@ -32,8 +30,8 @@ static double rectangle_torsion(double height, double width)
 {
     double a = fmax(height, width), b = fmin(height, width), sum = 0;
     for (int n = 1; n <= 9; n += 2)
-        sum += tanh(n * pi * a / (2 * b)) / pow(n, 5);
-    return a * b * b * b * (1.0 / 3 - 64 / pow(pi, 5) * b / a * sum);
+        sum += tanh(n * PI * a / (2 * b)) / pow(n, 5);
+    return a * b * b * b * (1.0 / 3 - 64 / pow(PI, 5) * b / a * sum);
 }
 
 void section_rectangular(double height, double width, struct section *section)

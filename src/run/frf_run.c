@@ -230,8 +230,6 @@ static int frf_place_points(struct pool *pool, const struct job *job, int parame
     return status;
 }
 
-#define TWO_PI 6.28318530717958647692
-
 struct solver { /* on a pool of its own, which goes before the result is used */
     struct pool pool;
     const rotid_model *model;

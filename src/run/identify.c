@@ -36,9 +36,9 @@ static struct held_modes *new_held(struct pool *pool, const struct job *job, int
 
 int mesh_hold_as_it_is(struct pool *pool, struct job *job, int count)
 {
-    struct held_modes *held = held_of(job) ? NULL : new_held(pool, job, count, 0);
     if (held_of(job))
         return ROTID_OK;
+    struct held_modes *held = new_held(pool, job, count, 0);
     if (!held)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < count; j++)

@@ -128,7 +128,7 @@ static const struct {
     double ratio;
     const char *name, *cure;
 } mistake[] = {
-    {6.283185307179586, "2 pi", "frequencies in rad/s? *MODES expects hertz, or *UNITS, FREQUENCY=RAD/S"},
+    {TWO_PI, "2 pi", "frequencies in rad/s? *MODES expects hertz, or *UNITS, FREQUENCY=RAD/S"},
     {0.15915494309189535, "1/(2 pi)", "hertz taken for rad/s and divided once too often?"},
     {1e3, "1000", "lengths of the model in mm, or E in MPa? The deck is in SI units, or says *UNITS, LENGTH=MM"},
     {1e-3, "1/1000", "frequencies in kHz? *MODES expects hertz, or *UNITS, FREQUENCY=KHZ"},

@@ -12,7 +12,6 @@
 #define FEWER       8     /* modes of the basis of these */
 #define WEAK        0.002 /* damping ratio up to which modes above twice the running range are watched for growth */
 #define MOST        0.5   /* of the decay of a mode lost by the prediction: until then the draw does not solve for that mode */
-#define pi          3.14159265358979323846
 
 /* One uncertain number. Drawn is its logarithm, or where it may be zero itself. */
 enum source_kind { SOURCE_MODULUS, SOURCE_BEARING_K, SOURCE_BEARING_C, SOURCE_LOSS, SOURCE_PULL, SOURCE_CHANGE };
@@ -217,7 +216,7 @@ static void differentiate_one(struct bands *b, int j, struct system side[2], dou
         rate += pair_rate(&nominal, &c->pair) * to->speed * c->speed;
         double w = cimag(c->pair.lambda);
         to->parameter = b->source[j].own;
-        to->log_decrement = -2 * pi * (creal(rate) - creal(c->pair.lambda) * cimag(rate) / w) / w;
+        to->log_decrement = -2 * PI * (creal(rate) - creal(c->pair.lambda) * cimag(rate) / w) / w;
         to->amplitude = peak ? response_rate(&nominal, side, apart, probe, peak->speed_rpm * RPM, work) : (double)NAN;
     }
     for (int row = 0; row < b->out->nmap; row++)
@@ -459,7 +458,7 @@ static int one_draw(void *context, int index, int worker)
 
 static double decrement(double damping_ratio)
 {
-    return 2 * pi * damping_ratio / sqrt(1 - damping_ratio * damping_ratio);
+    return 2 * PI * damping_ratio / sqrt(1 - damping_ratio * damping_ratio);
 }
 
 static double quantile(const double *sorted, int count, double p)
@@ -552,7 +551,7 @@ static void spread(const struct bands *b, rotid_speeds *out, double *g)
             to->ci95[0] = to->frequency_hz * exp(-half);
             to->ci95[1] = to->frequency_hz * exp(half);
             for (int j = 0; j < b->nsource; j++)
-                g[j] = 2 * pi * (creal(rate[j]) - creal(lambda) * cimag(rate[j]) / w) / w;
+                g[j] = 2 * PI * (creal(rate[j]) - creal(lambda) * cimag(rate[j]) / w) / w;
             half = half_width(b, g);
             to->log_decrement_ci95[0] = to->log_decrement - half;
             to->log_decrement_ci95[1] = to->log_decrement + half;

@@ -7,7 +7,6 @@
 #define BEYOND 1.1  /* times the highest measured speed: how far a search goes at least */
 #define FAR    0.02 /* of a critical speed: a step that is linearised again */
 #define STEPS  6
-#define LN_2PI 1.8378770664093453
 
 /* The machine at one point of a fit. */
 struct point {

@@ -7,7 +7,6 @@
 #define BEYOND     1.3   /* times the running range */
 #define NO_DAMPING 1e-12 /* of |lambda| */
 #define CURVE      121   /* speeds of a response, beside those around critical speeds */
-#define pi         3.14159265358979323846
 
 struct run {
     struct pool *pool;
@@ -26,7 +25,7 @@ static double ratio(double complex lambda)
 
 static double decrement(double complex lambda)
 {
-    return 2 * pi * ratio(lambda) * cabs(lambda) / cimag(lambda);
+    return 2 * PI * ratio(lambda) * cabs(lambda) / cimag(lambda);
 }
 
 ORDER_BY(by_frequency, rotid_campbell_mode, it->frequency_hz, 0)
@@ -46,7 +45,7 @@ static int fill_campbell(struct run *r)
             const struct pair *pair = track_at(&r->search.tracks, m, i);
             if (isfinite(creal(pair->lambda)))
                 to->modes[to->nmodes++] = (rotid_campbell_mode){m + 1,
-                                                                cimag(pair->lambda) / (2 * pi),
+                                                                cimag(pair->lambda) / (2 * PI),
                                                                 {NAN, NAN},
                                                                 ratio(pair->lambda),
                                                                 decrement(pair->lambda),
@@ -223,7 +222,7 @@ static int fill_response(struct run *r)
         int singular = response_at(s, speed[i], q);
         for (int p = 0; p < machine->nprobe; p++) {
             double complex motion = probe_motion(s, p, q);
-            double lag = -carg(motion) * 180 / pi;
+            double lag = -carg(motion) * 180 / PI;
             r->out->unbalance[p].amplitude_m[i] = singular ? NAN : cabs(motion);
             r->out->unbalance[p].phase_deg[i] = singular ? NAN : lag < 0 ? lag + 360 : lag;
         }

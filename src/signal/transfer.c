@@ -18,9 +18,8 @@ static double window_mean(int n, const double *x)
  * 0. */
 static void window_force(int n, int keep, int fade, double *x)
 {
-    static const double pi = 3.14159265358979323846;
     for (int j = keep; j < n; j++)
-        x[j] *= j - keep < fade ? (1 + cos(pi * (j - keep + 1) / (fade + 1))) / 2 : 0;
+        x[j] *= j - keep < fade ? (1 + cos(PI * (j - keep + 1) / (fade + 1))) / 2 : 0;
 }
 
 double window_decay(int n, double end, double rate)
@@ -218,7 +217,6 @@ long long impact_room(int n, const struct impact *impact, int k, double rate, lo
  * makes. So a top that is only quantised is no overload. */
 static int impact_is_overload(int count, const double *x, double base)
 {
-    static const double pi = 3.14159265358979323846;
     double value = base + largest_deviation(count, x, base), deviation = fabs(value - base), step = INFINITY;
     int longest = 0, at = 0, begin, end;
     for (int j = 0, run = 0; j < count; j++) {
@@ -237,7 +235,7 @@ static int impact_is_overload(int count, const double *x, double base)
         begin--;
     for (end = at; end + 1 < count && sign * (x[end + 1] - base) > 0;)
         end++;
-    double fall = deviation * pow(pi * (longest - 1) / 2 / (end - begin + 1), 2) / 2;
+    double fall = deviation * pow(PI * (longest - 1) / 2 / (end - begin + 1), 2) / 2;
     return step < fall || isinf(step);
 }
 

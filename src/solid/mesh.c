@@ -340,9 +340,8 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
     for (int i = 0; i < mesh->nslice && !status; i++) {
         struct solid_element *outer = &mesh->element[solid_mesh_outermost(mesh, i)];
         const struct segment *segment = &rotor->segment[outer->segment];
-        const double pi = 3.14159265358979323846;
         if (segment->stiff_outer < segment->outer && outer->group == segment->group)
-            outer->extra = pi / 4 * (segment->outer * segment->outer - segment->stiff_outer * segment->stiff_outer);
+            outer->extra = PI / 4 * (segment->outer * segment->outer - segment->stiff_outer * segment->stiff_outer);
     }
     if (!status)
         status = number_dofs(pool, rotor, mesh);

@@ -6,8 +6,6 @@
 
 #include "linalg/linalg.h"
 #include "rotor/rotor.h"
-
-static const double integrals_pi = 3.14159265358979323846;
 static const double place[SHARES] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[SHARES] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 
@@ -32,7 +30,7 @@ static void add_point(const struct solid_mesh *mesh, const struct solid_element 
         zx += by_x[a] * node->z;
         zy += by_y[a] * node->z;
     }
-    double jacobian = rx * zy - ry * zx, w = integrals_pi * weight[ix] * weight[iy] * jacobian * r * element->share;
+    double jacobian = rx * zy - ry * zx, w = PI * weight[ix] * weight[iy] * jacobian * r * element->share;
     add_product(w, n, n, sum[BY_MASS]);
     for (int a = 0; a < SOLID_NODES; a++) {
         by_r[a] = (zy * by_x[a] - zx * by_y[a]) / jacobian;
@@ -120,8 +118,6 @@ static void integrals_share_span(double left, double right, int share, double *f
     *to = left + (before + weight[share] / 2) * (right - left);
 }
 
-static const double pi = 3.14159265358979323846;
-
 static struct effect_span span_of(const struct solid *solid, const struct solid_element *element, int share)
 {
     struct effect_span span = {.group = element->group, .segment = element->segment};
@@ -162,7 +158,7 @@ static double inertia_over_length(const struct solid *solid, int slice)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     double inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
-    return pi / 4 * (pow(outer_radius(mesh, slice), 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
+    return PI / 4 * (pow(outer_radius(mesh, slice), 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
 }
 
 /* c I/t, or its derivative with respect to a parameter of an effect */

@@ -12,8 +12,6 @@
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
 enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */
 
-static const double two_pi = 6.283185307179586;
-
 struct placed_values { /* of one node */
     int node, line;
     double value[12]; /* as in the file: of a complex number the real and the imaginary part in turn */
@@ -66,7 +64,7 @@ static void take_reals(struct uff_shape *shape, int count, const double *real)
             shape->modal_a[i] = six[2 + i];
             shape->modal_b[i] = six[4 + i];
         }
-        shape->frequency_hz = oscillates ? modulus / two_pi : 0;
+        shape->frequency_hz = oscillates ? modulus / TWO_PI : 0;
         shape->damping = oscillates ? -real[0] / modulus : 0;
     } else if (shape->analysis_type == NORMAL_MODE) {
         shape->frequency_hz = six[0];

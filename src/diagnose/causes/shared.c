@@ -4,8 +4,6 @@
 
 #include "rotor/rotor.h"
 
-static const double pi = 3.14159265358979323846;
-
 const double gauss_place[GAUSS_POINTS] = {-0.861136311594052575223946, -0.339981043584856264802666, 0.339981043584856264802666,
                                           0.861136311594052575223946};
 const double gauss_weight[GAUSS_POINTS] = {0.347854845137453857373064, 0.652145154862546142626936, 0.652145154862546142626936,
@@ -29,7 +27,7 @@ double bending_stiffness(const struct rotor *rotor, int s)
     if (segment->rectangular)
         return e * segment->width * h * h * h / 12;
     double outer = segment->stiff_outer, inner = segment->inner;
-    double sum = e * pi / 64 * (outer * outer * outer * outer - inner * inner * inner * inner);
+    double sum = e * PI / 64 * (outer * outer * outer * outer - inner * inner * inner * inner);
     for (int i = 0; i < rotor->nring; i++) {
         struct section section;
         if (rotor->ring[i].segment == s && !section_of_ring(rotor, i, &section))

@@ -17,8 +17,6 @@ struct step {
     double z, diameter; /* m; the smaller one of the two */
 };
 
-static const double pi = 3.14159265358979323846;
-
 /* Where the cone cuts into the bore, or into a ring of holes, less than nothing would be left: share of the wall that carries at
  * least, and of the area and inertia that the section with its holes has of a full disc. */
 static const double least_wall = 0.1, least_share = 0.02;
@@ -201,7 +199,7 @@ static int section(const struct effect *effect, const struct rotor *rotor, const
                    struct effect_section *out)
 {
     const struct segment own = part_of(rotor, span->segment, span->group), *segment = &own;
-    double angle = effect->value[0] * pi / 180, tangent = tan(angle), cut[CUTS + 2], length = span->to - span->from;
+    double angle = effect->value[0] * PI / 180, tangent = tan(angle), cut[CUTS + 2], length = span->to - span->from;
     struct step step[STEPS_AT_ONCE];
     struct means mean = {0, 0, 0, 0};
     if (segment->rectangular || effect->value[0] >= 90)
@@ -220,7 +218,7 @@ static int section(const struct effect *effect, const struct rotor *rotor, const
             add_point(&rotor->group[span->group], segment, layered ? 0 : segment->inner, diameter, slope,
                       gauss_weight[g] * half / length, &mean);
         }
-    double by_angle = (1 + tangent * tangent) * pi / 180;
+    double by_angle = (1 + tangent * tangent) * PI / 180;
     *out = (struct effect_section){.ei = factor_of_compliance(mean.bending, mean.dbending * by_angle, p),
                                    .kgs = factor_of_compliance(mean.shear, mean.dshear * by_angle, p)};
     return 1;
