@@ -272,6 +272,30 @@ POOL_TEST(files_without_anything_usable_are_refused)
 #define SAMPLES 1024
 #define RATE    1024.0
 
+/* A record of force at 1:+Z and one of response at node:+Z; order: the response in front. */
+static void write_records(int load_case, int node, int ordinate, int count, const double *force, const double *response,
+                          int order)
+{
+    struct uff_function f = {.type = UFF_TIME,
+                             .response_node = 1,
+                             .response_direction = 3,
+                             .load_case = load_case,
+                             .ordinate = ordinate,
+                             .count = count,
+                             .is_even = 1,
+                             .step = 1 / RATE};
+    f.abscissa.specific_type = 17;
+    struct uff_function g = f;
+    f.numerator.specific_type = 13;
+    g.numerator.specific_type = 12;
+    g.response_node = node;
+    if (order)
+        write_real(&g, response);
+    write_real(&f, force);
+    if (!order)
+        write_real(&g, response);
+}
+
 /* A half-sine of 8 samples, and y = gain * force two samples later: H = gain exp(-2 i omega/rate). */
 static void write_measurement(int load_case, int node, double gain, double start, int order)
 {
@@ -280,26 +304,7 @@ static void write_measurement(int load_case, int node, double gain, double start
         force[(int)start + i] = 100 * sin(3.141592653589793 * i / 8);
     for (int i = 2; i < SAMPLES; i++)
         response[i] = gain * force[i - 2];
-    struct uff_function f = {.type = UFF_TIME,
-                             .response_node = 1,
-                             .response_direction = 3,
-                             .load_case = load_case,
-                             .ordinate = UFF_REAL_DOUBLE,
-                             .count = SAMPLES,
-                             .is_even = 1,
-                             .step = 1 / RATE};
-    f.abscissa.specific_type = 17;
-    struct uff_function g = f;
-    f.numerator.specific_type = 13;
-    g.numerator.specific_type = 12;
-    g.response_node = node;
-    if (order) {
-        write_real(&g, response);
-        write_real(&f, force);
-    } else {
-        write_real(&f, force);
-        write_real(&g, response);
-    }
+    write_records(load_case, node, UFF_REAL_DOUBLE, SAMPLES, force, response, order);
 }
 
 static void check_records(const struct measurement *m)
@@ -360,38 +365,29 @@ POOL_TEST(an_impact_without_its_response_is_left_out)
     assert_int_equal(m.set.frf[0].averages, 3);
 }
 
+/* One record of force and of response [2 * SAMPLES]: the messages about them. */
+static void read_records(const struct measurement_options *options, int ordinate, const double *force, const double *response,
+                         struct message_list *messages)
+{
+    struct measurement m;
+    begin();
+    write_records(0, 5, ordinate, 2 * SAMPLES, force, response, 0);
+    assert_status(finish(options, messages, &m), ROTID_OK);
+}
+
 /* y' = -decay y + force: of a block of a second the last tenth has about exp(-0.95 decay) sqrt(2 decay) of the rms, which is
  * 0.142 for a decay of 3 and 0.012 for one of 6, on both sides of the tenth that is let pass. */
 static int warnings_of_a_decay(double decay)
 {
     static const struct measurement_options options = {.transfer = {.block = 1}};
-    struct measurement m;
     struct message_list messages;
-    int found = 0;
     double force[2 * SAMPLES] = {0}, response[2 * SAMPLES] = {0};
     for (int i = 0; i < 9; i++)
         force[30 + i] = 100 * sin(3.141592653589793 * i / 8);
     for (int i = 1; i < 2 * SAMPLES; i++)
         response[i] = exp(-decay / RATE) * response[i - 1] + force[i - 1];
-    struct uff_function f = {.type = UFF_TIME,
-                             .response_node = 1,
-                             .response_direction = 3,
-                             .ordinate = UFF_REAL_DOUBLE,
-                             .count = 2 * SAMPLES,
-                             .is_even = 1,
-                             .step = 1 / RATE};
-    f.abscissa.specific_type = 17;
-    struct uff_function g = f;
-    f.numerator.specific_type = 13;
-    g.numerator.specific_type = 12;
-    g.response_node = 5;
-    begin();
-    write_real(&f, force);
-    write_real(&g, response);
-    assert_status(finish(&options, &messages, &m), ROTID_OK);
-    for (size_t i = 0; i < messages.count; i++)
-        found += strstr(messages.item[i].text, "end before the response has decayed") != NULL;
-    return found;
+    read_records(&options, UFF_REAL_DOUBLE, force, response, &messages);
+    return warnings(&messages, "end before the response has decayed");
 }
 
 POOL_TEST(blocks_that_end_before_the_decay_are_warned_of)
@@ -405,29 +401,13 @@ POOL_TEST(blocks_that_end_before_the_decay_are_warned_of)
 static int warnings_of_records(int force_levels, int levels, double decay, double window, const char *said)
 {
     const struct measurement_options options = {.transfer = {.block = 1, .pretrigger = 25 / RATE, .force_window = window}};
-    struct measurement m;
     struct message_list messages;
     double force[2 * SAMPLES] = {0}, response[2 * SAMPLES] = {0};
     for (int i = 0; i < 29; i++)
         force[30 + i] = round(force_levels * sin(3.141592653589793 * i / 28)) / force_levels;
     for (int i = 30; i < 2 * SAMPLES; i++)
         response[i] = round(levels / 2. * exp(-decay * (i - 30) / RATE) * sin(0.9 * (i - 30))) / levels;
-    struct uff_function f = {.type = UFF_TIME,
-                             .response_node = 1,
-                             .response_direction = 3,
-                             .ordinate = UFF_REAL_SINGLE,
-                             .count = 2 * SAMPLES,
-                             .is_even = 1,
-                             .step = 1 / RATE};
-    f.abscissa.specific_type = 17;
-    struct uff_function g = f;
-    f.numerator.specific_type = 13;
-    g.numerator.specific_type = 12;
-    g.response_node = 5;
-    begin();
-    write_real(&f, force);
-    write_real(&g, response);
-    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    read_records(&options, UFF_REAL_SINGLE, force, response, &messages);
     return warnings(&messages, said);
 }
 
