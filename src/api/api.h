@@ -8,10 +8,10 @@
  * src/diagnose or src/suggest compute on the scratch, makes a struct of pointers into the scratch, and copies the struct for the
  * host (call_keep, by the tables of src/record); call_close explains errors.
  *
- *   deck_handle.c     the frame of a call; the copy; rotid_deck_read, rotid_deck_read_text; deck_states, deck_job: what stands
- * behind a rotid_deck spectrum.c        rotid_deck_check: mass, geometry, sensors; rotid_spectrum_compute, rotid_spectrum_beside:
- * frequencies, shapes, pairing with measured modes identification.c  rotid_identify; result_identification.c: parameters with std
- * and interval, chi^2, modes, noise diagnosis.c       rotid_diagnose; result_diagnosis.c: candidates, verdict, rounds, gain
+ *   deck_handle.c     the frame of a call; the copy; rotid_deck_read, rotid_deck_read_text; deck_states, deck_job
+ *   spectrum.c        rotid_deck_check: mass, geometry, sensors; rotid_spectrum_compute, rotid_spectrum_beside: modes, pairing
+ *   identification.c  rotid_identify; result_identification.c: parameters with std and interval, chi^2, modes, noise
+ *   diagnosis.c       rotid_diagnose; result_diagnosis.c: candidates, verdict, rounds, gain
  *   suggestion.c      rotid_suggest: tests to do next
  *   result_geometry.c the model as it is drawn and meshed
  *

@@ -418,8 +418,7 @@ static int leave_out(const struct loading *l, int count, struct time_record *rec
     int kept = 0;
     message_add(l->messages, SEVERITY_WARNING, l->path, gone.line, 1,
                 "node %d over node %d left out: no impact of its records can be used (each is missing, double, clipped, dead, "
-                "cut off by the "
-                "end of the record, or not finite)",
+                "cut off by the end of the record, or not finite)",
                 gone.response_node, gone.reference_node);
     for (int i = 0; i < count; i++)
         if (!same_pair(&record[i], &gone))

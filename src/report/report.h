@@ -5,11 +5,11 @@
  *
  * Comes in: structs of results (rotid.h, src/result) and, for some, what they were made of. Goes out: text on a stream, files.
  *
- *   table.c           struct table: columns and cells once; table_write_text, table_write_csv, table_write_html; elements of
- * HTML, escaped; --csv: the files of a command, all or none, formulas made harmless; on the screen heading, notes, name of a
- * state, a table identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c   tables of the results
- * (table_of_*), what the command shows on the screen (screen_*), and where rotid.h has no struct for it, that of its JSON;
- *                     chart.c: bars, strips along the axis
+ *   table.c           struct table: columns and cells once; as text, as CSV (the files of a command, all or none, formulas made
+ *                     harmless), as HTML, escaped; heading, notes and state on the screen
+ *   results           identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c: tables (table_of_*),
+ *                     what the command shows (screen_*) and, where rotid.h has no struct for it, that of its JSON
+ *   chart.c           bars, strips along the axis
  *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
  *   layout.c          cells and running text of a width
  *   output.c          output_open, output_close: a file is written beside its name, then renamed; several at once, all or none

@@ -17,8 +17,7 @@
  *   transfer functions   frf_run.c (frf_run): H = s^q [sum phi_i phi_j/(lambda + s^2 + 2 zeta w s) + R + (c - s^2) R']
  *                    of the modes and of those left out; compare.c: FRAC, scale, level
  *   sensitivity      sensitivity.c (sensitivity_run): E_k over steps (29), d ln f/d ln x; growth_run: growth of the functionals
- *   pictures, checks mode_shapes.c; beside.c (beam_vs_solid_make): beam beside solid; job.c (check_units): frequencies in a wrong
- * unit
+ *   pictures, checks mode_shapes.c; beside.c (beam_vs_solid_make): beam beside solid; job.c (check_units): wrong units
  *
  * Callers: deck (fills jobs), diagnose, suggest, api, cli, study; result, report, page, export read the structs. The room must
  * not read files, nor know the text of decks, the catalogue of causes (a cause is an effect of the rotor here) or printing. */
@@ -402,7 +401,7 @@ struct identification {
     struct spectrum spectrum;   /* of the fitted model */
     int shapes_fitted;          /* they took part in the residual or in the quotient */
     struct mass_properties mass;
-    double *baseline_hz; /* [nmode * fit->nbaseline] predicted at the points of NLopt, NaN where there is no model */
+    double *baseline_hz;           /* [nmode * fit->nbaseline] predicted at the points of NLopt, NaN where there is no model */
     const struct held_modes *held; /* of a solid: what the last fit held its mesh to, from there on */
 };
 
