@@ -282,8 +282,7 @@ static char *stamp_all(struct pool *pool, const uint8_t *bytes, size_t count)
     require(text != NULL);
     memcpy(text, bytes, count);
     char *end = strchr(text, '\n');
-    cJSON *json = end ? cJSON_ParseWithLength(text, (size_t)(end - text)) : NULL;
-    if (!results_header_read(pool, json, &header)) {
+    if (end && !results_header_read(pool, text, (size_t)(end - text), &header)) {
         FILE *stream = open_memstream(&all, &length);
         require(stream != NULL);
         stamp_study(&header, study);
@@ -297,7 +296,6 @@ static char *stamp_all(struct pool *pool, const uint8_t *bytes, size_t count)
         }
         require(fclose(stream) == 0);
     }
-    cJSON_Delete(json);
     free(text);
     return all;
 }

@@ -99,16 +99,15 @@ static cJSON *read_kind(const struct kind *kind)
  * which is the first line. */
 static void write_line(FILE *out, const cJSON *item, int is_header, char study[DIGEST_LETTERS + 1])
 {
+    struct study_header header;
     cJSON *copy = cJSON_Duplicate(item, 1);
-    if (is_header) {
-        struct study_header header;
-        if (!results_header_read(&test_pool, copy, &header)) /* else nobody reads the file */
-            stamp_study(&header, study);
-    } else {
+    if (!is_header) {
         cJSON_DeleteItemFromObjectCaseSensitive(copy, "study");
         cJSON_DeleteItemFromObjectCaseSensitive(copy, "digest");
     }
     char *bare = cJSON_PrintUnformatted(copy), *line = bare ? pool_format(&test_pool, "%s\n", bare) : NULL;
+    if (line && is_header && !results_header_read(&test_pool, line, strlen(line), &header)) /* else nobody reads the file */
+        stamp_study(&header, study);
     char *stamped = line && !is_header ? stamp_line(study, line) : NULL;
     assert_true(line && (is_header || stamped));
     (void)fputs(is_header ? line : stamped, out);

@@ -83,7 +83,7 @@ static struct study_record opened(int retry)
 
 static void append(struct study_record *record, long run, const char *status)
 {
-    assert_status(record_append(record, run, line_of(run, status, (double)run), !strcmp(status, "failed")), ROTID_OK);
+    assert_status(record_append(record, run, line_of(run, status, (double)run)), ROTID_OK);
 }
 
 /* Refused with these words, and the file is left as it is. */
@@ -124,8 +124,8 @@ FIXTURE_TEST(the_file_ends_in_order, setup, close_test_pool)
             assert_int_equal(record_take(&record), -1);
         }
     }
-    assert_true(record.done == RUNS && record.failed == 1 && !record.in_order);
-    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    assert_true(record.done == RUNS && record.failed == 1 && !record.file.in_order);
+    assert_status(record_finish(&record), ROTID_OK);
     record_close(&record);
     char *text = bench_read("r.jsonl"), *first = header_text(&header);
     (void)snprintf(expected, sizeof expected, "%s", first);
@@ -138,11 +138,11 @@ FIXTURE_TEST(the_file_ends_in_order, setup, close_test_pool)
     record = opened(1); /* the failed one again */
     assert_true(record.done == RUNS - 1 && record_take(&record) == 4 && record_take(&record) == -1);
     append(&record, 4, "converged");
-    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    assert_status(record_finish(&record), ROTID_OK);
     record_close(&record);
     assert_int_equal(bench_lines("r.jsonl"), 1 + RUNS);
     record = opened(0);
-    assert_true(record.done == RUNS && !record.failed && record.in_order);
+    assert_true(record.done == RUNS && !record.failed && record.file.in_order);
     record_close(&record);
 }
 
@@ -276,7 +276,7 @@ FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
         int status = open_record(0, &messages, &record), count = 0;
         errno = 0;
         for (long run = 0; run < RUNS && !status; run++) {
-            status = record_append(&record, run, line_of(run, "converged", (double)run), 0);
+            status = record_append(&record, run, line_of(run, "converged", (double)run));
             count += !status;
         }
         int reason = errno;
@@ -291,7 +291,7 @@ FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
         assert_int_equal(record.done, count);
         for (long run; (run = record_take(&record)) >= 0;)
             append(&record, run, "converged");
-        assert_status(record_finish(&test_pool, &record), ROTID_OK);
+        assert_status(record_finish(&record), ROTID_OK);
         record_close(&record);
         assert_int_equal(bench_lines("r.jsonl"), 1 + RUNS);
     }
@@ -304,13 +304,13 @@ FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
     limit = before;
     limit.rlim_cur = head + one;
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
-    assert_status(record_finish(&test_pool, &record), ROTID_ERROR_IO);
+    assert_status(record_finish(&record), ROTID_ERROR_IO);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     record_close(&record);
     char *left = bench_read("r.jsonl");
     assert_string_equal(left, unordered);
     record = opened(0);
-    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    assert_status(record_finish(&record), ROTID_OK);
     record_close(&record);
     free(left);
     left = bench_read("r.jsonl");
@@ -519,9 +519,9 @@ FIXTURE_TEST(summaries_add_up, setup, close_test_pool)
     struct study_record record = opened(0);
     static const double value[] = {2, 3, 5, 6}; /* truth 3, interval 0 to 4, std 2 */
     for (long run = 3; run >= 0; run--)
-        assert_status(record_append(&record, run, line_of(run, run == 1 ? "at_bound" : "converged", value[run]), 0), ROTID_OK);
+        assert_status(record_append(&record, run, line_of(run, run == 1 ? "at_bound" : "converged", value[run])), ROTID_OK);
     append(&record, 4, "failed");
-    assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9), 0), ROTID_OK);
+    assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9)), ROTID_OK);
     record_close(&record);
     message_open(&messages, &test_pool);
     assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &found, NULL, &s), ROTID_OK);

@@ -319,9 +319,7 @@ FIXTURE_TEST(results_of_studies, setup, teardown)
     /* a line with the right digest */
     (void)read_file(results, text, sizeof text);
     char *end = strchr(text, '\n') + 1;
-    cJSON *json = cJSON_ParseWithLength(text, (size_t)(end - text));
-    assert_int_equal(results_header_read(&test_pool, json, &header), 0);
-    cJSON_Delete(json);
+    assert_int_equal(results_header_read(&test_pool, text, (size_t)(end - text), &header), 0);
     stamp_study(&header, study);
     char *failed = stamp_line(study, "{\"run\":0,\"cell\":{\"deck\":\"" HOSTILE
                                      "\\nrotid: a line\",\"variant\":null,\"modes\":null,\"sensors\":null,"

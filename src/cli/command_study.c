@@ -104,7 +104,7 @@ int study_prepare(struct command *command, struct study *study)
 /* Everything is there: in order of the runs from now on. */
 static int finish(struct command *command, struct study_record *record, int code)
 {
-    int status = record_finish(&command->pool, record);
+    int status = record_finish(record);
     if (!status)
         return code;
     return terminal_end(EXIT_INTERNAL, "rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,

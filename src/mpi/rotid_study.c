@@ -68,7 +68,7 @@ static void keep(struct office *office, long run, const char *line)
 {
     if (office->status || !*line) /* empty: it was stopped */
         return;
-    office->status = record_append(office->record, run, line, result_failed(line));
+    office->status = record_append(office->record, run, line);
     office->reason = errno;
 }
 

@@ -1,20 +1,23 @@
 /* A file of results: the header, which tells the study; the stamp at the end of each line, which tells a line that was changed or
- * belongs elsewhere; reading line by line; the file as a whole, in order of the runs; the file while it grows. */
+ * belongs elsewhere; reading, a line at a time, which keeps where the line of each run stands; writing in order of the runs; the
+ * file while it grows, which is the same table of places with a lock. */
 /* realpath: it is in POSIX 2008, but the headers of glibc want this word for it. NOLINTNEXTLINE(bugprone-reserved-identifier) */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
 #include <fcntl.h>
+#include <libgen.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "file/file.h"
 #include "study/study.h"
 
 #define BLOCK     ((size_t)1 << 18)
-#define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
+#define MOST_LINE ((ssize_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
 
 /* ---- digests */
 
@@ -95,29 +98,6 @@ char *header_text(const struct study_header *header)
     return json_close_line(&tree);
 }
 
-int results_header_read(struct pool *pool, const cJSON *object, struct study_header *header)
-{
-    struct message_list unheard; /* the caller says what was expected */
-    struct reader reader = {.pool = pool, .messages = &unheard, .file = ""};
-    const struct json_place place = {.reader = &reader, .json = object};
-    int shard, shards;
-    message_open(&unheard, pool);
-    *header = (struct study_header){0};
-    if (!cJSON_IsObject(object))
-        return ROTID_ERROR_SYNTAX;
-    record_read(&place, &study_header_record, header);
-    if (reader.status)
-        return reader.status;
-    const char *const needed[] = {header->rotid,        header->studies,     header->digest.plan,
-                                  header->digest.decks, header->digest.data, header->digest.options};
-    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        if (!*needed[i]) /* null */
-            return ROTID_ERROR_SYNTAX;
-    int good = header->schema == RESULT_SCHEMA && !strcmp(header->command, "study") && header->seed <= 4294967295.0 &&
-               header->runs <= STUDY_MOST_RUNS && header_shard(header, &shard, &shards);
-    return good ? ROTID_OK : ROTID_ERROR_SYNTAX;
-}
-
 int header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here, int other_decks,
                       const char **text)
 {
@@ -175,165 +155,53 @@ void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 
     digest_letters(&digest, study);
 }
 
-static void digest_of(size_t length, const char *bytes, char letters[DIGEST_LETTERS + 1])
+/* The stamp [LENGTH + 1] of a line whose values end behind `body` bytes. */
+static void make_stamp(const char *study, const char *line, size_t body, char *stamp)
 {
     struct digest digest;
+    int length = snprintf(stamp, LENGTH + 1, STUDY "%s", study);
     digest_open(&digest);
-    digest_bytes(&digest, length, bytes);
-    digest_letters(&digest, letters);
+    digest_bytes(&digest, body, line);
+    digest_bytes(&digest, (size_t)length, stamp);
+    (void)snprintf(stamp + length, LENGTH + 1 - (size_t)length, DIGEST "%016llx" END, (unsigned long long)digest.state);
 }
 
 char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line)
 {
-    size_t body = strlen(line) - strlen("}\n"), length = body + strlen(STUDY) + DIGEST_LETTERS;
-    char *stamped = malloc(body + LENGTH + 1), digest[DIGEST_LETTERS + 1];
+    size_t body = strlen(line) - strlen("}\n");
+    char *stamped = malloc(body + LENGTH + 1);
     if (!stamped)
         return NULL;
     memcpy(stamped, line, body);
-    (void)snprintf(stamped + body, LENGTH + 1, STUDY "%s", study);
-    digest_of(length, stamped, digest);
-    (void)snprintf(stamped + length, LENGTH + 1 + body - length, DIGEST "%s" END, digest);
+    make_stamp(study, line, body, stamped + body);
     return stamped;
 }
 
-enum stamp_fault { STAMP_GOOD, STAMP_NONE, STAMP_CHANGED, STAMP_OTHER_STUDY };
-
-/* line [length] with its line feed */
-static enum stamp_fault stamp_check(const char study[DIGEST_LETTERS + 1], const char *line, size_t length)
+/* What is wrong with the stamp of a line [length] with its line feed, or NULL: it has none, that of the study it names is not the
+ * one of its bytes, or that study is another one. */
+static const char *stamp_fault(const char *study, const char *line, size_t length)
 {
-    char digest[DIGEST_LETTERS + 1];
-    if (length < LENGTH)
-        return STAMP_NONE;
-    const char *stamp = line + length - LENGTH, *behind = stamp + strlen(STUDY) + DIGEST_LETTERS;
-    if (memcmp(stamp, STUDY, strlen(STUDY)) != 0 || memcmp(behind, DIGEST, strlen(DIGEST)) != 0 ||
+    char stamp[LENGTH + 1], own[DIGEST_LETTERS + 1];
+    const char *is = length < LENGTH ? line : line + length - LENGTH;
+    if (length < LENGTH || memcmp(is, STUDY, strlen(STUDY)) != 0 ||
+        memcmp(is + strlen(STUDY) + DIGEST_LETTERS, DIGEST, strlen(DIGEST)) != 0 ||
         memcmp(line + length - strlen(END), END, strlen(END)) != 0)
-        return STAMP_NONE;
-    digest_of((size_t)(behind - line), line, digest);
-    if (memcmp(behind + strlen(DIGEST), digest, DIGEST_LETTERS) != 0)
-        return STAMP_CHANGED;
-    return memcmp(stamp + strlen(STUDY), study, DIGEST_LETTERS) != 0 ? STAMP_OTHER_STUDY : STAMP_GOOD;
+        return "this line does not end in its digest, expected a line of rotid study: without this one the run is computed "
+               "again; a file of an early version has no digests at all and cannot be checked";
+    (void)snprintf(own, sizeof own, "%s", is + strlen(STUDY));
+    make_stamp(own, line, length - LENGTH, stamp);
+    if (memcmp(is, stamp, LENGTH) != 0)
+        return "this line is not as rotid wrote it, its digest differs, expected the line as it was: without it the run is "
+               "computed again";
+    return strcmp(own, study) != 0 ? "this line is of another study than the first line of the file, expected lines of that one: "
+                                     "without it the run is computed again"
+                                   : NULL;
 }
 
 /* ---- reading */
 
-/* The file from its beginning, a line in memory at a time. */
-struct reading {
-    int descriptor; /* the caller's: where it stands does not matter */
-    const char *path;
-    struct message_list *messages;
-    int number;       /* of the line read last, from 1 */
-    off_t next;       /* where the next line begins; at the end: where the last whole one ends */
-    struct pool line; /* of the line read last */
-    char *buffer;
-    size_t capacity, first, count; /* bytes of the buffer not yet given out */
-};
-
-static int cannot_read(struct reading *r)
-{
-    return message_refuse(r->messages, ROTID_ERROR_IO, r->path, r->number + 1, 1, "reading failed: %s", strerror(errno));
-}
-
-static int malformed(struct reading *r, int line, const char *what)
-{
-    return message_refuse(r->messages, ROTID_ERROR_SYNTAX, r->path, line, 1, "%s", what);
-}
-
-/* More of the file behind what the buffer holds. ROTID_OK, 1 at the end. */
-static int fill(struct reading *r)
-{
-    if (r->first && r->buffer) {
-        memmove(r->buffer, r->buffer + r->first, r->count);
-        r->first = 0;
-    }
-    if (r->count + BLOCK > r->capacity) {
-        size_t capacity = 2 * r->capacity + BLOCK;
-        char *larger = r->count < MOST_LINE ? realloc(r->buffer, capacity) : NULL;
-        if (!larger)
-            return r->count < MOST_LINE ? ROTID_ERROR_MEMORY : malformed(r, r->number + 1, "the line is too long for a result");
-        r->buffer = larger;
-        r->capacity = capacity;
-    }
-    ssize_t got;
-    do
-        got = pread(r->descriptor, r->buffer + r->count, BLOCK, r->next + (off_t)r->count);
-    while (got < 0 && errno == EINTR);
-    if (got < 0)
-        return cannot_read(r);
-    r->count += (size_t)got;
-    return got ? ROTID_OK : 1;
-}
-
-/* A whole line, with its line feed. ROTID_OK, 1 where there is none any more. */
-static int take_line(struct reading *r, const char **text, size_t *length)
-{
-    size_t looked = 0;
-    for (;;) {
-        const char *from = r->buffer ? r->buffer + r->first : NULL,
-                   *feed = from ? memchr(from + looked, '\n', r->count - looked) : NULL;
-        if (feed) {
-            *text = from;
-            *length = (size_t)(feed - from) + 1;
-            r->first += *length;
-            r->count -= *length;
-            r->next += (off_t)*length;
-            r->number++;
-            return ROTID_OK;
-        }
-        looked = r->count;
-        int status = fill(r);
-        if (status)
-            return status;
-    }
-}
-
-/* The first line. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else. */
-static int read_header(struct reading *r, struct pool *pool, struct results *results)
-{
-    static const char expected[] = "this is no file of results of rotid study, expected one or a new name";
-    struct stat information;
-    const char *text;
-    size_t length;
-    if (fstat(r->descriptor, &information))
-        return cannot_read(r);
-    results->size = information.st_size;
-    if (!S_ISREG(information.st_mode) || (results->size && pread(r->descriptor, &(char){0}, 1, 0) != 1))
-        return malformed(r, 1, expected);
-    int status = take_line(r, &text, &length);
-    if (status)
-        return status > 0 ? malformed(r, 1, expected) : status;
-    cJSON *json = NULL;
-    status = json_text_too_dense(text, length) ? ROTID_ERROR_SYNTAX : json_parse(text, length, NULL, &json);
-    if (!status)
-        status = results_header_read(pool, json, &results->header);
-    cJSON_Delete(json);
-    if (status)
-        return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
-    (void)header_shard(&results->header, &results->shard, &results->shards);
-    results->place = POOL_ARRAY(pool, struct result_place, results->header.runs);
-    return results->place ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
-/* Nonzero after a message. */
-static int refuse_stamp(struct reading *r, const char *study, const char *text, size_t length)
-{
-    static const char *const texts[] = {
-        [STAMP_NONE] =
-            "this line does not end in its digest, expected a line of rotid study: without this one the run is computed "
-            "again; a file of an early version has no digests at all and cannot be checked",
-        [STAMP_CHANGED] =
-            "this line is not as rotid wrote it, its digest differs, expected the line as it was: without it the run "
-            "is computed again",
-        [STAMP_OTHER_STUDY] =
-            "this line is of another study than the first line of the file, expected lines of that one: without "
-            "it the run is computed again",
-    };
-    enum stamp_fault fault = stamp_check(study, text, length);
-    if (fault)
-        (void)malformed(r, r->number, texts[fault]);
-    return fault != STAMP_GOOD;
-}
-
-const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run)
+/* A line as the struct of its record, on the pool. NULL, or the first mistake in it; "" where memory is out. */
+static const char *parse(struct pool *pool, const char *text, size_t length, const struct record *record, void *into)
 {
     struct message_list messages;
     struct reader reader = {.pool = pool, .messages = &messages, .file = "this line is no result"};
@@ -341,80 +209,164 @@ const char *results_line_read(struct pool *pool, const char *text, size_t length
     int status = json_text_too_dense(text, length) ? ROTID_ERROR_SYNTAX : json_parse(text, length, NULL, &json);
     const struct json_place place = {.reader = &reader, .json = json};
     message_open(&messages, pool);
-    *run = (struct study_run){.status = -1};
-    if (status == ROTID_ERROR_MEMORY)
-        return "";
-    if (!cJSON_IsObject(json))
+    if (cJSON_IsObject(json))
+        record_read(&place, record, into);
+    else if (status != ROTID_ERROR_MEMORY)
         place_wrong(&place, "it is no JSON, expected an object");
-    else
-        record_read(&place, &study_run_record, run);
-    if (!reader.status && run->status != STUDY_FAILED && !run->fit)
-        place_wrong(&place, "it has no functional, expected the result of a run that did not fail");
-    if (!reader.status && run->diagnosis && run->diagnosis->verdict.kind < 0)
-        place_wrong(&place, "it has no verdict, expected that of a diagnosis that came to its end");
     cJSON_Delete(json);
-    return !reader.status ? NULL : messages.count ? messages.item[0].text : "";
+    return !reader.status && status != ROTID_ERROR_MEMORY ? NULL : messages.count ? messages.item[0].text : "";
+}
+
+int results_header_read(struct pool *pool, const char *text, size_t length, struct study_header *header)
+{
+    int shard, shards;
+    *header = (struct study_header){0};
+    const char *wrong = parse(pool, text, length, &study_header_record, header);
+    if (wrong && !*wrong)
+        return ROTID_ERROR_MEMORY;
+    return !wrong && header->schema == RESULT_SCHEMA && !strcmp(header->command, "study") && header->seed <= 4294967295.0 &&
+                   header->runs <= STUDY_MOST_RUNS && header_shard(header, &shard, &shards)
+               ? ROTID_OK
+               : ROTID_ERROR_SYNTAX;
+}
+
+const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run)
+{
+    *run = (struct study_run){.status = -1};
+    const char *wrong = parse(pool, text, length, &study_run_record, run);
+    if (!wrong && run->status != STUDY_FAILED && !run->fit)
+        return "this line is no result: it has no functional, expected the result of a run that did not fail";
+    if (!wrong && run->diagnosis && run->diagnosis->verdict.kind < 0)
+        return "this line is no result: it has no verdict, expected that of a diagnosis that came to its end";
+    return wrong;
+}
+
+/* The file from its beginning, a line in memory at a time. */
+struct reading {
+    struct results *file; /* file->end: where the next line begins */
+    struct message_list *messages;
+    char *text; /* [length] of the line read last, with its line feed */
+    size_t length, room;
+};
+
+static int refuse_line(struct reading *r, const char *wrong)
+{
+    int line = r->file->lines > 0 ? r->file->lines : 1;
+    return *wrong ? message_refuse(r->messages, ROTID_ERROR_SYNTAX, r->file->path, line, 1, "%s", wrong) : ROTID_ERROR_MEMORY;
+}
+
+/* The next whole line. ROTID_OK, 1 where there is none any more. */
+static int take_line(struct reading *r)
+{
+    errno = 0;
+    ssize_t length = getline(&r->text, &r->room, r->file->stream);
+    if (length < 0 && !feof(r->file->stream))
+        return errno == ENOMEM ? ROTID_ERROR_MEMORY
+                               : message_refuse(r->messages, ROTID_ERROR_IO, r->file->path, r->file->lines + 1, 1,
+                                                "reading failed: %s", strerror(errno));
+    if (length <= 0 || r->text[length - 1] != '\n')
+        return 1;
+    r->length = (size_t)length;
+    r->file->end += length;
+    r->file->lines++;
+    return length > MOST_LINE ? refuse_line(r, "the line is too long for a result") : ROTID_OK;
+}
+
+/* The first line. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else. */
+static int read_header(struct reading *r, struct pool *pool)
+{
+    struct results *file = r->file;
+    struct stat about = {0};
+    int regular = !fstat(fileno(file->stream), &about) && S_ISREG(about.st_mode);
+    int first = regular ? getc(file->stream) : EOF; /* what is no JSON may have no line feed for gigabytes */
+    file->size = about.st_size;
+    int status = first == '{' && ungetc(first, file->stream) == first ? take_line(r) : 1;
+    if (!status)
+        status = results_header_read(pool, r->text, r->length, &file->header);
+    if (status == 1 || status == ROTID_ERROR_SYNTAX)
+        return refuse_line(r, "this is no file of results of rotid study, expected one or a new name");
+    if (status)
+        return status;
+    (void)header_shard(&file->header, &file->shard, &file->shards);
+    stamp_study(&file->header, file->study);
+    file->place = POOL_ARRAY(pool, struct result_place, file->header.runs);
+    return file->place ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* The line of a run, in place of the one that it had. */
+static void put(struct results *file, long run, const struct result_place *at)
+{
+    file->place[run] = *at;
+    file->most = at->length > file->most ? at->length : file->most;
+    file->in_order &= run > file->last;
+    file->last = run;
 }
 
 /* ROTID_OK with the next line, 1 behind the last whole one, ROTID_ERROR_SYNTAX where a line was changed, is of another study or
  * of a run that stands there already, unless that had failed or its deck was mended in between: which of the two counts, or what
  * the line said, nobody knows here. */
-static int read_run(struct reading *r, const char *study, struct results *results)
+static int read_run(struct reading *r)
 {
-    const char *text, *wrong;
+    struct results *file = r->file;
+    struct pool pool;
     struct study_run said;
-    struct result_place at = {.descriptor = r->descriptor, .offset = r->next};
-    pool_close(&r->line);
-    pool_open(&r->line, NULL);
-    int status = take_line(r, &text, &at.length);
+    char twice[128];
+    off_t offset = file->end;
+    int status = take_line(r);
     if (status)
         return status;
-    if (refuse_stamp(r, study, text, at.length))
-        return ROTID_ERROR_SYNTAX;
-    if ((wrong = results_line_read(&r->line, text, at.length, &said)))
-        return *wrong ? malformed(r, r->number, wrong) : ROTID_ERROR_MEMORY;
-    if (said.run >= results->header.runs || said.run % results->shards != results->shard - 1)
-        return malformed(r, r->number,
-                         "this line is of a run that the study, or this shard of it, does not have, expected one of its runs");
-    struct result_place *place = &results->place[said.run];
-    at.failed = said.status == STUDY_FAILED;
-    at.input = said.input ? digest_name(said.input) : 0;
-    if (place->length && !place->failed && place->input == at.input)
-        return message_refuse(r->messages, ROTID_ERROR_SYNTAX, r->path, r->number, 1,
-                              "run %d stands in a line above already, expected one line of each run that did not fail", said.run);
-    *place = at;
-    results->most = at.length > results->most ? at.length : results->most;
-    results->in_order &= said.run > results->last;
-    results->last = said.run;
-    return ROTID_OK;
+    pool_open(&pool, NULL);
+    const char *wrong = stamp_fault(file->study, r->text, r->length);
+    if (!wrong)
+        wrong = results_line_read(&pool, r->text, r->length, &said);
+    if (!wrong && (said.run >= file->header.runs || said.run % file->shards != file->shard - 1))
+        wrong = "this line is of a run that the study, or this shard of it, does not have, expected one of its runs";
+    if (!wrong) {
+        const struct result_place at = {fileno(file->stream), said.status == STUDY_FAILED, offset, r->length,
+                                        said.input ? digest_name(said.input) : 0};
+        const struct result_place *before = &file->place[said.run];
+        if (!before->length || before->failed || before->input != at.input)
+            put(file, said.run, &at);
+        else if (snprintf(twice, sizeof twice,
+                          "run %d stands in a line above already, expected one line of each run that did not fail", said.run))
+            wrong = twice;
+    }
+    status = wrong ? refuse_line(r, wrong) : ROTID_OK;
+    pool_close(&pool);
+    return status;
 }
 
-int results_read(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results)
+/* Reads the file that the stream is of, which stays open also where something is wrong. */
+static int read_all(struct pool *pool, struct message_list *messages, struct results *file)
 {
-    struct reading r = {.descriptor = descriptor, .path = path, .messages = messages};
-    char study[DIGEST_LETTERS + 1];
-    *results = (struct results){.last = -1, .in_order = 1};
-    pool_open(&r.line, NULL);
-    int status = read_header(&r, pool, results);
-    if (!status)
-        stamp_study(&results->header, study);
+    struct reading r = {.file = file, .messages = messages};
+    (void)setvbuf(file->stream, NULL, _IOFBF, BLOCK);
+    int status = read_header(&r, pool);
     while (!status)
-        status = read_run(&r, study, results);
-    results->end = r.next;
-    results->lines = r.number;
-    pool_close(&r.line);
-    free(r.buffer);
+        status = read_run(&r);
+    free(r.text);
     return status == 1 ? ROTID_OK : status;
 }
 
-int result_failed(const char *line)
+int results_open(struct pool *pool, const char *path, struct message_list *messages, struct results *file)
 {
-    struct pool pool;
-    struct study_run run;
-    pool_open(&pool, NULL);
-    int failed = !results_line_read(&pool, line, strlen(line), &run) && run.status == STUDY_FAILED;
-    pool_close(&pool);
-    return failed;
+    struct stat about;
+    int descriptor = file_descriptor(path, &about);
+    *file = (struct results){.path = path, .last = -1, .in_order = 1, .stream = descriptor < 0 ? NULL : fdopen(descriptor, "rb")};
+    if (!file->stream)
+        return message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s, expected a file of results",
+                              strerror(errno));
+    int status = read_all(pool, messages, file);
+    if (status)
+        results_close(file);
+    return status;
+}
+
+void results_close(struct results *file)
+{
+    if (file->stream)
+        (void)fclose(file->stream);
+    file->stream = NULL;
 }
 
 int results_fetch(struct result_place place, char *text)
@@ -431,15 +383,16 @@ int results_fetch(struct result_place place, char *text)
     return ROTID_OK;
 }
 
-int results_write(const char *path, const struct study_header *header, const struct result_place *place, size_t most)
+int results_write(const char *path, const struct results *file)
 {
-    char *first = header_text(header), *text = malloc(most + 1);
+    char *first = header_text(&file->header), *text = malloc(file->most + 1);
     struct output output;
     int status = first && text ? output_open(&output, path) : ROTID_ERROR_MEMORY;
     if (!status) {
         int failed = fputs(first, output.stream) < 0;
-        for (long run = 0; run < header->runs && !failed; run++)
-            failed = results_fetch(place[run], text) || fwrite(text, 1, place[run].length, output.stream) != place[run].length;
+        for (long run = 0; run < file->header.runs && !failed; run++)
+            failed = results_fetch(file->place[run], text) ||
+                     fwrite(text, 1, file->place[run].length, output.stream) != file->place[run].length;
         status = output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
     }
     int reason = errno;
@@ -466,7 +419,8 @@ static long lock(int descriptor)
     return wanted.l_pid;
 }
 
-/* The file by that name, open and locked. It may have been replaced between the two. */
+/* The file by that name, open and locked. It may have been replaced between the two. Its lock goes with the first descriptor of
+ * it that is closed. */
 static int open_locked(const char *path, struct message_list *messages, int *descriptor)
 {
     for (;;) {
@@ -498,23 +452,22 @@ static int open_locked(const char *path, struct message_list *messages, int *des
 /* The name of a new file, and the header of it, are on the disk before the first run is. */
 static void sync_folder(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strdup(path) : NULL;
-    if (folder)
-        folder[slash == path ? 1 : slash - path] = 0;
-    int descriptor = slash && !folder ? -1 : open(folder ? folder : ".", O_RDONLY | O_CLOEXEC);
+    char *copy = strdup(path);
+    int descriptor = copy ? open(dirname(copy), O_RDONLY | O_CLOEXEC) : -1;
     if (descriptor >= 0) {
         (void)fsync(descriptor); /* some file systems cannot: then it is there when they think so */
         (void)close(descriptor);
     }
-    free(folder);
+    free(copy);
 }
 
-/* Whether all there is of the file is the beginning of its header: it was ended while it was begun. */
-static int is_unbegun(int descriptor, off_t size, const char *header)
+/* Whether all there is of the file is the beginning of its header: nothing, or it was ended while it was begun. */
+static int is_unbegun(const struct results *file, const char *header)
 {
-    char *begun = (size_t)size < strlen(header) ? malloc((size_t)size + 1) : NULL;
-    int same = begun && pread(descriptor, begun, (size_t)size, 0) == (ssize_t)size && !memcmp(begun, header, (size_t)size);
+    size_t length = strlen(header);
+    char *begun = malloc(length);
+    ssize_t got = begun ? pread(fileno(file->stream), begun, length, 0) : -1;
+    int same = got >= 0 && (size_t)got < length && !memcmp(begun, header, (size_t)got);
     free(begun);
     return same;
 }
@@ -522,88 +475,97 @@ static int is_unbegun(int descriptor, off_t size, const char *header)
 /* Appends count bytes with one write where the system lets them through; the file is as it was where they do not fit. */
 static int append(struct study_record *record, const char *bytes, size_t count)
 {
+    int descriptor = fileno(record->file.stream);
     size_t written = 0;
     while (written < count) {
-        ssize_t got = write(record->descriptor, bytes + written, count - written);
+        ssize_t got = write(descriptor, bytes + written, count - written);
         if (got > 0)
             written += (size_t)got;
         if (got == 0)
             errno = ENOSPC;
         if (got <= 0 && errno != EINTR) {
             int reason = errno;
-            while (ftruncate(record->descriptor, record->length) && errno == EINTR)
+            while (ftruncate(descriptor, record->file.end) && errno == EINTR)
                 ;
             errno = reason;
             return ROTID_ERROR_IO;
         }
     }
-    record->length += (off_t)count;
+    record->file.end += (off_t)count;
     record->unsynced = 1;
     return ROTID_OK;
 }
 
-static int begin_file(struct study_record *record, const char *header, struct message_list *messages)
+static int begin_file(struct pool *pool, struct study_record *record, const struct study_header *header, const char *first,
+                      struct message_list *messages)
 {
-    if (ftruncate(record->descriptor, 0) || append(record, header, strlen(header)) || fsync(record->descriptor))
-        return message_refuse(messages, ROTID_ERROR_IO, record->path, 1, 1, "cannot be written: %s", strerror(errno));
-    sync_folder(record->path);
+    struct results *file = &record->file;
+    int descriptor = fileno(file->stream);
+    file->place = POOL_ARRAY(pool, struct result_place, header->runs);
+    (void)header_shard(header, &file->shard, &file->shards);
+    stamp_study(header, file->study);
+    if (!file->place)
+        return ROTID_ERROR_MEMORY;
+    if (ftruncate(descriptor, 0) || append(record, first, strlen(first)) || fsync(descriptor))
+        return message_refuse(messages, ROTID_ERROR_IO, file->path, 1, 1, "cannot be written: %s", strerror(errno));
+    sync_folder(file->path);
     return ROTID_OK;
 }
 
-static int compare(struct pool *pool, struct study_record *record, const struct results *file, struct message_list *messages)
+/* Whether the file is the one of this study and shard. */
+static int compare(struct pool *pool, const struct study_record *record, const struct study_header *header,
+                   struct message_list *messages)
 {
+    const struct results *file = &record->file;
     const char *difference;
-    int status = header_difference(pool, &file->header, &record->header, record->input != NULL, &difference);
+    int shard, shards, status = header_difference(pool, &file->header, header, record->input != NULL, &difference);
+    (void)header_shard(header, &shard, &shards);
     if (status)
         return status;
     if (difference)
-        message_add(messages, SEVERITY_ERROR, record->path, 1, 1,
-                    "this file is of another study: %s; expected a new name, or things as they were", difference);
-    else if (file->shard != record->shard || file->shards != record->shards)
-        message_add(messages, SEVERITY_ERROR, record->path, 1, 1,
-                    "this file is of shard %d/%d and not of %d/%d, expected a file for each shard", file->shard, file->shards,
-                    record->shard, record->shards);
-    else
-        return ROTID_OK;
-    return ROTID_ERROR_ARGUMENT;
-}
-
-/* A last line that was cut goes. */
-static int cut(struct study_record *record, const struct results *file, struct message_list *messages)
-{
-    record->length = file->end;
-    if (file->size <= file->end)
-        return ROTID_OK;
-    if (ftruncate(record->descriptor, file->end))
-        return message_refuse(messages, ROTID_ERROR_IO, record->path, file->lines + 1, 1, "the cut line cannot be removed: %s",
-                              strerror(errno));
-    message_add(messages, SEVERITY_NOTE, record->path, file->lines + 1, 1, "a line that was cut has been removed");
+        return message_refuse(messages, ROTID_ERROR_ARGUMENT, file->path, 1, 1,
+                              "this file is of another study: %s; expected a new name, or things as they were", difference);
+    if (file->shard != shard || file->shards != shards)
+        return message_refuse(messages, ROTID_ERROR_ARGUMENT, file->path, 1, 1,
+                              "this file is of shard %d/%d and not of %d/%d, expected a file for each shard", file->shard,
+                              file->shards, shard, shards);
     return ROTID_OK;
 }
 
-/* Which runs are there. */
-static int read_lines(struct pool *pool, struct study_record *record, int retry_failed, struct message_list *messages)
+/* A last line that was cut goes. */
+static int cut(const struct results *file, struct message_list *messages)
 {
-    struct results file;
+    if (file->size <= file->end)
+        return ROTID_OK;
+    if (ftruncate(fileno(file->stream), file->end))
+        return message_refuse(messages, ROTID_ERROR_IO, file->path, file->lines + 1, 1, "the cut line cannot be removed: %s",
+                              strerror(errno));
+    message_add(messages, SEVERITY_NOTE, file->path, file->lines + 1, 1, "a line that was cut has been removed");
+    return ROTID_OK;
+}
+
+/* Which runs are there; those that are to be computed again have no line. */
+static int read_lines(struct pool *pool, struct study_record *record, const struct study_header *header, int retry_failed,
+                      struct message_list *messages)
+{
+    struct results *file = &record->file;
     long changed = 0;
-    int status = results_read(pool, record->descriptor, record->path, messages, &file);
+    int status = read_all(pool, messages, file);
     if (!status)
-        status = compare(pool, record, &file, messages);
+        status = compare(pool, record, header, messages);
     if (!status)
-        status = cut(record, &file, messages);
-    record->in_order = file.in_order;
-    record->last = file.last;
-    for (long run = 0; run < record->header.runs && !status; run++) {
-        const struct result_place *at = &file.place[run];
-        int other = record->input && at->input && at->input != digest_name(record->input[run]), /* deck of another time */
-            again = at->failed && retry_failed;
+        status = cut(file, messages);
+    for (long run = 0; run < header->runs && !status; run++) {
+        struct result_place *at = &file->place[run];
+        int other = record->input && at->input && at->input != digest_name(record->input[run]); /* deck of another time */
         changed += other;
-        record->state[run] = !at->length || other || again ? RUN_MISSING : at->failed ? RUN_FAILED : RUN_DONE;
-        record->done += record->state[run] != RUN_MISSING;
-        record->failed += record->state[run] == RUN_FAILED;
+        if (other || (at->failed && retry_failed))
+            *at = (struct result_place){0};
+        record->done += at->length > 0;
+        record->failed += at->failed;
     }
     if (changed)
-        message_add(messages, SEVERITY_WARNING, record->path, 1, 1,
+        message_add(messages, SEVERITY_WARNING, file->path, 1, 1,
                     "lines of decks that have changed since: %ld; their runs are computed again", changed);
     return status == ROTID_ERROR_SYNTAX ? ROTID_ERROR_ARGUMENT : status;
 }
@@ -611,58 +573,54 @@ static int read_lines(struct pool *pool, struct study_record *record, int retry_
 int record_open(struct pool *pool, const char *path, const struct study_header *header, const char *const *input,
                 int retry_failed, struct message_list *messages, struct study_record *record)
 {
-    struct stat information;
+    struct results *file = &record->file;
     char *first = header_text(header);
-    *record = (struct study_record){
-        .descriptor = -1, .header = *header, .input = input, .last = -1, .in_order = 1, .synced = clock_seconds()};
-    (void)header_shard(header, &record->shard, &record->shards);
-    record->wanted = (header->runs + record->shards - record->shard) / record->shards;
-    record->next = record->shard - 1;
-    record->state = POOL_ARRAY(pool, char, header->runs);
-    stamp_study(header, record->study);
-    int status = first && record->state ? open_locked(path, messages, &record->descriptor) : ROTID_ERROR_MEMORY;
+    int descriptor = -1, status = first ? open_locked(path, messages, &descriptor) : ROTID_ERROR_MEMORY;
+    *record = (struct study_record){.input = input, .synced = clock_seconds(), .file = {.last = -1, .in_order = 1}};
+    if (!status && (!(file->stream = fdopen(descriptor, "r+b")) || !(record->path = realpath(path, NULL))))
+        status = ROTID_ERROR_MEMORY;
+    file->path = record->path;
+    if (!status)
+        status = is_unbegun(file, first) ? begin_file(pool, record, header, first, messages)
+                                         : read_lines(pool, record, header, retry_failed, messages);
+    json_free(first);
     if (status) {
-        json_free(first);
+        record_close(record);
         return status;
     }
-    record->path = realpath(path, NULL);
-    if (!record->path)
-        status = ROTID_ERROR_MEMORY;
-    else if (fstat(record->descriptor, &information))
-        status = message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "%s", strerror(errno));
-    else if (!information.st_size || is_unbegun(record->descriptor, information.st_size, first))
-        status = begin_file(record, first, messages);
-    else
-        status = read_lines(pool, record, retry_failed, messages);
-    json_free(first);
-    if (status)
-        record_close(record);
-    return status;
+    file->header = *header;
+    record->wanted = (header->runs + file->shards - file->shard) / file->shards;
+    record->next = file->shard - 1;
+    return ROTID_OK;
 }
 
 long record_take(struct study_record *record)
 {
-    for (; record->next < record->header.runs; record->next += record->shards)
-        if (record->state[record->next] == RUN_MISSING) {
-            long run = record->next;
-            record->next += record->shards;
+    const struct results *file = &record->file;
+    while (record->next < file->header.runs) {
+        long run = record->next;
+        record->next += file->shards;
+        if (!file->place[run].length)
             return run;
-        }
+    }
     return -1;
 }
 
-int record_append(struct study_record *record, long run, const char *line, int failed)
+int record_append(struct study_record *record, long run, const char *line)
 {
-    char *stamped = stamp_line(record->study, line);
-    int status = stamped ? append(record, stamped, strlen(stamped)) : ROTID_ERROR_MEMORY;
+    struct results *file = &record->file;
+    const struct result_place at = {.descriptor = fileno(file->stream),
+                                    .failed = strstr(line, "\"status\":\"failed\",\"error\":") != NULL,
+                                    .offset = file->end,
+                                    .length = strlen(line) - strlen("}\n") + LENGTH};
+    char *stamped = stamp_line(file->study, line);
+    int status = stamped ? append(record, stamped, at.length) : ROTID_ERROR_MEMORY;
     free(stamped);
     if (status)
         return status;
-    record->in_order &= run > record->last;
-    record->last = run;
-    record->state[run] = failed ? RUN_FAILED : RUN_DONE;
+    put(file, run, &at);
     record->done++;
-    record->failed += failed;
+    record->failed += at.failed;
     return ROTID_OK;
 }
 
@@ -670,29 +628,21 @@ int record_sync(struct study_record *record, double now)
 {
     if (!record->unsynced || now - record->synced < SYNC_SECONDS)
         return ROTID_OK;
-    if (fdatasync(record->descriptor))
+    if (fdatasync(fileno(record->file.stream)))
         return ROTID_ERROR_IO;
     record->unsynced = 0;
     record->synced = clock_seconds();
     return ROTID_OK;
 }
 
-int record_finish(struct pool *pool, struct study_record *record)
+int record_finish(struct study_record *record)
 {
-    if (record->in_order)
-        return record_sync(record, INFINITY);
-    struct message_list unheard; /* it has been read before */
-    struct results file;
-    message_open(&unheard, pool);
-    int status = results_read(pool, record->descriptor, record->path, &unheard, &file);
-    return status ? status : results_write(record->path, &record->header, file.place, file.most);
+    return record->file.in_order ? record_sync(record, INFINITY) : results_write(record->path, &record->file);
 }
 
 void record_close(struct study_record *record)
 {
-    if (record->descriptor >= 0)
-        (void)close(record->descriptor);
+    results_close(&record->file);
     free(record->path);
-    record->descriptor = -1;
     record->path = NULL;
 }

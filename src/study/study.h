@@ -257,8 +257,8 @@ struct study_header header_of(struct pool *pool, const struct study *study, cons
 /* With the line feed at its end, to be freed with json_free; NULL where memory is out. */
 char *header_text(const struct study_header *header);
 
-/* Texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is no header of results, ROTID_ERROR_MEMORY. */
-int results_header_read(struct pool *pool, const cJSON *object, struct study_header *header);
+/* The header in a line [length]; texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is none, ROTID_ERROR_MEMORY. */
+int results_header_read(struct pool *pool, const char *text, size_t length, struct study_header *header);
 
 /* What differs in "the file ..., here ...", such as "the plan has changed"; NULL where they are of one study. The shard does not
  * count, nor do decks and data with other_decks. ROTID_OK or ROTID_ERROR_MEMORY. */
@@ -276,6 +276,47 @@ void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 
 /* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
 char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line);
 
+/* --------------------------------------------------------------------------------------------------------------- results */
+
+/* A file of results: where the line of each run stands. It is read line by line without ever holding more than one. */
+
+struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
+    int descriptor, failed;
+    off_t offset;
+    size_t length;
+    uint64_t input; /* what tells the digest of its deck; 0: none */
+};
+
+struct results {
+    const char *path;
+    FILE *stream;
+    struct study_header header;
+    int shard, shards;              /* of the header */
+    char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
+    struct result_place *place;     /* [header.runs] */
+    size_t most;                    /* length of the longest line */
+    long last;                      /* run of the last line, -1 where there is none */
+    int in_order;                   /* the lines stand in order of the runs, once each */
+    int lines;                      /* whole ones that were read, with the header */
+    off_t end, size;                /* of the last whole line; of the file, more where its last line is cut */
+};
+
+/* Opens and reads the file. Texts of the header and places go to the pool. ROTID_OK: to be closed; ROTID_ERROR_SYNTAX where it is
+ * something else or a line is wrong, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
+int results_open(struct pool *pool, const char *path, struct message_list *messages, struct results *results);
+/* Also where it is closed or was never opened. */
+void results_close(struct results *results);
+
+/* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
+int results_fetch(struct result_place place, char *text);
+
+/* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
+const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
+
+/* Writes the file `path` whole: the header and the lines in order of the runs. ROTID_OK, ROTID_ERROR_IO with errno,
+ * ROTID_ERROR_MEMORY: then nothing is written. */
+int results_write(const char *path, const struct results *results);
+
 /* ----------------------------------------------------------------------------------------------------------------- merge */
 
 /* Shards, or other parts of one study, into one file of results in order of the runs: byte for byte what one program alone would
@@ -286,10 +327,10 @@ struct merge {
     const char *list; /* of the runs that are missing, "3, 7-9"; the first few of many */
 };
 
-/* Reads `part` [count] and writes `path`, which must not exist. A run in several parts must have the same result in all, but for
- * its time; where it failed in some and not in others, it is taken from those where it did not. What is missing is no error: the
- * file is then that of a study which goes on. ROTID_OK; ROTID_ERROR_ARGUMENT where the parts are not of one study or contradict
- * each other, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO: the list says so, and nothing is written; ROTID_ERROR_MEMORY. */
+/* Reads the parts `part` [count] and writes `path`, which must not exist. A run in several parts must have the same result in
+ * all, but for its time; where it failed in some and not in others, it is taken from those where it did not. What is missing is
+ * no error: the file is then that of a study which goes on. ROTID_OK; ROTID_ERROR_ARGUMENT where the parts are not of one study
+ * or contradict each other, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO: the list says so, and nothing is written; ROTID_ERROR_MEMORY. */
 int merge_results(struct pool *pool, int count, char *const *part, const char *path, struct message_list *messages,
                   struct merge *merge);
 
@@ -298,22 +339,13 @@ int merge_results(struct pool *pool, int count, char *const *part, const char *p
 /* The file of results while a study writes it. Each line goes to its end with one write, so that whatever ends the program leaves
  * whole lines and at most one that is cut, which the next start removes. One process at a time holds its lock. */
 
-enum record_state { RUN_MISSING, RUN_DONE, RUN_FAILED };
-
 struct study_record {
-    int descriptor;
-    char *path; /* without symbolic links */
-    struct study_header header;
-    const char *const *input; /* [header.runs] digests of decks of which each may change, whose run is computed again then; NULL:
-                                 none may */
-    int shard, shards;
-    char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
-    char *state;                    /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
-    long wanted, done, failed;      /* of the shard; failed ones are among those done */
-    long next;                      /* where record_take goes on */
-    long last;                      /* of the last line, -1 where there is none */
-    int in_order;                   /* the lines stand in order of the runs, once each */
-    off_t length;
+    struct results file;       /* runs that are to be computed again have no line */
+    char *path;                /* without symbolic links */
+    const char *const *input;  /* [runs] digests of decks of which each may change, whose run is computed again then; NULL: none
+                                  may */
+    long wanted, done, failed; /* of the shard; failed ones are among those done */
+    long next;                 /* where record_take goes on */
     int unsynced;
     double synced; /* on the clock */
 };
@@ -329,7 +361,7 @@ long record_take(struct study_record *record);
 
 /* Appends the line of a run, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
  * before. */
-int record_append(struct study_record *record, long run, const char *line, int failed);
+int record_append(struct study_record *record, long run, const char *line);
 
 /* To the disk, where there is something new and the last time is a second ago; now [s] of the clock, infinity: in any case.
  * ROTID_OK or ROTID_ERROR_IO with errno. */
@@ -337,47 +369,9 @@ int record_sync(struct study_record *record, double now);
 
 /* With every run there: writes the lines in order of the runs to a new file, which takes the place of this one, unless they stand
  * so already. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file is as it was. */
-int record_finish(struct pool *pool, struct study_record *record);
+int record_finish(struct study_record *record);
 
 void record_close(struct study_record *record);
-
-/* --------------------------------------------------------------------------------------------------------------- results */
-
-/* A file of results, read line by line without ever holding more than one. */
-
-struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
-    int descriptor, failed;
-    off_t offset;
-    size_t length;
-    uint64_t input; /* what tells the digest of its deck; 0: none */
-};
-
-struct results {
-    struct study_header header;
-    int shard, shards;          /* of the header */
-    struct result_place *place; /* [header.runs] */
-    size_t most;                /* length of the longest line */
-    long last;                  /* run of the last line, -1 where there is none */
-    int in_order;               /* the lines stand in order of the runs, once each */
-    int lines;                  /* whole ones, with the header */
-    off_t end, size;            /* of the last whole line; of the file, more where its last line is cut */
-};
-
-/* Reads the file. Texts of the header and places go to the pool. ROTID_OK; ROTID_ERROR_SYNTAX where it is something else or a
- * line is wrong, ROTID_ERROR_IO: the list says so; ROTID_ERROR_MEMORY. */
-int results_read(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results);
-/* Writes the file `path` whole: the header and the lines at place [header->runs] in order of the runs, none longer than `most`.
- * ROTID_OK, ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: then nothing is written. */
-int results_write(const char *path, const struct study_header *header, const struct result_place *place, size_t most);
-
-/* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
-const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
-
-/* Whether the line is that of a run that failed. */
-int result_failed(const char *line);
-
-/* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
-int results_fetch(struct result_place place, char *text);
 
 /* ------------------------------------------------------------------------------------------------------------------- run */
 

@@ -4,9 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#include "file/file.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
 #define NO_OBJECTIVE   1e-10 /* exact data leave rounding, which has no relative accuracy */
@@ -322,21 +319,22 @@ static void finish(struct sums *s)
     s->out->missing = s->out->runs - s->out->done;
 }
 
-static int read_all(struct pool *pool, struct message_list *messages, const struct results *file, struct table *runs,
+/* In order of the runs: sums do not depend on who was faster. */
+static int add_runs(struct pool *pool, struct message_list *messages, const struct results *file, struct table *runs,
                     struct study_result *out)
 {
     struct sums sums = {.pool = pool, .out = out};
     char *text = malloc(file->most + 1);
     int status = text ? ROTID_OK : ROTID_ERROR_MEMORY;
-    for (long run = 0; run < file->header.runs && !status; run++) { /* in their order: sums do not depend on who was faster */
-        struct pool own, *of = runs ? pool : &own;                  /* the table keeps its texts */
+    for (long run = 0; run < file->header.runs && !status; run++) {
+        struct pool own, *of = runs ? pool : &own; /* the table keeps its texts */
         struct study_run said;
         out->runs += run % file->shards == file->shard - 1;
         if (!file->place[run].length)
             continue;
         status = results_fetch(file->place[run], text);
         if (status)
-            message_add(messages, SEVERITY_ERROR, out->results, 1, 1, "reading failed: %s", strerror(errno));
+            message_add(messages, SEVERITY_ERROR, file->path, 1, 1, "reading failed: %s", strerror(errno));
         pool_open(&own, NULL);
         if (!status)
             status = results_line_read(of, text, file->place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
@@ -355,21 +353,17 @@ static int read_all(struct pool *pool, struct message_list *messages, const stru
 int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct study_header *header,
                  struct table *runs, struct study_result *out)
 {
-    struct stat about;
     struct results file;
-    int descriptor = file_descriptor(path, &about);
     *out = (struct study_result){.results = path};
-    if (descriptor < 0)
-        return message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s, expected a file of results",
-                              strerror(errno));
-    int status = results_read(pool, descriptor, path, messages, &file);
-    if (!status)
-        status = read_all(pool, messages, &file, runs, out);
-    (void)close(descriptor);
+    int status = results_open(pool, path, messages, &file);
+    if (status)
+        return status;
     *header = file.header;
     out->plan = header->plan;
     out->studies = header->studies;
     out->shard = file.shard;
     out->shards = file.shards;
+    status = add_runs(pool, messages, &file, runs, out);
+    results_close(&file);
     return status;
 }
