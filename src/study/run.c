@@ -102,31 +102,29 @@ enum score score_make(const struct experiment *e, const struct diagnosis *d)
     return d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
 }
 
-/* ---- the line */
+/* ---- the run */
 
-struct line {
+/* A run while it is computed. What the result leans on goes with it. */
+struct work {
+    struct pool pool;
     const struct study *study;
-    long run;
-    struct study_point point;
-    double begin; /* on the clock */
+    const rotid_environment *environment;
+    struct message_list notes;
+    struct experiment experiment;
+    rotid_fit_result *fit; /* of an identification */
+    struct diagnosis diagnosis;
+    struct study_run run; /* the result */
 };
 
-/* What was fitted and, of *RUNNING, computed from it. */
-struct fitted {
-    const struct states *states;  /* with the unknowns of the machine where its run-up was fitted */
-    struct identification *found; /* [states] */
-    rotid_fit_result *fit;        /* of all */
-    rotid_speeds *speeds, *truth; /* NULL without; truth: of the model that made the data */
-};
-
-/* Which run it is. */
-static struct study_run begin(const struct line *line)
+/* Which run it is, with nothing found yet. */
+static struct study_run begin(const struct study *study, long number)
 {
-    const struct plan *plan = line->study->plan;
-    const struct study_cell *cell = &line->point.cell;
+    const struct plan *plan = study->plan;
+    const struct study_point point = study_locate(study, number);
+    const struct study_cell *cell = &point.cell;
     const struct plan_noise *noise = &plan->noise[cell->noise];
     return (struct study_run){
-        .run = (int)line->run,
+        .run = (int)number,
         .cell = {.deck = plan->deck[cell->deck].name,
                  .variant = plan->variant[cell->variant].name,
                  .modes = plan->modes[cell->modes].text,
@@ -134,36 +132,23 @@ static struct study_run begin(const struct line *line)
                  .noise_frequency = plan->has_noise ? noise->frequency : NAN,
                  .noise_shape = plan->has_noise ? noise->shape : NAN,
                  .hide = plan->hide[cell->hide].name},
-        .replicate = (int)line->point.replicate,
-        .start = (int)line->point.start,
+        .replicate = (int)point.replicate,
+        .start = (int)point.start,
         .sensors = ROTID_NONE,
         .score = ROTID_NONE,
         .false_findings = ROTID_NONE,
-        .input = plan->path ? NULL : line->study->deck[cell->deck].digest,
+        .input = plan->path ? NULL : study->deck[cell->deck].digest,
     };
 }
 
-/* The pool, on which parts of the run hang, is closed. whole 0: memory was out. seconds stand last, before the stamp: so two
- * lines can be compared without them. */
-static char *end(struct pool *pool, struct study_run *run, int whole, double seconds)
+/* seconds stand last, before the stamp: so two lines can be compared without them. */
+static char *line_of(struct study_run *run, double seconds)
 {
     struct json_tree tree;
     run->seconds = round(seconds * 1e6) / 1e6;
     json_open(&tree);
     record_write(&tree, tree.root, &study_run_record, run);
-    tree.failed |= !whole;
-    pool_close(pool);
     return json_close_line(&tree);
-}
-
-static char *line_failed(const struct line *line, const char *error, double seconds)
-{
-    struct pool pool;
-    struct study_run run = begin(line);
-    pool_open(&pool, NULL);
-    run.status = STUDY_FAILED;
-    run.error = error;
-    return end(&pool, &run, 1, seconds);
 }
 
 /* What acts in the data and not in the fitted model, with the values drawn for it. */
@@ -172,28 +157,29 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
     const struct effect_parameter_name *parameter;
     struct run_hidden *out = POOL_NEW(pool, struct run_hidden);
     struct correction fault = truth->fault;
-    int n = 0;
-    while (truth_parameter(truth, n))
-        n++;
-    if (!out || !(out->parameters = POOL_ARRAY(pool, struct run_value, n)))
+    if (!out)
         return NULL;
     out->id = truth->cause->id;
-    for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
-        out->parameters[out->nparameters++] = (struct run_value){
-            parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
+    for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
+        const struct run_value value = {parameter->name, parameter->unit,
+                                        truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
+        (void)POOL_ADD(pool, out->parameters, out->nparameters, &value);
+    }
     return out;
 }
 
 /* What a parameter of the fitted model is in truth: one of the experiment, or, in an extended model, one of the hidden effect
- * where that was named; NaN where that is not known. d: NULL of an identification. */
-static double truth_of(const struct experiment *experiment, const struct diagnosis *d, const char *name)
+ * where that was named; NaN where that is not known. */
+static double truth_of(const struct work *w, const char *name)
 {
+    const struct experiment *experiment = &w->experiment;
     const struct truth *truth = experiment->made_by;
+    const struct diagnosis *d = &w->diagnosis;
     const char *dot = strrchr(name, '.');
     for (int p = 0; p < experiment->states.nparameter; p++)
         if (same_text(name, experiment->states.bounds[p].name))
             return experiment->truth[p];
-    for (int i = 0; d && i < d->ncause && dot; i++) {
+    for (int i = 0; i < d->ncause && dot; i++) {
         const struct candidate *c = &d->cause[i];
         size_t length = strlen(c->effect.name);
         if (c->cause != truth->cause || c->effect.variant != truth->effect->variant || !score_is_hidden(experiment, d, c) ||
@@ -206,13 +192,13 @@ static double truth_of(const struct experiment *experiment, const struct diagnos
     return NAN;
 }
 
-/* What was fitted, as `identify` and `diagnose` have it, and what made the data. 0: memory is out. */
-static int add_fit(struct pool *pool, const struct experiment *experiment, const struct diagnosis *d, const struct states *states,
-                   rotid_identification *fit, const struct message_list *notes, struct study_run *run)
+/* What was fitted, as `identify` and `diagnose` have it, and what made the data. */
+static int add_fit(struct work *w, const struct states *states, rotid_identification *fit)
 {
-    const struct truth *made_by = experiment->made_by;
+    const struct truth *made_by = w->experiment.made_by;
+    struct study_run *run = &w->run;
     if (!fit)
-        return 0;
+        return ROTID_ERROR_MEMORY;
     run->fit = fit;
     run->status = !strcmp(fit->status, "not_converged") ? STUDY_NOT_CONVERGED
                   : !strcmp(fit->status, "at_bound")    ? STUDY_AT_BOUND
@@ -220,80 +206,121 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     run->sensors = 0;
     for (int s = 0; s < states->nstate; s++)
         run->sensors += states->state[s].job.rotor.nsensor;
-    if (made_by && !POOL_LIST(pool, run->truth, fit->nparameters) && fit->nparameters)
-        return 0;
-    for (int p = 0; p < fit->nparameters && made_by; p++) {
-        double truth = truth_of(experiment, d, fit->parameters[p].name);
-        if (isfinite(truth))
-            run->truth[run->ntruth++] = (rotid_component){fit->parameters[p].name, truth};
+    if (!made_by)
+        return ROTID_OK;
+    run->truth = POOL_ARRAY(&w->pool, rotid_component, 0); /* where none is known an object without keys */
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_component truth = {fit->parameters[p].name, truth_of(w, fit->parameters[p].name)};
+        if (isfinite(truth.value))
+            (void)POOL_ADD(&w->pool, run->truth, run->ntruth, &truth);
     }
-    if (made_by && made_by->cause && !(run->hidden = hidden(pool, made_by)))
-        return 0;
-    run->warnings = message_warnings(notes, pool, &run->nwarnings);
-    return run->warnings && !pool->out_of_memory;
+    run->hidden = made_by->cause ? hidden(&w->pool, made_by) : NULL;
+    return ROTID_OK;
 }
 
-/* What the machine is in truth beside the values of the parameters. */
-static int add_speeds(struct pool *pool, const struct fitted *fitted, struct study_run *run)
+/* The machine at the values of the fit, and at those that made the data where nothing else acts in these: what its speeds are in
+ * truth. */
+static int add_speeds(struct work *w)
 {
-    run->speeds = fitted->speeds;
-    if (!fitted->truth || !run->truth)
-        return 1;
-    const struct study_run truth = {.speeds = fitted->truth};
-    int count;
-    const rotid_fitted_parameter *value = study_run_values(pool, &truth, &count);
-    rotid_component *all = POOL_ARRAY(pool, rotid_component, run->ntruth + count);
-    if (!value || !all)
-        return 0;
-    memcpy(all, run->truth, (size_t)run->ntruth * sizeof *all);
-    for (int i = 0; i < count; i++)
-        all[run->ntruth++] = (rotid_component){value[i].name, value[i].value};
-    run->truth = all;
-    return 1;
-}
-
-static char *line_identified(const struct line *line, const struct experiment *experiment, const struct fitted *fitted,
-                             const struct message_list *notes)
-{
-    const struct states *states = fitted->states;
-    struct pool pool;
-    struct study_run run = begin(line);
-    pool_open(&pool, NULL);
-    rotid_identification *said = states->nstate > 1
-                                     ? result_identification_states(&pool, states, fitted->found, fitted->fit)
-                                     : result_identification(&pool, &states->state->job, states->bounds, fitted->found);
-    int whole = add_fit(&pool, experiment, NULL, states, said, notes, &run) && add_speeds(&pool, fitted, &run);
-    if (whole && !(line->study->plan->spread > 0)) /* the way from each start is what such a plan is about */
-        said->history = NULL;
-    if (whole && !line->study->plan->baseline)
-        said->baseline = NULL;
-    return end(&pool, &run, whole, clock_seconds() - line->begin);
-}
-
-static char *line_diagnosed(const struct line *line, const struct experiment *experiment, struct diagnosis *d,
-                            const struct message_list *notes)
-{
-    const struct states *final = d->extended.fit ? &d->extended_states : &d->judged;
-    struct pool pool;
-    struct study_run run = begin(line);
-    pool_open(&pool, NULL);
-    run.diagnosis = result_diagnosis(&pool, d->given.nstate ? &d->given : &experiment->states, d);
-    rotid_identification *fit = run.diagnosis->extended ? run.diagnosis->extended : run.diagnosis->base;
-    int whole = add_fit(&pool, experiment, d, final, fit, notes, &run);
-    if (whole) {
-        fit->history = NULL;
-        fit->baseline = NULL;
-        run.score = experiment->made_by ? (int)score_make(experiment, d) : ROTID_NONE;
-        run.false_findings = experiment->made_by ? score_false_findings(experiment, d) : ROTID_NONE;
+    const struct experiment *experiment = &w->experiment;
+    const struct states *states = &experiment->states;
+    const struct machine *machine = states->machine;
+    const struct job *job = experiment->job;
+    struct speeds_options options = {
+        .count = SPEEDS_COUNT, .harmonic = 1, .draws = w->study->plan->draws, .seed = w->study->seed, .threads = 1};
+    rotid_fit_result own;
+    int n = machine_unknowns(machine, job), known = experiment->made_by != NULL, count = 0;
+    double *x = POOL_ARRAY(&w->pool, double, n);
+    rotid_speeds *truth = POOL_NEW(&w->pool, rotid_speeds);
+    int status = machine_fit(&w->pool, states, w->fit, &own);
+    w->run.speeds = POOL_NEW(&w->pool, rotid_speeds);
+    if (status || !x || !truth || !w->run.speeds)
+        return status ? status : ROTID_ERROR_MEMORY;
+    status = speeds_run(&w->pool, machine, job, own.x, &own, &options, w->environment, &w->notes, w->run.speeds);
+    for (int p = 0; p < n; p++) {
+        x[p] = p < job->unknowns.nparameter && experiment->truth ? experiment->truth[state_unknown(&states->state[0], p)]
+                                                                 : machine_bounds(machine, job, p)->start;
+        known = known && isfinite(x[p]) && !experiment->made_by->effect;
     }
-    return end(&pool, &run, whole, clock_seconds() - line->begin);
+    if (status || !known)
+        return status;
+    options.draws = 0;
+    status = speeds_run(&w->pool, machine, job, x, NULL, &options, w->environment, &w->notes, truth);
+    const struct study_run of_truth = {.speeds = truth};
+    const rotid_fitted_parameter *value = status ? NULL : study_run_values(&w->pool, &of_truth, &count);
+    for (int i = 0; value && i < count; i++) {
+        const rotid_component speed = {value[i].name, value[i].value};
+        (void)POOL_ADD(&w->pool, w->run.truth, w->run.ntruth, &speed);
+    }
+    return status;
 }
 
-/* ---- the run */
-
-static int is_cancelled(const rotid_environment *environment)
+static int identify(struct work *w)
 {
-    return environment && environment->cancelled && environment->cancelled(environment->context);
+    const struct plan *plan = w->study->plan;
+    const struct states *states = &w->experiment.states;
+    struct states joined = *states; /* with the run-up where that was measured: a model makes none */
+    struct identification *found = POOL_ARRAY(&w->pool, struct identification, states->nstate);
+    struct runup *runup = NULL;
+    int status = found ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (plan->command == PLAN_SPEEDS && !states->machine)
+        return message_refuse(&w->notes, ROTID_ERROR_ARGUMENT, NULL, 0, 0,
+                              "the deck has no *RUNNING, expected the machine in operation behind it");
+    if (!status && !plan->from_model)
+        status = runup_join(&w->pool, states, &w->notes, &joined, &runup);
+    if (!status)
+        status = identify_states(&w->pool, &joined, IDENTIFY_BARE | (plan->baseline ? IDENTIFY_BASELINE : 0), w->environment,
+                                 &w->notes, found, &w->fit);
+    if (runup_close(runup))
+        status = ROTID_ERROR_MEMORY;
+    if (!status && w->fit->status == ROTID_STOP_CANCELLED)
+        status = ROTID_STOP_CANCELLED;
+    if (!status)
+        status = add_fit(w, &joined,
+                         joined.nstate > 1 ? result_identification_states(&w->pool, &joined, found, w->fit)
+                                           : result_identification(&w->pool, &joined.state->job, joined.bounds, found));
+    if (!status && !(plan->spread > 0)) /* the way from each start is what such a plan is about */
+        w->run.fit->history = NULL;
+    if (!status && !plan->baseline)
+        w->run.fit->baseline = NULL;
+    return status || plan->command != PLAN_SPEEDS ? status : add_speeds(w);
+}
+
+static int diagnose(struct work *w)
+{
+    const struct diagnose_options options = {.threads = 1, .seed = w->study->seed, .replicates = w->study->plan->bootstrap};
+    struct diagnosis *d = &w->diagnosis;
+    struct states states = w->experiment.states;
+    if (w->study->plan->from_model) /* which makes no run-up */
+        states.machine = NULL;
+    int status = diagnose_states(&w->pool, &states, &options, w->environment, &w->notes, d);
+    if (status || d->result.interrupted)
+        return status ? status : ROTID_STOP_CANCELLED;
+    w->run.diagnosis = result_diagnosis(&w->pool, d->given.nstate ? &d->given : &w->experiment.states, d);
+    status = add_fit(w, d->extended.fit ? &d->extended_states : &d->judged,
+                     w->run.diagnosis->extended ? w->run.diagnosis->extended : w->run.diagnosis->base);
+    if (status)
+        return status;
+    w->run.fit->history = NULL;
+    w->run.fit->baseline = NULL;
+    if (w->experiment.made_by) {
+        w->run.score = (int)score_make(&w->experiment, d);
+        w->run.false_findings = score_false_findings(&w->experiment, d);
+    }
+    return ROTID_OK;
+}
+
+static int compute(struct work *w, struct jobs *jobs, long number)
+{
+    const struct study_point point = study_locate(w->study, number);
+    int status = experiment_make(&w->pool, jobs, &point, &w->notes, &w->experiment);
+    if (!status)
+        status = w->study->plan->command == PLAN_DIAGNOSE ? diagnose(w) : identify(w);
+    if (w->environment && w->environment->cancelled && w->environment->cancelled(w->environment->context))
+        return ROTID_STOP_CANCELLED; /* what came behind the last look at it may be incomplete */
+    if (!status)
+        w->run.warnings = message_warnings(&w->notes, &w->pool, &w->run.nwarnings);
+    return !status && w->pool.out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 /* Why a run failed, in one line: the errors that say something of their own, else what the status says. */
@@ -311,121 +338,29 @@ static const char *reason(struct pool *pool, int status, const struct message_li
     return text ? text : rotid_status_text(status);
 }
 
-/* The machine at the values of the fit, and at those that made the data where nothing else acts in these. */
-static int compute_speeds(struct pool *pool, const struct study *study, const struct experiment *experiment,
-                          const rotid_environment *environment, struct message_list *notes, struct fitted *fitted)
+int study_run(struct jobs *jobs, long run, const rotid_environment *environment, char **line)
 {
-    const struct states *states = &experiment->states;
-    const struct machine *machine = states->machine;
-    const struct job *job = experiment->job;
-    struct speeds_options options = {
-        .count = SPEEDS_COUNT, .harmonic = 1, .draws = study->plan->draws, .seed = study->seed, .threads = 1};
-    rotid_fit_result own;
-    int n = job->unknowns.nparameter, status = machine_fit(pool, states, fitted->fit, &own), known = experiment->made_by != NULL;
-    double *x = POOL_ARRAY(pool, double, machine_unknowns(machine, job));
-    fitted->speeds = POOL_NEW(pool, rotid_speeds);
-    rotid_speeds *truth = POOL_NEW(pool, rotid_speeds);
-    if (status || !x || !fitted->speeds || !truth)
-        return status ? status : ROTID_ERROR_MEMORY;
-    status = speeds_run(pool, machine, job, own.x, &own, &options, environment, notes, fitted->speeds);
-    for (int p = 0; p < machine_unknowns(machine, job); p++) {
-        x[p] = p < n && experiment->truth ? experiment->truth[state_unknown(&states->state[0], p)]
-                                          : machine_bounds(machine, job, p)->start;
-        known = known && isfinite(x[p]) && !experiment->made_by->effect;
-    }
-    options.draws = 0;
-    if (!status && known) {
-        fitted->truth = truth;
-        status = speeds_run(pool, machine, job, x, NULL, &options, environment, notes, truth);
-    }
-    return status;
-}
-
-static char *identify(struct pool *pool, const struct study *study, const struct line *line, struct experiment *experiment,
-                      const rotid_environment *environment, struct message_list *notes, int *status)
-{
-    const struct states *states = &experiment->states;
-    struct states joined = *states; /* with the run-up where that was measured: a model makes none */
-    struct fitted fitted = {.states = &joined, .found = POOL_ARRAY(pool, struct identification, states->nstate)};
-    struct runup *runup = NULL;
-    char *text = NULL;
-    *status = fitted.found ? ROTID_OK : ROTID_ERROR_MEMORY;
-    if (study->plan->command == PLAN_SPEEDS && !states->machine) {
-        message_add(notes, SEVERITY_ERROR, NULL, 0, 0, "the deck has no *RUNNING, expected the machine in operation behind it");
-        *status = ROTID_ERROR_ARGUMENT;
-    }
-    if (!*status && !study->plan->from_model)
-        *status = runup_join(pool, states, notes, &joined, &runup);
-    if (!*status)
-        *status = identify_states(pool, &joined, IDENTIFY_BARE | (study->plan->baseline ? IDENTIFY_BASELINE : 0), environment,
-                                  notes, fitted.found, &fitted.fit);
-    if (runup_close(runup))
-        *status = ROTID_ERROR_MEMORY;
-    if (!*status && fitted.fit->status != ROTID_STOP_CANCELLED && study->plan->command == PLAN_SPEEDS)
-        *status = compute_speeds(pool, study, experiment, environment, notes, &fitted);
-    if (!*status && fitted.fit->status == ROTID_STOP_CANCELLED)
-        *status = ROTID_STOP_CANCELLED;
-    if (!*status)
-        text = line_identified(line, experiment, &fitted, notes);
-    rotid_fit_free(fitted.fit);
-    return text;
-}
-
-static char *diagnose(struct pool *pool, const struct study *study, const struct line *line, struct experiment *experiment,
-                      const rotid_environment *environment, struct message_list *notes, int *status)
-{
-    const struct diagnose_options options = {.threads = 1, .seed = study->seed, .replicates = study->plan->bootstrap};
-    struct diagnosis result;
-    struct states states = experiment->states;
-    char *text = NULL;
-    if (study->plan->from_model) /* which makes no run-up */
-        states.machine = NULL;
-    *status = diagnose_states(pool, &states, &options, environment, notes, &result);
-    if (*status)
-        return NULL;
-    if (result.result.interrupted)
-        *status = ROTID_STOP_CANCELLED;
-    else
-        text = line_diagnosed(line, experiment, &result, notes);
-    diagnose_free(&result);
-    return text;
-}
-
-int study_run(struct jobs *jobs, long run, const rotid_environment *environment, char **text)
-{
-    const struct study *study = jobs->study;
-    const struct study_point point = study_locate(study, run);
-    const struct line line = {study, run, point, clock_seconds()};
-    const char *error = study->deck[point.cell.deck].error;
-    struct pool pool;
-    struct message_list notes;
-    struct experiment experiment;
-    int status = ROTID_OK;
-    *text = NULL;
-    pool_open(&pool, NULL);
-    message_open(&notes, &pool);
-    if (!error) {
-        status = experiment_make(&pool, jobs, &point, &notes, &experiment);
-        if (!status)
-            *text = (study->plan->command == PLAN_DIAGNOSE ? diagnose : identify)(&pool, study, &line, &experiment, environment,
-                                                                                  &notes, &status);
-        if (is_cancelled(environment)) /* what came behind the last look at it may be incomplete */
-            status = ROTID_STOP_CANCELLED;
-        error = status < 0 ? reason(&pool, status, &notes) : NULL;
-    }
-    if (status == ROTID_STOP_CANCELLED) {
-        json_free(*text);
-        *text = NULL;
-    } else if (error) {
-        *text = line_failed(&line, error, clock_seconds() - line.begin);
-        status = ROTID_OK;
-    }
-    pool_close(&pool);
-    return status == ROTID_STOP_CANCELLED || *text ? status : ROTID_ERROR_MEMORY;
+    const double begun = clock_seconds();
+    struct work w = {.study = jobs->study, .environment = environment, .run = begin(jobs->study, run)};
+    const char *error = w.study->deck[study_locate(w.study, run).cell.deck].error;
+    pool_open(&w.pool, NULL);
+    message_open(&w.notes, &w.pool);
+    int status = error ? ROTID_OK : compute(&w, jobs, run);
+    if (status < 0)
+        error = reason(&w.pool, status, &w.notes);
+    *line = status == ROTID_STOP_CANCELLED ? NULL
+            : error                        ? study_run_failed(w.study, run, error, clock_seconds() - begun)
+                                           : line_of(&w.run, clock_seconds() - begun);
+    rotid_fit_free(w.fit);
+    diagnose_free(&w.diagnosis);
+    pool_close(&w.pool);
+    return status == ROTID_STOP_CANCELLED ? status : *line ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 char *study_run_failed(const struct study *study, long run, const char *error, double seconds)
 {
-    const struct line line = {study, run, study_locate(study, run), 0};
-    return line_failed(&line, error, seconds);
+    struct study_run failed = begin(study, run);
+    failed.status = STUDY_FAILED;
+    failed.error = error;
+    return line_of(&failed, seconds);
 }
