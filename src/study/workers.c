@@ -1,6 +1,5 @@
 /* Runs of a study in processes of this machine: the worker, a process that reads numbers of runs from its socket and writes back
- * the length and the text of a line each; and the crew, which hands out the runs, keeps the lines and replaces workers that die.
- */
+ * a line each; and the crew, which hands out the runs, keeps the lines and replaces workers that die. */
 #include "study/study.h"
 
 #include <errno.h>
@@ -21,161 +20,60 @@
 #define DIED_WITHIN      3   /* workers in a row that ended before they took a run: it is not the runs that kill them */
 #define WORKER_NO_MEMORY 3   /* exit code of a process that had no room for its line */
 
-/* ---- a worker, seen from the process that hands out the runs */
+/* ---- a worker */
 
 struct worker {
     pid_t process; /* 0: there is none */
-    int socket;
-    long run;     /* under way, -1: none */
-    double begun; /* on the clock */
-    char *answer; /* [room] the bytes that have arrived: its length, then the line */
-    size_t count, room;
+    FILE *answers; /* of its socket, by whose other end it is asked as well; one line for each run that it was given */
+    long run;      /* under way, -1: none */
+    double begun;  /* on the clock */
+    char *line;    /* [room] its last answer */
+    size_t room;
 };
 
-struct worker_stop {
-    int (*cancelled)(void *context);
-    void *context;
-};
-
+/* Of the options of the crew. */
 static int is_told_to_stop(void *context)
 {
-    const struct worker_stop *stop = context;
-    return stop->cancelled && stop->cancelled(stop->context);
+    const struct workers_options *options = context;
+    return options->cancelled && options->cancelled(options->context);
 }
 
-/* All bytes, or nonzero where the other side is gone or the work is to stop. */
-static int give(int socket, const void *bytes, size_t count)
+/* The next run. 0 where there is none any more, or the work is to stop. */
+static int take(int socket, struct workers_options *options, long *run)
 {
-    const char *from = bytes;
-    while (count) {
-        ssize_t sent = send(socket, from, count, MSG_NOSIGNAL);
-        if (sent < 0 && errno != EINTR)
-            return 1;
-        from += sent > 0 ? sent : 0;
-        count -= sent > 0 ? (size_t)sent : 0;
-    }
-    return 0;
+    ssize_t got;
+    do
+        got = recv(socket, run, sizeof *run, MSG_WAITALL);
+    while (got < 0 && errno == EINTR && !is_told_to_stop(options));
+    return got == sizeof *run && !is_told_to_stop(options);
 }
 
-static int take(int socket, void *bytes, size_t count, struct worker_stop *stop)
+/* The worker itself: until there is nothing to do any more, or it is stopped. Its exit code. */
+static int work(const struct study *study, int socket, struct workers_options *options)
 {
-    char *to = bytes;
-    while (count) {
-        ssize_t got = recv(socket, to, count, 0);
-        if (got == 0 || (got < 0 && errno != EINTR) || is_told_to_stop(stop))
-            return 1;
-        to += got > 0 ? got : 0;
-        count -= got > 0 ? (size_t)got : 0;
-    }
-    return 0;
-}
-
-/* The worker itself: until there is nothing to read any more, or it is stopped. Its exit code. */
-static int work(const struct study *study, int socket, struct worker_stop *stop)
-{
-    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_told_to_stop, .context = stop};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_told_to_stop, .context = options};
+    FILE *answers = fdopen(socket, "w");
     struct jobs jobs;
-    int64_t run;
-    int status = ROTID_OK;
+    long run;
+    int status = answers ? ROTID_OK : ROTID_ERROR_MEMORY;
     jobs_open(study, &jobs);
-    while (!take(socket, &run, sizeof run, stop)) {
+    while (!status && take(socket, options, &run)) {
         char *line = NULL;
-        status = study_run(&jobs, (long)run, &environment, &line);
-        if (status)
-            break;
-        uint64_t length = strlen(line);
-        int gone = give(socket, &length, sizeof length) || give(socket, line, length);
+        status = study_run(&jobs, run, &environment, &line);
+        if (!status && (fputs(line, answers) < 0 || fflush(answers)))
+            status = ROTID_STOP_CANCELLED; /* nobody listens */
         json_free(line);
-        if (gone)
-            break;
     }
     jobs_close(&jobs);
     return status < 0 ? WORKER_NO_MEMORY : 0;
 }
 
-/* Starts a process; others [nothers] are the workers there are, whose sockets it must not keep open. ROTID_OK, or ROTID_ERROR_IO
- * with errno. */
-static int worker_start(const struct study *study, int (*cancelled)(void *context), void *context, int nothers,
-                        const struct worker *others, struct worker *worker)
-{
-    struct worker_stop stop = {cancelled, context};
-    int pair[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
-        return ROTID_ERROR_IO;
-    const pid_t parent = getpid(), process = fork();
-    (void)parent;
-    if (process == 0) {
-#ifdef __linux__ /* whatever it is doing then, nobody would hear of it */
-        if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent)
-            _exit(0);
-#endif
-        /* the others see the end of this program only when nobody but it holds the other end of their sockets */
-        for (int i = 0; i < nothers; i++)
-            if (others[i].process)
-                (void)close(others[i].socket);
-        (void)close(pair[0]);
-        _exit(work(study, pair[1], &stop)); /* what the parent has in its buffers is the parent's to write */
-    }
-    int reason = errno;
-    (void)close(pair[1]);
-    if (process < 0) {
-        (void)close(pair[0]);
-        errno = reason;
-        return ROTID_ERROR_IO;
-    }
-    char *answer = worker->answer; /* of the one before it */
-    size_t room = worker->room;
-    *worker = (struct worker){.process = process, .socket = pair[0], .run = -1, .answer = answer, .room = room};
-    return ROTID_OK;
-}
-
-/* Hands out a run. ROTID_OK, or ROTID_ERROR_IO where the process is gone. */
-static int worker_give(struct worker *worker, long run)
-{
-    int64_t number = run;
-    worker->run = run;
-    worker->begun = clock_seconds();
-    worker->count = 0;
-    return give(worker->socket, &number, sizeof number) ? ROTID_ERROR_IO : ROTID_OK;
-}
-
-/* Takes what has arrived. 1: the answer is whole, its line in *line until the next call and the run no longer under way; 0: not
- * yet; ROTID_ERROR_IO: the process is gone; ROTID_ERROR_MEMORY. */
-static int worker_take(struct worker *worker, const char **line)
-{
-    const size_t block = 65536;
-    uint64_t length;
-    if (worker->room < worker->count + block + 1) {
-        char *larger = realloc(worker->answer, 2 * worker->room + block + 1);
-        if (!larger)
-            return ROTID_ERROR_MEMORY;
-        worker->answer = larger;
-        worker->room = 2 * worker->room + block + 1;
-    }
-    ssize_t got = recv(worker->socket, worker->answer + worker->count, block, MSG_DONTWAIT);
-    if (got < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK))
-        return 0;
-    if (got <= 0)
-        return ROTID_ERROR_IO;
-    worker->count += (size_t)got;
-    if (worker->count < sizeof length)
-        return 0;
-    memcpy(&length, worker->answer, sizeof length);
-    if (worker->count < sizeof length + length)
-        return 0;
-    worker->answer[sizeof length + length] = 0;
-    *line = worker->answer + sizeof length;
-    worker->run = -1;
-    worker->count = 0;
-    return 1;
-}
-
 /* Tells it to end: at once with the signal, 0: when it reads on. */
-static void worker_tell(struct worker *worker, int signal_number)
+static void worker_tell(const struct worker *worker, int signal_number)
 {
     if (signal_number)
         (void)kill(worker->process, signal_number);
-    (void)shutdown(worker->socket, SHUT_WR);
+    (void)shutdown(fileno(worker->answers), SHUT_WR);
 }
 
 /* Waits until it has ended and forgets it; returns what waitpid says. */
@@ -184,7 +82,7 @@ static int worker_end(struct worker *worker)
     int status = 0;
     while (waitpid(worker->process, &status, 0) < 0 && errno == EINTR)
         ;
-    (void)close(worker->socket);
+    (void)fclose(worker->answers);
     worker->process = 0;
     worker->run = -1;
     return status;
@@ -207,7 +105,47 @@ struct crew {
 
 static int is_stopped(const struct crew *crew)
 {
-    return crew->options->cancelled && crew->options->cancelled(crew->options->context);
+    struct workers_options options = *crew->options;
+    return is_told_to_stop(&options);
+}
+
+/* Starts a process. ROTID_OK, or ROTID_ERROR_IO with errno. */
+static int worker_start(const struct crew *crew, struct worker *worker)
+{
+    struct workers_options options = *crew->options;
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
+        return ROTID_ERROR_IO;
+    const pid_t parent = getpid();
+    FILE *answers = fdopen(pair[0], "r");
+    const pid_t process = answers ? fork() : -1;
+    (void)parent;
+    if (process == 0) {
+#ifdef __linux__ /* whatever it is doing then, nobody would hear of it */
+        if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent)
+            _exit(0);
+#endif
+        /* the others see the end of this program only when nobody but it holds the other end of their sockets */
+        for (int i = 0; i < crew->count; i++)
+            if (crew->worker[i].process)
+                (void)close(fileno(crew->worker[i].answers));
+        (void)close(pair[0]);
+        _exit(work(crew->study, pair[1], &options)); /* what the parent has in its buffers is the parent's to write */
+    }
+    int reason = errno;
+    (void)close(pair[1]);
+    if (process < 0) {
+        if (answers)
+            (void)fclose(answers);
+        else
+            (void)close(pair[0]);
+        errno = reason;
+        return ROTID_ERROR_IO;
+    }
+    worker->process = process;
+    worker->answers = answers;
+    worker->run = -1;
+    return ROTID_OK;
 }
 
 static void show(struct crew *crew, double now)
@@ -269,8 +207,7 @@ static int employ(struct crew *crew, long *ready)
             return ROTID_OK;
         if (worker->process && worker->run >= 0)
             continue;
-        if (!worker->process &&
-            worker_start(crew->study, crew->options->cancelled, crew->options->context, crew->count, crew->worker, worker)) {
+        if (!worker->process && worker_start(crew, worker)) {
             int any = 0, reason = errno;
             for (int w = 0; w < crew->count; w++)
                 any |= crew->worker[w].process != 0;
@@ -279,31 +216,34 @@ static int employ(struct crew *crew, long *ready)
                 return ROTID_ERROR_IO;
             continue; /* the others go on */
         }
-        if (worker_give(worker, *ready)) { /* it is gone and never took the run */
-            worker->run = -1;
-            (void)bury(crew, worker, NULL);
+        worker->begun = clock_seconds();
+        if (send(fileno(worker->answers), ready, sizeof *ready, MSG_NOSIGNAL) != sizeof *ready) {
+            (void)bury(crew, worker, NULL); /* it is gone and never took the run */
             if (crew->unable >= DIED_WITHIN) {
                 errno = ECHILD;
                 return ROTID_ERROR_IO;
             }
             continue;
         }
+        worker->run = *ready;
         *ready = -1;
     }
     return ROTID_OK;
 }
 
-/* Everything that has arrived, from workers that are gone as well. */
+/* Takes the answer that has begun to arrive, which a worker writes at once: its line, or its end. */
 static int listen_to(struct crew *crew, struct worker *worker)
 {
-    const char *line;
     long run = worker->run;
-    int took = worker_take(worker, &line);
-    if (took == 1) {
+    ssize_t length = getline(&worker->line, &worker->room, worker->answers);
+    if (length > 0 && worker->line[length - 1] == '\n') {
+        worker->run = -1;
         crew->unable = 0;
-        return keep(crew, run, line);
+        return keep(crew, run, worker->line);
     }
-    return took == ROTID_ERROR_IO ? bury(crew, worker, NULL) : took;
+    if (ferror(worker->answers)) /* by a signal to this program: what was read of the line is lost */
+        worker_tell(worker, SIGKILL);
+    return bury(crew, worker, NULL);
 }
 
 static int wait_for_answers(struct crew *crew)
@@ -312,7 +252,7 @@ static int wait_for_answers(struct crew *crew)
     int count = 0, status = ROTID_OK;
     for (int i = 0; i < crew->count; i++)
         if (crew->worker[i].process)
-            crew->poll[count++] = (struct pollfd){.fd = crew->worker[i].socket, .events = POLLIN};
+            crew->poll[count++] = (struct pollfd){.fd = fileno(crew->worker[i].answers), .events = POLLIN};
     if (poll(crew->poll, (nfds_t)count, (int)ceil(1000 * tick)) <= 0)
         return ROTID_OK; /* a signal, too: who waits will see */
     for (int i = 0, p = 0; i < crew->count && !status; i++)
@@ -385,7 +325,7 @@ static int dismiss(struct crew *crew, int status)
             worker_tell(&crew->worker[i], SIGKILL);
         if (crew->worker[i].process)
             (void)worker_end(&crew->worker[i]);
-        free(crew->worker[i].answer);
+        free(crew->worker[i].line);
     }
     errno = reason;
     return status;
