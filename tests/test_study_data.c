@@ -121,7 +121,7 @@ POOL_TEST(hidden_effects_do_what_exact_dynamics_says)
             const struct states *states;
             jobs_open(&other, &others);
             const struct study_point point = study_locate(&other, 0);
-            assert_status(jobs_fitted(&others, &point.cell, &states), ROTID_OK);
+            assert_status(jobs_fitted(&others, &point.cell, &messages, &states), ROTID_OK);
             const struct job *job = &states->state[0].job;
             for (int k = 0; k < job->measurement.nmode; k++) {
                 double across = 0, square = 0;

@@ -123,15 +123,15 @@ POOL_TEST(axes_multiply)
                starts = 25; /* neither variant changes the number of parameters: TIE takes G, which is free in none */
     assert_int_equal(study.runs, 2 * 2 * cells * 4 * starts);
     struct study_point before = study_locate(&study, 0);
-    assert_true(!before.start && !before.replicate && !before.cell.deck);
+    assert_true(!before.start && !before.replicate && !before.cell.at[AXIS_DECK]);
     for (long run = 1; run < study.runs; run++) { /* one number after the other, as an odometer does */
         struct study_point now = study_locate(&study, run), next = before;
         if (++next.start == starts) {
             next.start = 0;
             next.replicate++;
         }
-        int *const digit[] = {&next.cell.hide,  &next.cell.noise,   &next.cell.sensors,
-                              &next.cell.modes, &next.cell.variant, &next.cell.deck};
+        int *const digit[] = {&next.cell.at[AXIS_HIDE],  &next.cell.at[AXIS_NOISE],   &next.cell.at[AXIS_SENSORS],
+                              &next.cell.at[AXIS_MODES], &next.cell.at[AXIS_VARIANT], &next.cell.at[AXIS_DECK]};
         const int most[] = {2, 3, 2, 3, 2, 2};
         if (next.replicate == 4) {
             next.replicate = 0;
@@ -157,8 +157,8 @@ POOL_TEST(grids_follow_the_parameters_of_a_variant)
             &messages, &study),
         ROTID_OK);
     assert_int_equal(study.runs, 49 + 7);
-    assert_int_equal(study_locate(&study, 48).cell.variant, 0);
-    assert_int_equal(study_locate(&study, 49).cell.variant, 1);
+    assert_int_equal(study_locate(&study, 48).cell.at[AXIS_VARIANT], 0);
+    assert_int_equal(study_locate(&study, 49).cell.at[AXIS_VARIANT], 1);
     complains("*STUDY, REPLICATES=10000000\n*DECKS\nmoduli.inp\n*STARTS, SPREAD=0.7, GRID=7\n", 1, 1, "more than 10000000 runs");
 }
 

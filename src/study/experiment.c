@@ -85,7 +85,7 @@ static double stated(int from_model, double std, double level)
 static void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, int s,
                              struct job *job)
 {
-    const struct plan_noise *noise = &study->plan->noise[point->cell.noise];
+    const struct plan_item *noise = plan_at(study->plan, &point->cell, AXIS_NOISE);
     int from_model = truth != NULL, nsensor = job->rotor.nsensor;
     if (noise->frequency > 0 || noise->shape > 0) /* frequencies at single sensors would contradict the rest */
         job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
@@ -147,7 +147,7 @@ static int must_stay(const struct job *job, const struct truth *truth, int s)
 static int choose(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
                   const struct job *job, char *keep)
 {
-    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
+    const struct plan_item *sensors = plan_at(study->plan, &point->cell, AXIS_SENSORS);
     int nsensor = job->rotor.nsensor;
     struct choice *choice = POOL_ARRAY(pool, struct choice, nsensor);
     if (!choice)
@@ -203,7 +203,7 @@ static void leave_rows(int n, int nmode, const char *keep, double *matrix)
 static int experiment_sensors(struct pool *pool, const struct study *study, const struct study_point *point,
                               const struct truth *truth, struct job *job)
 {
-    const struct plan_sensors *sensors = &study->plan->sensors[point->cell.sensors];
+    const struct plan_item *sensors = plan_at(study->plan, &point->cell, AXIS_SENSORS);
     int n = job->rotor.nsensor, left = 0;
     if (!n || !(sensors->keep || sensors->every))
         return ROTID_OK;
@@ -452,7 +452,7 @@ static double true_value(struct rotor *rotor, const char *names)
 }
 
 /* Room for shapes where the deck has sensors and the plan a noise of shapes. */
-static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct job *job)
+static int add_shapes(struct pool *pool, const struct plan_item *noise, struct job *job)
 {
     size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
     if (job->measurement.shape || !job->rotor.nsensor || isnan(noise->shape))
@@ -470,7 +470,7 @@ static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct 
 static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
 {
     int status = data_copy(pool, job);
-    if (!status && plan->no_shapes) {
+    if (!status && !plan->shapes) {
         job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
             job->measurement.point_frequency_std = NULL;
         job->measurement.ncorrection = 0;
@@ -498,24 +498,14 @@ static int own_states(struct pool *pool, const struct plan *plan, const struct s
     return status;
 }
 
-static void repeat(const struct message_list *from, struct message_list *to)
-{
-    for (size_t i = 0; i < from->count; i++) {
-        const rotid_message *m = &from->item[i];
-        message_add(to, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
-    }
-}
-
 static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                       struct experiment *out)
 {
     const struct plan *plan = jobs->study->plan;
     struct truth *truth;
-    int status = jobs_truth(jobs, &point->cell, &truth);
-    if (status) {
-        repeat(&jobs->truth_messages, messages);
+    int status = jobs_truth(jobs, &point->cell, messages, &truth);
+    if (status)
         return status;
-    }
     out->made_by = truth;
     out->truth = POOL_ARRAY(pool, double, out->states.nparameter);
     if (!out->truth)
@@ -523,8 +513,8 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
     for (int s = 0; s < out->states.nstate && !status; s++) {
         const struct state *state = &out->states.state[s];
         struct job *job = &out->states.state[s].job;
-        if (!plan->no_shapes)
-            status = add_shapes(pool, &plan->noise[point->cell.noise], job);
+        if (plan->shapes)
+            status = add_shapes(pool, plan_at(plan, &point->cell, AXIS_NOISE), job);
         if (!status)
             status = experiment_model(pool, jobs->study, point->replicate, &truth[s], messages, job);
         for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
@@ -567,12 +557,9 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
     const struct study *study = jobs->study;
     const struct states *fitted;
     *out = (struct experiment){0};
-    int status = jobs_fitted(jobs, &point->cell, &fitted);
-    if (status) {
-        repeat(&jobs->fitted_messages, messages);
-        return status;
-    }
-    status = own_states(pool, study->plan, fitted, &out->states);
+    int status = jobs_fitted(jobs, &point->cell, messages, &fitted);
+    if (!status)
+        status = own_states(pool, study->plan, fitted, &out->states);
     if (!status && study->plan->from_model)
         status = from_model(pool, jobs, point, messages, out);
     if (status)

@@ -1,41 +1,34 @@
+/* The jobs behind a run: a deck is read with what its cell changes in it, as overrides, and with what the plan hides, as a card.
+ */
 #include "study/study.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The overrides of a cell, the user's first: what the plan varies it varies. */
-static struct override *overrides(struct pool *pool, const struct study *study, const struct study_cell *cell, int noise,
-                                  int *count)
+/* The overrides of a cell with the noise that the deck is to state, the user's first: what the plan varies it varies. NULL where
+ * memory is out. */
+static struct override *overrides(struct pool *pool, const struct study *study, const struct study_cell *cell,
+                                  const struct plan_item *noise, int *count)
 {
-    const struct plan *plan = study->plan;
-    const struct plan_variant *variant = cell ? &plan->variant[cell->variant] : NULL;
-    const struct plan_modes *modes = cell ? &plan->modes[cell->modes] : NULL;
-    struct override *list = POOL_ARRAY(pool, struct override, study->noverride + (variant ? variant->noverride : 0) + 4);
+    const struct plan_item *variant = plan_at(study->plan, cell, AXIS_VARIANT), *modes = plan_at(study->plan, cell, AXIS_MODES);
+    const double stated[] = {noise ? noise->frequency : 0, noise ? noise->shape : 0};
+    static const char *const blocks[] = {"FREQUENCY", "SHAPE"};
+    struct override *list = POOL_COPY(pool, study->override, study->noverride, variant->noverride + 4);
     *count = study->noverride;
     if (!list)
         return NULL;
-    if (study->noverride)
-        memcpy(list, study->override, (size_t)study->noverride * sizeof *list);
-    for (int i = 0; variant && i < variant->noverride; i++)
+    for (int i = 0; i < variant->noverride; i++)
         list[(*count)++] = variant->override[i];
-    if (modes && modes->text)
-        list[(*count)++] = (struct override){"FIT", "MODES", modes->text, modes->text, NULL};
-    if (noise >= 0) {
-        const struct plan_noise *stated = &plan->noise[noise];
-        if (stated->frequency > 0)
-            list[(*count)++] =
-                (struct override){"NOISE", "FREQUENCY", pool_format(pool, "%.17g", stated->frequency), "noise", NULL};
-        if (stated->shape > 0)
-            list[(*count)++] = (struct override){"NOISE", "SHAPE", pool_format(pool, "%.17g", stated->shape), "noise", NULL};
-    }
-    for (int i = 0; i < *count; i++)
-        if (!list[i].value)
-            return NULL;
-    return list;
+    if (modes->name)
+        list[(*count)++] = (struct override){"FIT", "MODES", modes->name, modes->name, NULL};
+    for (int i = 0; i < 2; i++)
+        if (stated[i] > 0)
+            list[(*count)++] = (struct override){"NOISE", blocks[i], pool_format(pool, "%.17g", stated[i]), "noise", NULL};
+    return pool->out_of_memory ? NULL : list;
 }
 
 /* Whether data with this noise need it stated to the deck, whose functional follows what is known. */
-static int lacks_noise(const struct states *states, const struct plan_noise *noise)
+static int lacks_noise(const struct states *states, const struct plan_item *noise)
 {
     int lacks = 0;
     for (int s = 0; s < states->nstate; s++) {
@@ -46,43 +39,35 @@ static int lacks_noise(const struct states *states, const struct plan_noise *noi
     return lacks;
 }
 
-static int read_states(struct pool *pool, const struct study *study, const struct study_cell *cell, int count,
-                       const struct override *list, struct message_list *messages, struct states *states)
+/* functional: NULL, or in place of that of the deck. */
+static int read_states(struct pool *pool, const struct study *study, const struct study_cell *cell, const struct plan_item *noise,
+                       const char *functional, struct message_list *messages, struct states *states)
 {
-    return list ? deck_read_states(pool, study->plan->deck[cell->deck].path, NULL, count, list, messages, states)
-                : ROTID_ERROR_MEMORY;
-}
-
-/* The deck by a functional that needs no noise: what it knows of that itself. */
-static int read_bare(struct pool *pool, const struct study *study, const struct study_cell *cell, struct states *bare)
-{
-    struct message_list unheard;
     int count;
-    struct override *list = overrides(pool, study, cell, -1, &count);
-    message_open(&unheard, pool);
-    if (!list)
-        return ROTID_ERROR_MEMORY;
-    list[count++] = (struct override){"FIT", "FUNCTIONAL", "HYBRID", "", NULL};
-    return read_states(pool, study, cell, count, list, &unheard, bare);
+    struct override *list = overrides(pool, study, cell, noise, &count);
+    if (list && functional)
+        list[count++] = (struct override){"FIT", "FUNCTIONAL", functional, "", NULL};
+    return list ? deck_read_states(pool, plan_at(study->plan, cell, AXIS_DECK)->path, NULL, count, list, messages, states)
+                : ROTID_ERROR_MEMORY;
 }
 
 int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                      struct states *states)
 {
-    int count;
-    struct override *list = overrides(pool, study, cell, -1, &count);
+    const struct plan_item *noise = plan_at(study->plan, cell, AXIS_NOISE);
     *states = (struct states){0};
-    int status = read_states(pool, study, cell, count, list, messages, states);
-    if (!study->plan->has_noise || status == ROTID_ERROR_MEMORY ||
-        (!status && !lacks_noise(states, &study->plan->noise[cell->noise])))
+    int status = read_states(pool, study, cell, NULL, NULL, messages, states), bare_status = ROTID_OK;
+    if (!noise->name || status == ROTID_ERROR_MEMORY || (!status && !lacks_noise(states, noise)))
         return status;
-    struct states bare = *states;
-    int bare_status = status ? read_bare(pool, study, cell, &bare) : ROTID_OK;
+    struct states bare = *states; /* what it knows of noise itself */
+    struct message_list unheard;
+    message_open(&unheard, pool);
+    if (status) /* by a functional that needs none */
+        bare_status = read_states(pool, study, cell, NULL, "HYBRID", &unheard, &bare);
     if (bare_status == ROTID_ERROR_MEMORY)
         return bare_status;
     message_open(messages, messages->pool);
-    list = overrides(pool, study, cell, cell->noise, &count);
-    status = read_states(pool, study, cell, count, list, messages, states);
+    status = read_states(pool, study, cell, noise, NULL, messages, states);
     for (int s = 0; s < states->nstate && !status && !bare_status; s++) { /* the noise of the plan is added to this one */
         states->state[s].job.measurement.frequency_std = bare.state[s].job.measurement.frequency_std;
         states->state[s].job.measurement.shape_std = bare.state[s].job.measurement.shape_std;
@@ -130,13 +115,13 @@ static struct card *shape_card(struct pool *pool, const struct job *job, struct 
 static int makes_shapes(const struct plan *plan)
 {
     int makes = 0;
-    for (int n = 0; n < plan->nnoise; n++)
-        makes |= !isnan(plan->noise[n].shape);
-    return makes && !plan->no_shapes;
+    for (int n = 0; n < plan->axis[AXIS_NOISE].count; n++)
+        makes |= !isnan(plan->axis[AXIS_NOISE].item[n].shape);
+    return makes && plan->shapes;
 }
 
 /* What a state has with the effect of a plan hidden in it, between two values. */
-static int hide(const struct plan_hide *hidden, struct job *lower, const struct job *upper, struct message_list *messages,
+static int hide(const struct plan_item *hidden, struct job *lower, const struct job *upper, struct message_list *messages,
                 struct truth *truth)
 {
     truth->cause = catalogue_find(card_option(hidden->lower, "TYPE")->value);
@@ -156,15 +141,17 @@ static int hide(const struct plan_hide *hidden, struct job *lower, const struct 
     return ROTID_OK;
 }
 
-int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide_index, struct message_list *messages,
+int jobs_read_truth(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                     struct truth **truths)
 {
     const struct plan *plan = study->plan;
-    const struct plan_hide *hidden = &plan->hide[hide_index];
-    const char *path = plan->deck[deck].path;
-    int count,
-        ncard = 1; /* with a noise: the job makes data and is not fitted, and its FIT or a hidden noise_level may need one */
-    struct override *list = overrides(pool, study, NULL, plan->has_noise ? 0 : -1, &count);
+    const struct plan_item *hidden = plan_at(plan, cell, AXIS_HIDE);
+    /* no variant, no modes; with a noise: the job makes data and is not fitted, and its FIT or a hidden noise_level may need one
+     */
+    const struct study_cell bare = {{[AXIS_DECK] = cell->at[AXIS_DECK], [AXIS_VARIANT] = -1, [AXIS_MODES] = -1}};
+    const char *path = plan_at(plan, cell, AXIS_DECK)->path;
+    int count, ncard = 1;
+    struct override *list = overrides(pool, study, &bare, plan_at(plan, &bare, AXIS_NOISE), &count);
     struct card card[2];
     struct states states = {0}, lower, upper;
     int status = list ? deck_read_states(pool, path, NULL, count, list, messages, &states) : ROTID_ERROR_MEMORY;
@@ -196,47 +183,50 @@ int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int 
 void jobs_open(const struct study *study, struct jobs *jobs)
 {
     *jobs = (struct jobs){.study = study};
-    pool_open(&jobs->fitted_pool, NULL);
-    pool_open(&jobs->truth_pool, NULL);
+    pool_open(&jobs->fitted.pool, NULL);
+    pool_open(&jobs->truth.pool, NULL);
 }
 
 void jobs_close(struct jobs *jobs)
 {
-    pool_close(&jobs->fitted_pool);
-    pool_close(&jobs->truth_pool);
+    pool_close(&jobs->fitted.pool);
+    pool_close(&jobs->truth.pool);
 }
 
-static int is_same(const struct study_cell *a, const struct study_cell *b)
+/* What is kept becomes that of the cell, unless it is that of one with the same entries of `count` axes. */
+static int keep(struct jobs *jobs, struct kept_jobs *kept, const struct study_cell *cell, int count, const enum plan_axis *axis,
+                struct message_list *messages)
 {
-    return a->deck == b->deck && a->variant == b->variant && a->modes == b->modes && a->noise == b->noise;
-}
-
-int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct states **states)
-{
-    int status = ROTID_OK;
-    if (!jobs->has_fitted || !is_same(&jobs->fitted_of, cell)) {
-        pool_close(&jobs->fitted_pool);
-        pool_open(&jobs->fitted_pool, NULL);
-        message_open(&jobs->fitted_messages, &jobs->fitted_pool);
-        status = jobs_read_fitted(&jobs->fitted_pool, jobs->study, cell, &jobs->fitted_messages, &jobs->fitted);
-        jobs->fitted_of = *cell;
-        jobs->has_fitted = status ? -1 : 1;
+    int same = kept->has;
+    for (int i = 0; i < count; i++)
+        same &= kept->of.at[axis[i]] == cell->at[axis[i]];
+    if (!same) {
+        pool_close(&kept->pool);
+        pool_open(&kept->pool, NULL);
+        message_open(&kept->messages, &kept->pool);
+        kept->status = kept == &jobs->truth ? jobs_read_truth(&kept->pool, jobs->study, cell, &kept->messages, &kept->truth)
+                                            : jobs_read_fitted(&kept->pool, jobs->study, cell, &kept->messages, &kept->fitted);
+        kept->of = *cell;
+        kept->has = 1;
     }
-    *states = &jobs->fitted;
-    return jobs->has_fitted > 0 ? ROTID_OK : status ? status : ROTID_ERROR_SYNTAX;
+    for (size_t i = 0; i < kept->messages.count && kept->status; i++) {
+        const rotid_message *m = &kept->messages.item[i];
+        message_add(messages, (enum severity)m->severity, m->file, m->line, m->column, "%s", m->text);
+    }
+    return kept->status;
 }
 
-int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **truth)
+int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, struct message_list *messages, const struct states **states)
 {
-    int status = ROTID_OK;
-    if (!jobs->has_truth || jobs->truth_of.deck != cell->deck || jobs->truth_of.hide != cell->hide) {
-        pool_close(&jobs->truth_pool);
-        pool_open(&jobs->truth_pool, NULL);
-        message_open(&jobs->truth_messages, &jobs->truth_pool);
-        status = jobs_read_truth(&jobs->truth_pool, jobs->study, cell->deck, cell->hide, &jobs->truth_messages, &jobs->truth);
-        jobs->truth_of = *cell;
-        jobs->has_truth = status ? -1 : 1;
-    }
-    *truth = jobs->truth;
-    return jobs->has_truth > 0 ? ROTID_OK : status ? status : ROTID_ERROR_SYNTAX;
+    static const enum plan_axis axis[] = {AXIS_DECK, AXIS_VARIANT, AXIS_MODES, AXIS_NOISE};
+    *states = &jobs->fitted.fitted;
+    return keep(jobs, &jobs->fitted, cell, 4, axis, messages);
+}
+
+int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct message_list *messages, struct truth **truth)
+{
+    static const enum plan_axis axis[] = {AXIS_DECK, AXIS_HIDE};
+    int status = keep(jobs, &jobs->truth, cell, 2, axis, messages);
+    *truth = jobs->truth.truth;
+    return status;
 }

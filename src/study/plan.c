@@ -1,4 +1,4 @@
-/* A plan: its cards, each read by a routine of its own, and what only the whole plan tells.
+/* A plan: its cards by one table, and what only the whole plan tells.
  *   STUDY                                     the command, seed, replicates
  *   DECKS, VARIANT, MODES, SENSORS, NOISE, HIDE  axes, a list each, whose entries have names that differ
  *   DATA, TRUTH, STARTS                       where the data and the starts come from */
@@ -18,17 +18,25 @@ const char *const plan_commands[] = {"identify", "diagnose", "speeds", NULL};
 struct plan_reader {
     struct deck_reader fields; /* pool, messages and end of memory, for the readers of single fields */
     struct plan *plan;
-    const struct card *starts_card, *truth_card, *hide_card;
 };
 
-static void no_data(struct plan_reader *reader, const struct card *card)
+static void add_item(struct plan_reader *reader, enum plan_axis axis, const struct plan_item *item)
 {
-    if (card->nline)
-        deck_error(&reader->fields, card->line[0].place, "*%s has no data lines, expected options on the card", card->name);
+    (void)POOL_ADD(reader->fields.pool, reader->plan->axis[axis].item, reader->plan->axis[axis].count, item);
 }
 
-static void of_command(struct plan_reader *reader, const struct card_option *option, enum plan_command of,
-                       const char *const *commands)
+/* The entry of that name, NULL where there is none. */
+static const struct plan_item *find_item(const struct plan *plan, enum plan_axis axis, const char *name)
+{
+    for (int i = 0; i < plan->axis[axis].count; i++)
+        if (same_text(plan->axis[axis].item[i].name, name))
+            return &plan->axis[axis].item[i];
+    return NULL;
+}
+
+static const char *const commands[] = {"IDENTIFY", "DIAGNOSE", "SPEEDS", NULL};
+
+static void of_command(struct plan_reader *reader, const struct card_option *option, enum plan_command of)
 {
     if (option && reader->plan->command != of)
         deck_error(&reader->fields, option->place, "%s has no meaning for COMMAND=%s, expected COMMAND=%s", option->name,
@@ -37,19 +45,9 @@ static void of_command(struct plan_reader *reader, const struct card_option *opt
 
 static void read_study(struct plan_reader *reader, const struct card *card)
 {
-    static const char *const commands[] = {"IDENTIFY", "DIAGNOSE", "SPEEDS", NULL};
-    static const struct deck_row rows[] = {
-        {.option = "COMMAND", WORD(struct plan, command, commands)},
-        {.option = "BASELINE", WORD(struct plan, baseline, deck_answers)},
-        {.option = "REPLICATES", WHOLE(struct plan, replicates, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
-        {.option = "BOOTSTRAP", WHOLE(struct plan, bootstrap, ""), FROM_TO(100, 1000000), OPTIONAL},
-        {.option = "DRAWS", WHOLE(struct plan, draws, ""), FROM_TO(0, 1000000), OPTIONAL},
-        LAST};
     struct plan *plan = reader->plan;
     const struct card_option *seed = card_option(card, "SEED");
     double number = 0;
-    no_data(reader, card);
-    (void)deck_read_options(&reader->fields, card, rows, plan);
     if (seed && !deck_option_number(&reader->fields, seed, "", ANY, &number) &&
         (number != floor(number) || number < 0 || number > SEED_MOST))
         deck_error(&reader->fields, seed->value_place, "SEED is %s, expected a whole number from 0 to %.0f", seed->value,
@@ -57,9 +55,9 @@ static void read_study(struct plan_reader *reader, const struct card *card)
     else if (seed)
         plan->seed = (unsigned long)number;
     if (plan->baseline)
-        of_command(reader, card_option(card, "BASELINE"), PLAN_IDENTIFY, commands);
-    of_command(reader, card_option(card, "BOOTSTRAP"), PLAN_DIAGNOSE, commands);
-    of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS, commands);
+        of_command(reader, card_option(card, "BASELINE"), PLAN_IDENTIFY);
+    of_command(reader, card_option(card, "BOOTSTRAP"), PLAN_DIAGNOSE);
+    of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS);
 }
 
 /* As seen from where the program runs: a relative one is relative to the file that names it. */
@@ -71,39 +69,23 @@ static const char *beside(struct plan_reader *reader, struct place place, const 
     return pool_format(reader->fields.pool, "%.*s/%s", (int)(slash - place.file), place.file, path);
 }
 
-static void read_decks(struct plan_reader *reader, const struct card *card)
+static int read_deck(struct plan_reader *reader, const struct data_line *line, struct plan_item *item)
 {
-    struct plan *plan = reader->plan;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, "a path a line"); i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        for (int d = 0; d < plan->ndeck; d++)
-            if (!strcmp(plan->deck[d].name, line->text))
-                deck_error(&reader->fields, line->place, "deck %s is given twice, expected once", line->text);
-        const struct plan_deck deck = {line->text, beside(reader, line->place, line->text), line->place};
-        (void)POOL_ADD(reader->fields.pool, plan->deck, plan->ndeck, &deck);
-    }
-}
-
-/* A file that a variant names is relative to the plan, not to where the user stands as with --set. */
-static void place_file(struct plan_reader *reader, struct place place, struct override *override)
-{
-    if (same_text(override->option, "FILE"))
-        override->value = beside(reader, place, override->value);
+    item->path = beside(reader, line->place, line->text);
+    return 0;
 }
 
 static void read_variant(struct plan_reader *reader, const struct card *card)
 {
-    struct plan *plan = reader->plan;
     struct pool *pool = reader->fields.pool;
     const char *name = deck_option(&reader->fields, card, "NAME", "a name for the table");
-    for (int v = 0; v < plan->nvariant && name; v++)
-        if (same_text(plan->variant[v].name, name))
-            deck_error(&reader->fields, card_option(card, "NAME")->value_place, "variant %s is given twice, expected a new name",
-                       name);
-    struct plan_variant variant = {.name = name ? name : "",
-                                   .override = POOL_ARRAY(pool, struct override, card->nline),
-                                   .place = POOL_ARRAY(pool, struct place, card->nline)};
-    if (!variant.override || !variant.place)
+    if (name && find_item(reader->plan, AXIS_VARIANT, name))
+        deck_error(&reader->fields, card_option(card, "NAME")->value_place, "variant %s is given twice, expected a new name",
+                   name);
+    struct plan_item variant = {.name = name ? name : "",
+                                .override = POOL_ARRAY(pool, struct override, card->nline),
+                                .override_place = POOL_ARRAY(pool, struct place, card->nline)};
+    if (!variant.override || !variant.override_place)
         return;
     for (int i = 0; i < card->nline; i++) {
         const struct data_line *line = &card->line[i];
@@ -113,72 +95,51 @@ static void read_variant(struct plan_reader *reader, const struct card *card)
                 deck_error(&reader->fields, line->place, "'%s' is no option of a deck, expected CARD.OPTION=VALUE", line->text);
             continue;
         }
-        place_file(reader, line->place, override);
+        if (same_text(override->option, "FILE")) /* relative to the plan, not to where the user stands as with --set */
+            override->value = beside(reader, line->place, override->value);
         /* what is wrong with it is found when the deck is read, and reported by this name: it is put in its place there */
         override->text = pool_format(pool, "variant %s, %s", variant.name, line->text);
-        variant.place[variant.noverride++] = line->place;
+        variant.override_place[variant.noverride++] = line->place;
     }
-    (void)POOL_ADD(reader->fields.pool, plan->variant, plan->nvariant, &variant);
+    add_item(reader, AXIS_VARIANT, &variant);
 }
 
-static void read_modes(struct plan_reader *reader, const struct card *card)
+static int read_sensors(struct plan_reader *reader, const struct data_line *line, struct plan_item *item)
 {
-    struct plan *plan = reader->plan;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, "modes such as 1-4,6"); i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        for (int m = 0; m < plan->nmodes; m++)
-            if (!strcmp(plan->modes[m].text, line->text))
-                deck_error(&reader->fields, line->place, "modes %s are given twice, expected once", line->text);
-        const struct plan_modes modes = {line->text, line->place};
-        (void)POOL_ADD(reader->fields.pool, plan->modes, plan->nmodes, &modes);
-    }
+    struct deck_reader *fields = &reader->fields;
+    int every = same_text(line->field[0].text, "EVERY"), all = same_text(line->field[0].text, "ALL");
+    int bad = deck_count(fields, line, every ? 2 : 1, reader->fields.layout);
+    if (every)
+        bad |= deck_integer(fields, line, 1, "each one so far on", 1, DECK_MOST_LINES, &item->every);
+    else if (!all)
+        bad |= deck_integer(fields, line, 0, "number of sensors", 1, DECK_MOST_LINES, &item->keep);
+    item->name = all     ? "all"
+                 : every ? pool_format(fields->pool, "every %d", item->every)
+                         : pool_format(fields->pool, "%d", item->keep);
+    return bad;
 }
 
-static void read_sensors(struct plan_reader *reader, const struct card *card)
+static int read_noise(struct plan_reader *reader, const struct data_line *line, struct plan_item *item)
 {
-    static const char layout[] = "a number of sensors, EVERY and a number, or ALL";
-    struct plan *plan = reader->plan;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, layout); i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        struct plan_sensors sensors = {.place = line->place};
-        int every = same_text(line->field[0].text, "EVERY"), all = same_text(line->field[0].text, "ALL");
-        int bad = deck_count(&reader->fields, line, every ? 2 : 1, layout);
-        if (every)
-            bad |= deck_integer(&reader->fields, line, 1, "each one so far on", 1, DECK_MOST_LINES, &sensors.every);
-        else if (!all)
-            bad |= deck_integer(&reader->fields, line, 0, "number of sensors", 1, DECK_MOST_LINES, &sensors.keep);
-        sensors.text = all     ? "all"
-                       : every ? pool_format(reader->fields.pool, "every %d", sensors.every)
-                               : pool_format(reader->fields.pool, "%d", sensors.keep);
-        for (int s = 0; s < plan->nsensors && !bad && sensors.text; s++)
-            if (!strcmp(plan->sensors[s].text, sensors.text))
-                deck_error(&reader->fields, line->place, "%s is given twice, expected once", line->text);
-        if (sensors.text)
-            (void)POOL_ADD(reader->fields.pool, plan->sensors, plan->nsensors, &sensors);
-    }
-}
-
-static void read_data(struct plan_reader *reader, const struct card *card)
-{
-    static const char *const sources[] = {"MEASURED", "MODEL", NULL};
-    const struct card_option *source = card_option(card, "SOURCE"), *shapes = card_option(card, "SHAPES");
-    int word;
-    no_data(reader, card);
-    if (source && (word = deck_option_word(&reader->fields, source, sources)) >= 0)
-        reader->plan->from_model = word;
-    if (shapes && (word = deck_option_word(&reader->fields, shapes, deck_answers)) >= 0)
-        reader->plan->no_shapes = !word;
+    struct deck_reader *fields = &reader->fields;
+    int bad = deck_count(fields, line, 2, reader->fields.layout);
+    bad |= deck_number(fields, line, 0, "noise of the frequencies", NOT_NEGATIVE, &item->frequency);
+    item->shape = NAN;
+    if (deck_has(line, 1))
+        bad |= deck_number(fields, line, 1, "noise of the shapes", NOT_NEGATIVE, &item->shape);
+    if (!bad && (item->frequency > 0.5 || item->shape > 0.5))
+        deck_error(fields, line->place, "noise of %s is more than a half, expected values such as 0.001, 0.015", line->text);
+    item->name = pool_format(fields->pool, "%.17g, %.17g", item->frequency, item->shape);
+    return bad;
 }
 
 static void read_truth(struct plan_reader *reader, const struct card *card)
 {
-    static const char layout[] = "parameter, value [, upper value]";
     struct plan *plan = reader->plan;
-    reader->truth_card = card;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, layout); i < count; i++) {
+    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, reader->fields.layout); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct plan_truth truth = {.name = line->field[0].text, .place = line->place};
-        int bad = deck_count(&reader->fields, line, 3, layout);
+        int bad = deck_count(&reader->fields, line, 3, reader->fields.layout);
         bad |= deck_number(&reader->fields, line, 1, "value", ANY, &truth.lower);
         truth.upper = truth.lower;
         if (deck_has(line, 2))
@@ -193,43 +154,11 @@ static void read_truth(struct plan_reader *reader, const struct card *card)
     }
 }
 
-static void read_noise(struct plan_reader *reader, const struct card *card)
-{
-    static const char layout[] = "relative standard deviation of the frequencies [, of the shapes]";
-    struct plan *plan = reader->plan;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, layout); i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        struct plan_noise noise = {.shape = NAN};
-        int bad = deck_count(&reader->fields, line, 2, layout);
-        bad |= deck_number(&reader->fields, line, 0, "noise of the frequencies", NOT_NEGATIVE, &noise.frequency);
-        if (deck_has(line, 1))
-            bad |= deck_number(&reader->fields, line, 1, "noise of the shapes", NOT_NEGATIVE, &noise.shape);
-        if (!bad && (noise.frequency > 0.5 || noise.shape > 0.5))
-            deck_error(&reader->fields, line->place, "noise of %s is more than a half, expected values such as 0.001, 0.015",
-                       line->text);
-        for (int n = 0; n < plan->nnoise && !bad; n++)
-            if (plan->noise[n].frequency == noise.frequency &&
-                (plan->noise[n].shape == noise.shape || (isnan(plan->noise[n].shape) && isnan(noise.shape))))
-                deck_error(&reader->fields, line->place, "noise of %s is given twice, expected once", line->text);
-        (void)POOL_ADD(reader->fields.pool, plan->noise, plan->nnoise, &noise);
-    }
-}
-
 static void read_starts(struct plan_reader *reader, const struct card *card)
 {
-    struct plan *plan = reader->plan;
     const struct card_option *spread = card_option(card, "SPREAD"), *count = card_option(card, "COUNT");
-    static const struct deck_row rows[] = {
-        {.option = "COUNT", WHOLE(struct plan, count, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
-        {.option = "GRID", WHOLE(struct plan, grid, ""), FROM_TO(2, MOST_GRID), OPTIONAL},
-        LAST};
-    reader->starts_card = card;
-    no_data(reader, card);
-    if (!deck_option(&reader->fields, card, "SPREAD", "part of the start, such as 0.7"))
-        return;
-    if (!deck_option_number(&reader->fields, spread, "", POSITIVE, &plan->spread) && plan->spread > 1e3)
+    if (reader->plan->spread > 1e3)
         deck_error(&reader->fields, spread->value_place, "SPREAD is %s, expected a part of the start such as 0.7", spread->value);
-    (void)deck_read_options(&reader->fields, card, rows, plan);
     if (count && card_option(card, "GRID"))
         deck_error(&reader->fields, count->place, "COUNT and GRID are both given, expected one of them");
 }
@@ -286,11 +215,9 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
 
 static void read_hide(struct plan_reader *reader, const struct card *card)
 {
-    struct plan *plan = reader->plan;
     const char *type = deck_option(&reader->fields, card, "TYPE", "id of a cause, or NONE");
     const struct card_option *name = card_option(card, "NAME");
-    struct plan_hide hide = {.place = card->place};
-    reader->hide_card = card;
+    struct plan_item hide = {.place = card->place};
     if (!type)
         return;
     int none = same_text(type, "NONE");
@@ -305,71 +232,126 @@ static void read_hide(struct plan_reader *reader, const struct card *card)
         hide.lower = cause_card(reader, card, 0);
         hide.upper = cause_card(reader, card, 1);
     }
-    for (int h = 0; h < plan->nhide && hide.name; h++)
-        if (same_text(plan->hide[h].name, hide.name))
-            deck_error(&reader->fields, card->place, "two *HIDE are called %s, expected another NAME on one of them", hide.name);
-    (void)POOL_ADD(reader->fields.pool, plan->hide, plan->nhide, &hide);
+    if (hide.name && find_item(reader->plan, AXIS_HIDE, hide.name))
+        deck_error(&reader->fields, card->place, "two *HIDE are called %s, expected another NAME on one of them", hide.name);
+    add_item(reader, AXIS_HIDE, &hide);
 }
 
-static void heading(struct plan_reader *reader, const struct card *card)
-{
-    (void)reader, (void)card;
-}
+static const char *const sources[] = {"MEASURED", "MODEL", NULL};
+static const struct deck_row no_rows[] = {LAST};
+static const struct deck_row study_rows[] = {
+    {.option = "COMMAND", WORD(struct plan, command, commands)},
+    OTHER("SEED", ),
+    {.option = "REPLICATES", WHOLE(struct plan, replicates, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
+    {.option = "BASELINE", WORD(struct plan, baseline, deck_answers)},
+    {.option = "BOOTSTRAP", WHOLE(struct plan, bootstrap, ""), FROM_TO(100, 1000000), OPTIONAL},
+    {.option = "DRAWS", WHOLE(struct plan, draws, ""), FROM_TO(0, 1000000), OPTIONAL},
+    LAST};
+static const struct deck_row data_rows[] = {{.option = "SOURCE", WORD(struct plan, from_model, sources)},
+                                            {.option = "SHAPES", WORD(struct plan, shapes, deck_answers), .standard = 1},
+                                            LAST};
+static const struct deck_row starts_rows[] = {
+    {.option = "SPREAD", ABOVE_0(struct plan, spread, "part of the start, such as 0.7")},
+    {.option = "COUNT", WHOLE(struct plan, count, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
+    {.option = "GRID", WHOLE(struct plan, grid, ""), FROM_TO(2, MOST_GRID), OPTIONAL},
+    LAST};
+static const struct deck_row variant_rows[] = {OTHER("NAME", ), LAST};
+static const struct deck_row hide_rows[] = {OTHER("TYPE", ),  OTHER("NAME", ),   OTHER("GROUP", ),
+                                            OTHER("AT", ),    OTHER("SENSOR", ), OTHER("BETWEEN", ),
+                                            OTHER("SHAPE", ), OTHER("MOUNT", ),  LAST};
 
-static const struct {
+/* The cards there are. One with an axis has an entry of it in each data line, else code of its own behind its options. */
+static const struct plan_card {
     const char *name;
+    const struct deck_row *row; /* options, into struct plan */
+    const char *lines;          /* what a data line holds, "": something else than values; NULL: there is none */
     void (*read)(struct plan_reader *reader, const struct card *card);
-    int once; /* the plan may have one of it */
-    const char *options[9];
+    enum plan_axis axis;
+    const char *what; /* of entries that are given twice */
+    /* the entry beside its name and place; nonzero after an error */
+    int (*read_line)(struct plan_reader *reader, const struct data_line *line, struct plan_item *item);
 } table[] = {
-    {"HEADING", heading, 0, {NULL}},
-    {"STUDY", read_study, 1, {"COMMAND", "SEED", "REPLICATES", "BASELINE", "BOOTSTRAP", "DRAWS", NULL}},
-    {"DECKS", read_decks, 0, {NULL}},
-    {"VARIANT", read_variant, 0, {"NAME", NULL}},
-    {"MODES", read_modes, 0, {NULL}},
-    {"SENSORS", read_sensors, 0, {NULL}},
-    {"DATA", read_data, 1, {"SOURCE", "SHAPES", NULL}},
-    {"TRUTH", read_truth, 0, {NULL}},
-    {"NOISE", read_noise, 0, {NULL}},
-    {"STARTS", read_starts, 1, {"SPREAD", "COUNT", "GRID", NULL}},
-    {"HIDE", read_hide, 0, {"TYPE", "NAME", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", NULL}},
+    {"HEADING", no_rows, "", NULL, 0, NULL, NULL},
+    {"STUDY", study_rows, NULL, read_study, 0, NULL, NULL},
+    {"DECKS", no_rows, "a path a line", NULL, AXIS_DECK, "deck ", read_deck},
+    {"VARIANT", variant_rows, "", read_variant, 0, NULL, NULL},
+    {"MODES", no_rows, "modes such as 1-4,6", NULL, AXIS_MODES, "modes ", NULL},
+    {"SENSORS", no_rows, "a number of sensors, EVERY and a number, or ALL", NULL, AXIS_SENSORS, "", read_sensors},
+    {"DATA", data_rows, NULL, NULL, 0, NULL, NULL},
+    {"TRUTH", no_rows, "parameter, value [, upper value]", read_truth, 0, NULL, NULL},
+    {"NOISE", no_rows, "relative standard deviation of the frequencies [, of the shapes]", NULL, AXIS_NOISE, "noise of ",
+     read_noise},
+    {"STARTS", starts_rows, NULL, read_starts, 0, NULL, NULL},
+    {"HIDE", hide_rows, "", read_hide, 0, NULL, NULL},
 };
 
 #define CARDS (sizeof table / sizeof *table)
 
-static void check_options(struct plan_reader *reader, const struct card *card, const char *const *options)
+static void check_options(struct plan_reader *reader, const struct card *card, const struct deck_row *row)
 {
     char list[256] = "none";
-    for (int o = 0, length = 0; options[o]; o++)
-        length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", o ? ", " : "", options[o]);
+    for (int r = 0, length = 0; row[r].option; r++)
+        length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", r ? ", " : "", row[r].option);
     for (int i = 0; i < card->noption; i++) {
         int known = !strcmp(card->name, "HIDE") && deck_cause_list_item(card, &card->option[i]);
-        for (const char *const *name = options; *name; name++)
-            known |= same_text(*name, card->option[i].name);
+        for (int r = 0; row[r].option; r++)
+            known |= same_text(row[r].option, card->option[i].name);
         if (!known)
             deck_error(&reader->fields, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
                        card->name, list);
     }
 }
 
+/* An entry of an axis a line. */
+static void read_items(struct plan_reader *reader, const struct card *card, const struct plan_card *kind)
+{
+    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, kind->lines); i < count; i++) {
+        const struct data_line *line = &card->line[i];
+        struct plan_item item = {.name = line->text, .place = line->place};
+        int bad = kind->read_line && kind->read_line(reader, line, &item);
+        for (int other = 0; other < reader->plan->axis[kind->axis].count && !bad && item.name; other++)
+            if (!strcmp(reader->plan->axis[kind->axis].item[other].name, item.name))
+                deck_error(&reader->fields, line->place, "%s%s %s given twice, expected once", kind->what, line->text,
+                           kind->axis == AXIS_MODES ? "are" : "is");
+        if (item.name)
+            add_item(reader, kind->axis, &item);
+    }
+}
+
 static void read_card(struct plan_reader *reader, int c)
 {
     const struct card *card = &reader->plan->text.card[c];
-    size_t t = 0;
-    while (t < CARDS && strcmp(card->name, table[t].name))
-        t++;
-    if (t == CARDS) {
+    const struct plan_card *kind = table;
+    while (kind < table + CARDS && strcmp(card->name, kind->name) != 0)
+        kind++;
+    if (kind == table + CARDS) {
         deck_error(&reader->fields, card->place, "card *%s is not known in a plan, expected one of docs/study.md such as *DECKS",
                    card->name);
         return;
     }
-    check_options(reader, card, table[t].options);
-    for (int d = 0; d < c && table[t].once; d++)
+    check_options(reader, card, kind->row);
+    for (int d = 0; d < c && !kind->lines; d++) /* what has options alone stands once */
         if (!strcmp(reader->plan->text.card[d].name, card->name)) {
             deck_error(&reader->fields, card->place, "*%s is given twice, expected once", card->name);
             return;
         }
-    table[t].read(reader, card);
+    if (card->nline && !kind->lines)
+        deck_error(&reader->fields, card->line[0].place, "*%s has no data lines, expected options on the card", card->name);
+    reader->fields.layout = kind->lines;
+    (void)deck_read_options(&reader->fields, card, kind->row, reader->plan);
+    if (kind->read)
+        kind->read(reader, card);
+    else if (kind->what)
+        read_items(reader, card, kind);
+}
+
+/* The last card of that name. */
+static const struct card *find_card(const struct plan *plan, const char *name)
+{
+    for (int c = plan->text.ncard; c-- > 0;)
+        if (!strcmp(plan->text.card[c].name, name))
+            return &plan->text.card[c];
+    return NULL;
 }
 
 /* What only the whole plan tells. */
@@ -377,39 +359,36 @@ static void check_plan(struct plan_reader *reader)
 {
     const struct plan *plan = reader->plan;
     struct deck_reader *fields = &reader->fields;
-    if (!plan->ndeck && !fields->messages->errors)
+    const struct card *truth = find_card(plan, "TRUTH"), *hide = find_card(plan, "HIDE"), *starts = find_card(plan, "STARTS");
+    if (!plan->axis[AXIS_DECK].count && !fields->messages->errors)
         deck_error(fields, plan->text.end, "the plan names no deck, expected *DECKS with one path a line");
-    if (reader->truth_card && !plan->from_model)
-        deck_error(fields, reader->truth_card->place,
-                   "*TRUTH is that of data a model makes, expected *DATA, SOURCE=MODEL with it");
-    if (reader->hide_card && !plan->from_model)
-        deck_error(fields, reader->hide_card->place, "*HIDE acts in data a model makes, expected *DATA, SOURCE=MODEL with it");
-    if (reader->starts_card && plan->command == PLAN_DIAGNOSE)
-        deck_error(fields, reader->starts_card->place, "*STARTS has no meaning for COMMAND=DIAGNOSE, expected COMMAND=IDENTIFY");
+    if (truth && !plan->from_model)
+        deck_error(fields, truth->place, "*TRUTH is that of data a model makes, expected *DATA, SOURCE=MODEL with it");
+    if (hide && !plan->from_model)
+        deck_error(fields, hide->place, "*HIDE acts in data a model makes, expected *DATA, SOURCE=MODEL with it");
+    if (starts && plan->command == PLAN_DIAGNOSE)
+        deck_error(fields, starts->place, "*STARTS has no meaning for COMMAND=DIAGNOSE, expected COMMAND=IDENTIFY");
 }
 
-/* One entry for each axis that the plan does not have. */
+static const struct plan_item none = {.shape = NAN};
+
+/* One entry without a name for each axis that the plan does not have. */
 static int fill_axes(struct pool *pool, struct plan *plan)
 {
-    if (!plan->nvariant && (plan->variant = POOL_NEW(pool, struct plan_variant)))
-        plan->nvariant = 1;
-    if (!plan->nmodes && (plan->modes = POOL_NEW(pool, struct plan_modes)))
-        plan->nmodes = 1;
-    if (!plan->nsensors && (plan->sensors = POOL_NEW(pool, struct plan_sensors)))
-        plan->nsensors = 1;
-    plan->has_noise = plan->nnoise > 0;
-    if (!plan->nnoise && (plan->noise = POOL_NEW(pool, struct plan_noise))) {
-        plan->nnoise = 1;
-        plan->noise->shape = NAN;
-    }
-    if (!plan->nhide && (plan->hide = POOL_NEW(pool, struct plan_hide)))
-        plan->nhide = 1;
-    return plan->nvariant && plan->nmodes && plan->nsensors && plan->nnoise && plan->nhide ? ROTID_OK : ROTID_ERROR_MEMORY;
+    int failed = 0;
+    for (int a = 0; a < PLAN_AXES; a++)
+        failed |= !plan->axis[a].count && POOL_ADD(pool, plan->axis[a].item, plan->axis[a].count, &none);
+    return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static struct plan empty(const char *path)
 {
-    return (struct plan){.path = path, .seed = 1, .replicates = 1, .count = 1, .draws = DRAWS};
+    return (struct plan){.path = path, .seed = 1, .replicates = 1, .count = 1, .draws = DRAWS, .shapes = 1};
+}
+
+const struct plan_item *plan_at(const struct plan *plan, const struct study_cell *cell, enum plan_axis axis)
+{
+    return cell->at[axis] < 0 ? &none : &plan->axis[axis].item[cell->at[axis]];
 }
 
 int plan_read(struct pool *pool, const char *path, struct message_list *messages, struct plan *plan)
@@ -430,12 +409,11 @@ int plan_read(struct pool *pool, const char *path, struct message_list *messages
 int plan_of_decks(struct pool *pool, int count, char *const *path, struct plan *plan)
 {
     *plan = empty(NULL);
-    plan->ndeck = count;
-    plan->deck = POOL_ARRAY(pool, struct plan_deck, count);
-    if (!plan->deck)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < count; i++)
-        plan->deck[i] = (struct plan_deck){path[i], path[i], {path[i], 1, 1}};
+    for (int i = 0; i < count; i++) {
+        const struct plan_item deck = {.name = path[i], .path = path[i], .place = {path[i], 1, 1}};
+        if (POOL_ADD(pool, plan->axis[AXIS_DECK].item, plan->axis[AXIS_DECK].count, &deck))
+            return ROTID_ERROR_MEMORY;
+    }
     return fill_axes(pool, plan);
 }
 

@@ -122,22 +122,22 @@ static struct study_run begin(const struct study *study, long number)
     const struct plan *plan = study->plan;
     const struct study_point point = study_locate(study, number);
     const struct study_cell *cell = &point.cell;
-    const struct plan_noise *noise = &plan->noise[cell->noise];
+    const struct plan_item *noise = plan_at(plan, cell, AXIS_NOISE);
     return (struct study_run){
         .run = (int)number,
-        .cell = {.deck = plan->deck[cell->deck].name,
-                 .variant = plan->variant[cell->variant].name,
-                 .modes = plan->modes[cell->modes].text,
-                 .sensors = plan->sensors[cell->sensors].text,
-                 .noise_frequency = plan->has_noise ? noise->frequency : NAN,
-                 .noise_shape = plan->has_noise ? noise->shape : NAN,
-                 .hide = plan->hide[cell->hide].name},
+        .cell = {.deck = plan_at(plan, cell, AXIS_DECK)->name,
+                 .variant = plan_at(plan, cell, AXIS_VARIANT)->name,
+                 .modes = plan_at(plan, cell, AXIS_MODES)->name,
+                 .sensors = plan_at(plan, cell, AXIS_SENSORS)->name,
+                 .noise_frequency = noise->name ? noise->frequency : NAN,
+                 .noise_shape = noise->shape,
+                 .hide = plan_at(plan, cell, AXIS_HIDE)->name},
         .replicate = (int)point.replicate,
         .start = (int)point.start,
         .sensors = ROTID_NONE,
         .score = ROTID_NONE,
         .false_findings = ROTID_NONE,
-        .input = plan->path ? NULL : study->deck[cell->deck].digest,
+        .input = plan->path ? NULL : study->deck[cell->at[AXIS_DECK]].digest,
     };
 }
 
@@ -342,7 +342,7 @@ int study_run(struct jobs *jobs, long run, const rotid_environment *environment,
 {
     const double begun = clock_seconds();
     struct work w = {.study = jobs->study, .environment = environment, .run = begin(jobs->study, run)};
-    const char *error = w.study->deck[study_locate(w.study, run).cell.deck].error;
+    const char *error = w.study->deck[study_locate(w.study, run).cell.at[AXIS_DECK]].error;
     pool_open(&w.pool, NULL);
     message_open(&w.notes, &w.pool);
     int status = error ? ROTID_OK : compute(&w, jobs, run);

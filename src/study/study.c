@@ -1,5 +1,8 @@
+/* A study: every deck read in every variant before the first run, what is wrong with the plan told at its place in it; runs
+ * counted and found; digests of all that the runs depend on. */
 #include "study/study.h"
 
+#include <stdarg.h>
 #include <string.h>
 
 /* ---- what tells whether a deck has changed */
@@ -38,129 +41,99 @@ static void digest_cards(struct digest *digest, const struct deck_text *text)
 /* What was measured, as the deck and its files say it. */
 static void digest_measured(struct digest *digest, const struct job *job)
 {
-    size_t nmode = (size_t)job->measurement.nmode, components = nmode * (size_t)job->rotor.nsensor;
-    digest_integer(digest, job->measurement.nmode);
+    const struct job_measurement *m = &job->measurement;
+    size_t nmode = (size_t)m->nmode, components = nmode * (size_t)job->rotor.nsensor;
+    digest_integer(digest, m->nmode);
     digest_integer(digest, job->rotor.nsensor);
-    for (int k = 0; k < job->measurement.nmode; k++)
-        digest_integer(digest, job->measurement.number[k]);
+    for (int k = 0; k < m->nmode; k++)
+        digest_integer(digest, m->number[k]);
     for (int s = 0; s < job->rotor.nsensor; s++) {
         digest_integer(digest, job->rotor.sensor[s].id);
         digest_doubles(digest, 1, &job->rotor.sensor[s].position);
     }
-    digest_doubles(digest, nmode, job->measurement.frequency_hz);
-    digest_doubles(digest, nmode, job->measurement.frequency_std);
-    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape);
-    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape_std);
-    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_hz);
-    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_std);
-    digest_integer(digest, job->measurement.hammer);
+    digest_doubles(digest, nmode, m->frequency_hz);
+    digest_doubles(digest, nmode, m->frequency_std);
+    digest_doubles(digest, m->shape ? components : 0, m->shape);
+    digest_doubles(digest, m->shape ? components : 0, m->shape_std);
+    digest_doubles(digest, m->point_frequency_hz ? components : 0, m->point_frequency_hz);
+    digest_doubles(digest, m->point_frequency_hz ? components : 0, m->point_frequency_std);
+    digest_integer(digest, m->hammer);
 }
 
 /* ---- the decks */
-
-/* What the decks of a plan are before the first run: which can be read, how many parameters they have, what they mean. */
-
-struct check {
-    int *nparameter; /* [nvariant * ndeck] */
-    struct digest decks, data;
-};
 
 struct checker {
     struct pool *pool, scratch; /* scratch: of one deck */
     struct study *study;
     struct message_list *messages;
-    struct check *check;
-    struct digest own; /* of the deck that is read */
+    struct digest cards, data; /* of the deck that is read */
 };
 
-/* The same words at the same place say nothing new: a plan with many decks would say them for each. */
-static int is_known(const struct message_list *list, const char *file, int line, int column, const char *text)
+/* An error at a place. The same words there say nothing new: a plan with many decks would say them for each. */
+static void report(struct checker *c, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void report(struct checker *c, struct place place, const char *format, ...)
 {
-    for (size_t i = 0; i < list->count; i++) {
-        const rotid_message *m = &list->item[i];
-        if (m->file && file && m->line == line && m->column == column && !strcmp(m->file, file) && !strcmp(m->text, text))
-            return 1;
+    char text[1500];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (size_t i = 0; i < c->messages->count; i++) {
+        const rotid_message *m = &c->messages->item[i];
+        if (equal_texts(m->file, place.file) && m->line == place.line && m->column == place.column && !strcmp(m->text, text))
+            return;
     }
-    return 0;
+    message_add(c->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
 }
 
-static void report(struct checker *c, struct place place, const char *text)
+/* The errors of a list from number i on, one behind the other; NULL behind the last. */
+static const rotid_message *next_error(const struct message_list *found, size_t *i)
 {
-    if (!is_known(c->messages, place.file, place.line, place.column, text))
-        message_add(c->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
+    while (*i < found->count && found->item[*i].severity != SEVERITY_ERROR)
+        ++*i;
+    return *i < found->count ? &found->item[(*i)++] : NULL;
 }
 
 /* Where in the plan the option of a variant or the modes stand that a deck complains of; file NULL where it is something else. */
-static struct place place_in_plan(const struct plan *plan, const struct study_cell *cell, const char *file)
+static struct place place_in_plan(const struct plan_item *variant, const struct plan_item *modes, const char *file)
 {
-    const struct plan_variant *variant = &plan->variant[cell->variant];
-    const struct plan_modes *modes = &plan->modes[cell->modes];
     for (int i = 0; i < variant->noverride && file; i++)
         if (!strcmp(file, variant->override[i].text))
-            return variant->place[i];
-    return file && modes->text && !strcmp(file, modes->text) ? modes->place : (struct place){NULL, 0, 0};
+            return variant->override_place[i];
+    return file && modes->name && !strcmp(file, modes->name) ? modes->place : (struct place){NULL, 0, 0};
 }
 
 /* Errors of a deck that can be read as it stands: the plan causes them. */
 static void blame_plan(struct checker *c, const struct study_cell *cell, const struct message_list *found)
 {
     const struct plan *plan = c->study->plan;
-    const char *deck = plan->deck[cell->deck].name, *variant = plan->variant[cell->variant].name,
-               *modes = plan->modes[cell->modes].text;
-    for (size_t i = 0; i < found->count; i++) {
-        const rotid_message *m = &found->item[i];
-        char text[1500];
-        if (m->severity != SEVERITY_ERROR)
-            continue;
-        struct place place = place_in_plan(plan, cell, m->file);
+    const struct plan_item *variant = plan_at(plan, cell, AXIS_VARIANT), *modes = plan_at(plan, cell, AXIS_MODES);
+    const rotid_message *m;
+    for (size_t i = 0; (m = next_error(found, &i));) {
+        struct place place = place_in_plan(variant, modes, m->file);
         if (place.file)
-            (void)snprintf(text, sizeof text, "%s (deck %s)", m->text, deck);
+            report(c, place, "%s (deck %s)", m->text, plan_at(plan, cell, AXIS_DECK)->name);
         else
-            (void)snprintf(text, sizeof text, "%s (with%s%s%s%s of the plan)", m->text, variant ? " variant " : "",
-                           variant ? variant : "", modes ? " modes " : "", modes ? modes : "");
-        report(c, place.file ? place : (struct place){m->file, m->line, m->column}, text);
+            report(c, (struct place){m->file, m->line, m->column}, "%s (with%s%s%s%s of the plan)", m->text,
+                   variant->name ? " variant " : "", variant->name ? variant->name : "", modes->name ? " modes " : "",
+                   modes->name ? modes->name : "");
     }
 }
 
-/* The first error, with its place. */
-static const char *first_error(struct checker *c, const struct message_list *found)
-{
-    for (size_t i = 0; i < found->count; i++) {
-        const rotid_message *m = &found->item[i];
-        if (m->severity != SEVERITY_ERROR)
-            continue;
-        if (found->errors > 1)
-            return pool_format(c->pool, "%s:%d:%d: %s (and %d more errors)", m->file ? m->file : "", m->line, m->column, m->text,
-                               found->errors - 1);
-        return pool_format(c->pool, "%s:%d:%d: %s", m->file ? m->file : "", m->line, m->column, m->text);
-    }
-    return "the deck cannot be read";
-}
-
-/* The runs of a deck that is wrong as it stands fail; every error of it is told now, while somebody may be there to read it. */
+/* The runs of a deck that is wrong as it stands fail, for its first error; every one is told now, while somebody may be there to
+ * read it. */
 static int give_up(struct checker *c, int d, const struct message_list *found)
 {
-    for (size_t i = 0; i < found->count; i++)
-        if (found->item[i].severity == SEVERITY_ERROR)
-            message_add(c->messages, SEVERITY_WARNING, found->item[i].file, found->item[i].line, found->item[i].column, "%s",
-                        found->item[i].text);
-    c->study->deck[d].error = first_error(c, found);
-    return c->study->deck[d].error ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
-/* The deck as it stands. Status of the reader. */
-static int read_plain(struct checker *c, int d, struct message_list *found, struct states *states)
-{
-    struct plan_variant variant = {0};
-    struct plan_modes modes = {0};
-    struct plan plain = *c->study->plan; /* no variant, no modes */
-    struct study study = *c->study;
-    const struct study_cell cell = {.deck = d};
-    plain.variant = &variant;
-    plain.modes = &modes;
-    study.plan = &plain;
-    message_open(found, &c->scratch);
-    return jobs_read_fitted(&c->scratch, &study, &cell, found, states);
+    const char *error = "the deck cannot be read";
+    const rotid_message *m;
+    for (size_t i = 0, count = 0; (m = next_error(found, &i)); count++) {
+        message_add(c->messages, SEVERITY_WARNING, m->file, m->line, m->column, "%s", m->text);
+        const char *more = found->errors > 1 ? pool_format(c->pool, " (and %d more errors)", found->errors - 1) : "";
+        if (!count)
+            error = pool_format(c->pool, "%s:%d:%d: %s%s", m->file ? m->file : "", m->line, m->column, m->text, more ? more : "");
+    }
+    c->study->deck[d].error = error;
+    return error ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 /* The files of a deck, those that no deck before it has; of several states the last one has all. */
@@ -181,32 +154,22 @@ static int keep_files(struct checker *c, const struct states *states)
     return ROTID_OK;
 }
 
-static void check_sensors(struct checker *c, const struct study_cell *cell, const struct job *job)
+static void check_sensors(struct checker *c, const char *deck, const struct job *job)
 {
     const struct plan *plan = c->study->plan;
-    int highest = 0, nsensor = job->rotor.nsensor;
-    char text[512];
-    for (int k = 0; k < job->measurement.nmode; k++)
-        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
-    for (int s = 0; s < plan->nsensors; s++) {
-        const struct plan_sensors *sensors = &plan->sensors[s];
+    int highest = comparison_highest(job), nsensor = job->rotor.nsensor;
+    for (int s = 0; s < plan->axis[AXIS_SENSORS].count; s++) {
+        const struct plan_item *sensors = &plan->axis[AXIS_SENSORS].item[s];
         int left = sensors->keep ? sensors->keep : sensors->every ? (nsensor + sensors->every - 1) / sensors->every : nsensor;
-        if (!sensors->text)
-            continue;
-        *text = 0;
-        if (!nsensor)
-            (void)snprintf(text, sizeof text, "deck %s has no sensors, expected a plan without *SENSORS",
-                           plan->deck[cell->deck].name);
-        else if (left > nsensor)
-            (void)snprintf(text, sizeof text, "deck %s has %d sensors, expected not more than that", plan->deck[cell->deck].name,
-                           nsensor);
-        else if (job->options.fit.reduction != ROTID_REDUCTION_NONE && left < 2 * highest)
-            (void)snprintf(text, sizeof text,
-                           "%d sensors are too few to condense deck %s onto for mode %d, expected at least twice as many as "
-                           "modes, or FIT.REDUCTION=NONE",
-                           left, plan->deck[cell->deck].name, highest);
-        if (*text)
-            report(c, sensors->place, text);
+        if (sensors->name && !nsensor)
+            report(c, sensors->place, "deck %s has no sensors, expected a plan without *SENSORS", deck);
+        else if (sensors->name && left > nsensor)
+            report(c, sensors->place, "deck %s has %d sensors, expected not more than that", deck, nsensor);
+        else if (sensors->name && job->options.fit.reduction != ROTID_REDUCTION_NONE && left < 2 * highest)
+            report(c, sensors->place,
+                   "%d sensors are too few to condense deck %s onto for mode %d, expected at least twice as many as modes, or "
+                   "FIT.REDUCTION=NONE",
+                   left, deck, highest);
     }
 }
 
@@ -225,66 +188,66 @@ static int has_parameters(const struct rotor *rotor, const char *names)
 }
 
 /* In one of the states at least. */
-static void check_truth(struct checker *c, int d, const struct states *states)
+static void check_truth(struct checker *c, const char *deck, const struct states *states)
 {
     const struct plan *plan = c->study->plan;
     for (int t = 0; t < plan->ntruth; t++) {
-        char text[512];
-        (void)snprintf(text, sizeof text, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
-                       plan->deck[d].name);
         int found = 0;
         for (int s = 0; s < states->nstate; s++)
             found |= has_parameters(&states->state[s].job.rotor, plan->truth[t].name);
         if (!found)
-            report(c, plan->truth[t].place, text);
+            report(c, plan->truth[t].place, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
+                   deck);
     }
 }
 
-static int check_hidden(struct checker *c, int d)
+static int check_hidden(struct checker *c, struct study_cell cell)
 {
     const struct plan *plan = c->study->plan;
-    int status = ROTID_OK;
-    for (int h = 0; h < plan->nhide && status != ROTID_ERROR_MEMORY; h++) {
+    for (cell.at[AXIS_HIDE] = 0; cell.at[AXIS_HIDE] < plan->axis[AXIS_HIDE].count; cell.at[AXIS_HIDE]++) {
         struct message_list found;
         struct truth *truth;
+        const rotid_message *m;
         message_open(&found, &c->scratch);
-        if (plan->hide[h].lower)
-            status = jobs_read_truth(&c->scratch, c->study, d, h, &found, &truth);
-        for (size_t i = 0; i < found.count; i++)
-            if (found.item[i].severity == SEVERITY_ERROR)
-                report(c, (struct place){found.item[i].file, found.item[i].line, found.item[i].column}, found.item[i].text);
+        if (plan_at(plan, &cell, AXIS_HIDE)->lower &&
+            jobs_read_truth(&c->scratch, c->study, &cell, &found, &truth) == ROTID_ERROR_MEMORY)
+            return ROTID_ERROR_MEMORY;
+        for (size_t i = 0; (m = next_error(&found, &i));)
+            report(c, (struct place){m->file, m->line, m->column}, "%s", m->text);
     }
-    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    return ROTID_OK;
 }
 
-static int check_variants(struct checker *c, int d)
+/* grid^n, or more than there may be runs. */
+static long starts_of(const struct plan *plan, int nparameter)
+{
+    long starts = plan->grid ? 1 : plan->count;
+    for (int p = 0; p < nparameter && plan->grid && starts <= STUDY_MOST_RUNS; p++)
+        starts *= plan->grid;
+    return starts;
+}
+
+/* The deck in a variant and with modes. */
+static int check_cell(struct checker *c, const struct study_cell *cell)
 {
     const struct plan *plan = c->study->plan;
-    struct study_cell cell = {.deck = d};
-    for (cell.variant = 0; cell.variant < plan->nvariant; cell.variant++)
-        for (cell.modes = 0; cell.modes < plan->nmodes; cell.modes++) {
-            struct message_list found;
-            struct states states;
-            message_open(&found, &c->scratch);
-            int status = jobs_read_fitted(&c->scratch, c->study, &cell, &found, &states);
-            if (status == ROTID_ERROR_MEMORY)
-                return status;
-            if (status) {
-                blame_plan(c, &cell, &found);
-                continue;
-            }
-            if (keep_files(c, &states))
-                return ROTID_ERROR_MEMORY;
-            for (int s = 0; s < states.nstate; s++) {
-                check_sensors(c, &cell, &states.state[s].job);
-                if (!cell.modes)
-                    digest_measured(&c->check->data, &states.state[s].job);
-                if (!cell.modes)
-                    digest_measured(&c->own, &states.state[s].job);
-            }
-            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = states.nparameter;
-        }
-    return ROTID_OK;
+    struct message_list found;
+    struct states states;
+    message_open(&found, &c->scratch);
+    int status = jobs_read_fitted(&c->scratch, c->study, cell, &found, &states);
+    if (status == ROTID_ERROR_MEMORY)
+        return status;
+    if (status) {
+        blame_plan(c, cell, &found);
+        return ROTID_OK;
+    }
+    for (int s = 0; s < states.nstate; s++) {
+        check_sensors(c, plan_at(plan, cell, AXIS_DECK)->name, &states.state[s].job);
+        if (!cell->at[AXIS_MODES])
+            digest_measured(&c->data, &states.state[s].job);
+    }
+    c->study->deck[cell->at[AXIS_DECK]].starts[cell->at[AXIS_VARIANT]] = starts_of(plan, states.nparameter);
+    return keep_files(c, &states);
 }
 
 /* What a run cannot do without. */
@@ -302,20 +265,21 @@ static void check_states(const struct plan *plan, const struct states *states, s
 static int check_deck(struct checker *c, int d)
 {
     const struct plan *plan = c->study->plan;
+    struct study_cell cell = {{[AXIS_DECK] = d, [AXIS_VARIANT] = -1, [AXIS_MODES] = -1}}; /* as it stands */
+    const struct plan_item *deck = plan_at(plan, &cell, AXIS_DECK);
     struct message_list found;
     struct deck_text text;
     struct states states;
     message_open(&found, &c->scratch);
-    digest_open(&c->own);
-    digest_text(&c->check->decks, plan->deck[d].name);
-    digest_text(&c->own, plan->deck[d].name);
-    int status =
-        deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read_states says again */
+    digest_open(&c->cards);
+    digest_open(&c->data);
+    digest_text(&c->cards, deck->name);
+    int status = deck_text_read(&c->scratch, deck->path, &found, &text); /* what is wrong with it is said again below */
     if (status == ROTID_ERROR_MEMORY)
         return status;
-    digest_cards(&c->check->decks, &text);
-    digest_cards(&c->own, &text);
-    status = read_plain(c, d, &found, &states);
+    digest_cards(&c->cards, &text);
+    message_open(&found, &c->scratch);
+    status = jobs_read_fitted(&c->scratch, c->study, &cell, &found, &states);
     if (!status)
         status = keep_files(c, &states);
     if (status == ROTID_ERROR_MEMORY)
@@ -324,104 +288,107 @@ static int check_deck(struct checker *c, int d)
         check_states(plan, &states, &found);
     if (status || found.errors)
         return give_up(c, d, &found);
-    check_truth(c, d, &states);
-    status = check_hidden(c, d);
-    return status ? status : check_variants(c, d);
+    check_truth(c, deck->name, &states);
+    status = check_hidden(c, cell);
+    for (cell.at[AXIS_VARIANT] = 0; cell.at[AXIS_VARIANT] < plan->axis[AXIS_VARIANT].count; cell.at[AXIS_VARIANT]++)
+        for (cell.at[AXIS_MODES] = 0; cell.at[AXIS_MODES] < plan->axis[AXIS_MODES].count && !status; cell.at[AXIS_MODES]++)
+            status = check_cell(c, &cell);
+    return status;
 }
 
-/* Fills study->deck[].error and study->file. Errors of the plan go to the list with their places in it, decks that are wrong as
- * they stand as warnings. ROTID_OK, ROTID_ERROR_SYNTAX (also where no deck can be used), ROTID_ERROR_MEMORY. */
-static int check_decks(struct pool *pool, struct study *study, struct message_list *messages, struct check *check)
+static void digest_more(struct digest *digest, const struct digest *part)
+{
+    digest_integer(digest, (long long)part->state);
+}
+
+/* Fills study->deck but for the numbers of runs, study->file and the digests of decks. Errors of the plan go to the list with
+ * their places in it, decks that are wrong as they stand as warnings. ROTID_OK, ROTID_ERROR_SYNTAX (also where no deck can be
+ * used), ROTID_ERROR_MEMORY. */
+static int check_decks(struct pool *pool, struct study *study, struct message_list *messages)
 {
     const struct plan *plan = study->plan;
-    struct checker c = {.pool = pool, .study = study, .messages = messages, .check = check};
-    int status = ROTID_OK, bad = 0;
-    check->nparameter = POOL_ARRAY(pool, int, (size_t)plan->nvariant *(size_t)plan->ndeck);
-    if (!check->nparameter)
-        return ROTID_ERROR_MEMORY;
-    digest_open(&check->decks);
-    digest_open(&check->data);
-    for (int d = 0; d < plan->ndeck && !status; d++) {
+    struct checker c = {.pool = pool, .study = study, .messages = messages};
+    struct digest decks, data;
+    int bad = 0, ndeck = plan->axis[AXIS_DECK].count, nvariant = plan->axis[AXIS_VARIANT].count;
+    digest_open(&decks);
+    digest_open(&data);
+    for (int d = 0; d < ndeck; d++) {
+        struct study_deck *deck = &study->deck[d];
+        struct digest own;
+        deck->first = POOL_ARRAY(pool, long, nvariant + 1);
+        deck->starts = POOL_ARRAY(pool, long, nvariant);
+        if (!deck->first || !deck->starts)
+            return ROTID_ERROR_MEMORY;
+        for (int v = 0; v < nvariant; v++)
+            deck->starts[v] = starts_of(plan, 0);
         pool_open(&c.scratch, pool->allocator);
-        status = check_deck(&c, d);
-        digest_letters(&c.own, study->deck[d].digest);
+        int status = check_deck(&c, d);
         pool_close(&c.scratch);
-        bad += study->deck[d].error != NULL;
+        if (status)
+            return status;
+        digest_more(&decks, &c.cards);
+        digest_more(&data, &c.data);
+        own = c.cards;
+        digest_more(&own, &c.data);
+        digest_letters(&own, deck->digest);
+        bad += deck->error != NULL;
     }
-    for (size_t i = 0; i < messages->count && !status && bad == plan->ndeck;
-         i++) { /* to be said whether warnings are wanted or not */
+    digest_letters(&decks, study->decks_digest);
+    digest_letters(&data, study->data_digest);
+    for (size_t i = 0; i < messages->count && bad == ndeck; i++) { /* to be said whether warnings are wanted or not */
         messages->item[i].severity = SEVERITY_ERROR;
         messages->errors++;
     }
-    if (!status && bad == plan->ndeck)
-        message_add(messages, SEVERITY_ERROR, plan->path ? plan->path : plan->deck[0].path, 1, 1,
-                    plan->ndeck > 1 ? "none of the decks can be used: nothing was computed"
-                                    : "the deck cannot be used: nothing was computed");
-    if (!status && !messages->errors && bad)
+    if (bad == ndeck)
+        message_add(messages, SEVERITY_ERROR, plan->path ? plan->path : plan->axis[AXIS_DECK].item[0].path, 1, 1,
+                    ndeck > 1 ? "none of the decks can be used: nothing was computed"
+                              : "the deck cannot be used: nothing was computed");
+    else if (!messages->errors && bad)
         message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%d of %d decks cannot be used: their runs are recorded as failed",
-                    bad, plan->ndeck);
-    return status ? status : messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+                    bad, ndeck);
+    return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }
 
-/* Cells of one deck and variant. */
-static long cells(const struct plan *plan)
-{
-    return (long)plan->nmodes * plan->nsensors * plan->nnoise * plan->nhide;
-}
+/* ---- runs */
 
 struct study_point study_locate(const struct study *study, long run)
 {
     const struct plan *plan = study->plan;
     struct study_point point = {0};
-    struct study_cell *cell = &point.cell;
-    while (run >= study->deck[cell->deck].first[plan->nvariant])
-        cell->deck++;
-    const struct study_deck *deck = &study->deck[cell->deck];
-    while (run >= deck->first[cell->variant + 1])
-        cell->variant++;
-    run -= deck->first[cell->variant];
-    point.start = run % deck->starts[cell->variant];
-    run /= deck->starts[cell->variant];
+    int *deck = &point.cell.at[AXIS_DECK], *variant = &point.cell.at[AXIS_VARIANT];
+    while (run >= study->deck[*deck].first[plan->axis[AXIS_VARIANT].count])
+        ++*deck;
+    while (run >= study->deck[*deck].first[*variant + 1])
+        ++*variant;
+    run -= study->deck[*deck].first[*variant];
+    point.start = run % study->deck[*deck].starts[*variant];
+    run /= study->deck[*deck].starts[*variant];
     point.replicate = run % plan->replicates;
     run /= plan->replicates;
-    cell->hide = (int)(run % plan->nhide);
-    run /= plan->nhide;
-    cell->noise = (int)(run % plan->nnoise);
-    run /= plan->nnoise;
-    cell->sensors = (int)(run % plan->nsensors);
-    cell->modes = (int)(run / plan->nsensors);
+    for (int axis = PLAN_AXES - 1; axis > AXIS_VARIANT; axis--) {
+        point.cell.at[axis] = (int)(run % plan->axis[axis].count);
+        run /= plan->axis[axis].count;
+    }
     return point;
 }
 
-/* grid^n, or more than there may be runs. */
-static long starts_of(const struct plan *plan, int nparameter)
-{
-    long starts = plan->grid ? 1 : plan->count;
-    for (int p = 0; p < nparameter && plan->grid && starts <= STUDY_MOST_RUNS; p++)
-        starts *= plan->grid;
-    return starts;
-}
-
-static int count_runs(struct pool *pool, const struct check *check, struct study *study, struct message_list *messages)
+static int count_runs(struct study *study, struct message_list *messages)
 {
     const struct plan *plan = study->plan;
-    double runs = 0;
-    for (int d = 0; d < plan->ndeck; d++) {
+    double runs = 0, cells = plan->replicates; /* with their replicates, of one deck and variant */
+    for (int axis = AXIS_MODES; axis < PLAN_AXES; axis++)
+        cells *= plan->axis[axis].count;
+    for (int d = 0; d < plan->axis[AXIS_DECK].count; d++) {
         struct study_deck *deck = &study->deck[d];
-        deck->first = POOL_ARRAY(pool, long, plan->nvariant + 1);
-        deck->starts = POOL_ARRAY(pool, long, plan->nvariant);
-        if (!deck->first || !deck->starts)
-            return ROTID_ERROR_MEMORY;
-        for (int v = 0; v < plan->nvariant; v++) {
-            deck->starts[v] = starts_of(plan, check->nparameter[v + (ptrdiff_t)d * plan->nvariant]);
-            runs += (double)cells(plan) * plan->replicates * (double)deck->starts[v];
+        for (int v = 0; v < plan->axis[AXIS_VARIANT].count; v++) {
+            runs += cells * (double)deck->starts[v];
             if (runs > STUDY_MOST_RUNS)
-                return message_refuse(messages, ROTID_ERROR_SYNTAX, plan->path ? plan->path : plan->deck[0].path, 1, 1,
-                                      "the plan has more than %d runs, expected fewer", STUDY_MOST_RUNS);
+                return message_refuse(messages, ROTID_ERROR_SYNTAX, plan->path ? plan->path : plan->axis[AXIS_DECK].item[0].path,
+                                      1, 1, "the plan has more than %d runs, expected fewer", STUDY_MOST_RUNS);
             deck->first[v] = study->runs;
             study->runs = (long)runs;
         }
-        deck->first[plan->nvariant] = study->runs;
+        deck->first[plan->axis[AXIS_VARIANT].count] = study->runs;
     }
     return ROTID_OK;
 }
@@ -432,8 +399,8 @@ static void digest_plan(struct study *study)
     struct digest digest;
     digest_open(&digest);
     digest_cards(&digest, &plan->text);
-    for (int d = 0; d < plan->ndeck; d++)
-        digest_text(&digest, plan->deck[d].name);
+    for (int d = 0; d < plan->axis[AXIS_DECK].count; d++)
+        digest_text(&digest, plan->axis[AXIS_DECK].item[d].name);
     digest_letters(&digest, study->plan_digest);
     digest_open(&digest);
     for (int i = 0; i < study->noverride; i++) {
@@ -447,19 +414,16 @@ static void digest_plan(struct study *study)
 int study_open(struct pool *pool, const struct plan *plan, int noverride, const struct override *override, unsigned long seed,
                struct message_list *messages, struct study *study)
 {
-    struct check check;
     *study = (struct study){.plan = plan, .noverride = noverride, .override = override, .seed = seed};
-    study->deck = POOL_ARRAY(pool, struct study_deck, plan->ndeck);
+    study->deck = POOL_ARRAY(pool, struct study_deck, plan->axis[AXIS_DECK].count);
     if (!study->deck)
         return ROTID_ERROR_MEMORY;
-    int status = check_decks(pool, study, messages, &check);
+    int status = check_decks(pool, study, messages);
     if (!status)
-        status = count_runs(pool, &check, study, messages);
+        status = count_runs(study, messages);
     if (status)
         return status;
     digest_plan(study);
-    digest_letters(&check.decks, study->decks_digest);
-    digest_letters(&check.data, study->data_digest);
     study->input = plan->path ? NULL : POOL_ARRAY(pool, const char *, study->runs); /* a run a deck */
     for (long i = 0; i < study->runs && study->input; i++)
         study->input[i] = study->deck[i].digest;

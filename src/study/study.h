@@ -64,43 +64,26 @@ uint64_t digest_name(const char *name);
 enum plan_command { PLAN_IDENTIFY, PLAN_DIAGNOSE, PLAN_SPEEDS };
 extern const char *const plan_commands[]; /* as results name them */
 
-struct plan_deck {
-    const char *name, *path; /* as written; as seen from where the program runs */
-    struct place place;
-};
+/* Runs differ in their entries of these; study.c counts them, the last fastest. */
+enum plan_axis { AXIS_DECK, AXIS_VARIANT, AXIS_MODES, AXIS_SENSORS, AXIS_NOISE, AXIS_HIDE, PLAN_AXES };
 
-struct plan_variant {
-    const char *name;
-    int noverride;
-    struct override *override; /* their text is that of `place` below, so that what the deck says of them can be placed */
-    struct place *place;       /* [noverride] */
-};
-
-struct plan_modes { /* what FIT, MODES= takes */
-    const char *text;
-    struct place place;
-};
-
-struct plan_sensors { /* keep > 0: so many, drawn anew for each replicate; every > 0: the first and each one so far on; else all
-                       */
-    const char *text;
-    int keep, every;
-    struct place place;
-};
-
-struct plan_noise { /* relative standard deviations, 0: none is added; shape NaN where the line states none */
-    double frequency, shape;
+/* An entry of an axis; the rest is of the axis that it names. */
+struct plan_item {
+    const char *name;   /* as results have it; NULL: the plan does not have the axis, and this is its only entry */
+    struct place place; /* where the plan states it */
+    const char *path;   /* AXIS_DECK: as seen from where the program runs */
+    int noverride;      /* AXIS_VARIANT */
+    struct override *override;
+    struct place *override_place; /* [noverride] their text, so that what the deck says of them can be placed */
+    int keep, every;              /* AXIS_SENSORS; keep > 0: so many, drawn anew for each replicate; every > 0: the first and each
+                                     one so far on; else all */
+    double frequency, shape;      /* AXIS_NOISE: relative standard deviations, 0: none is added; shape NaN where none is stated */
+    const struct card *lower, *upper; /* AXIS_HIDE: CAUSE cards with the values at either end; NULL: nothing is hidden */
 };
 
 struct plan_truth { /* a parameter of the model that makes the data, drawn between the two */
     const char *name;
     double lower, upper;
-    struct place place;
-};
-
-struct plan_hide {
-    const char *name;
-    const struct card *lower, *upper; /* CAUSE cards with the values at either end; NULL: nothing is hidden */
     struct place place;
 };
 
@@ -111,23 +94,24 @@ struct plan {
     unsigned long seed;
     int replicates, baseline, bootstrap; /* bootstrap: replicates inside a diagnosis, 0: its own choice */
     int draws;                           /* of the bands of critical speeds */
-    int ndeck;
-    struct plan_deck *deck;
-    /* axes; one that is not in the file has one entry, with a name or text of NULL */
-    int nvariant, nmodes, nsensors, nnoise, nhide;
-    struct plan_variant *variant;
-    struct plan_modes *modes;
-    struct plan_sensors *sensors;
-    struct plan_noise *noise;
-    struct plan_hide *hide;
-    int has_noise;
-    int from_model; /* DATA, SOURCE=MODEL */
-    int no_shapes;  /* DATA, SHAPES=NO */
+    struct {
+        int count; /* at least one */
+        struct plan_item *item;
+    } axis[PLAN_AXES];
+    int from_model, shapes; /* of *DATA */
     int ntruth;
     struct plan_truth *truth;
     double spread;   /* of the starts, relative; 0: those of the deck */
     int count, grid; /* starts drawn for each replicate; or points along each parameter */
 };
+
+/* A place on the axes; -1 on an axis: none of its entries, the deck as it stands. */
+struct study_cell {
+    int at[PLAN_AXES];
+};
+
+/* What a cell has on an axis. */
+const struct plan_item *plan_at(const struct plan *plan, const struct study_cell *cell, enum plan_axis axis);
 
 /* Reads a plan; every error goes to the list with its place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO, ROTID_ERROR_MEMORY. */
 int plan_read(struct pool *pool, const char *path, struct message_list *messages, struct plan *plan);
@@ -145,11 +129,6 @@ int plan_is(const char *path);
 
 #define STUDY_MOST_RUNS 10000000
 
-/* Indices into the axes of the plan. */
-struct study_cell {
-    int deck, variant, modes, sensors, noise, hide;
-};
-
 struct study_point {
     struct study_cell cell;
     long replicate, start; /* from 0 */
@@ -158,8 +137,8 @@ struct study_point {
 struct study_deck {
     const char *error;               /* why every run of it fails, or NULL */
     char digest[DIGEST_LETTERS + 1]; /* of its name, cards and data */
-    long *first;                     /* [nvariant + 1] runs of its variants */
-    long *starts;                    /* [nvariant] */
+    long *first;                     /* [variants + 1] runs of its variants */
+    long *starts;                    /* [variants] of a replicate */
 };
 
 struct study {
@@ -167,7 +146,7 @@ struct study {
     int noverride; /* --set: on every deck, before the variant */
     const struct override *override;
     unsigned long seed;
-    struct study_deck *deck; /* [plan->ndeck] */
+    struct study_deck *deck; /* [decks] */
     const char **input;      /* [runs] digests of the decks of a study of decks, which may change between two starts; else NULL */
     long runs;
     int nfile;
@@ -204,7 +183,7 @@ struct truth {
 };
 
 /* That of each state; what is hidden is in all. ROTID_ERROR_SYNTAX also where a range is upside down. */
-int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide_index, struct message_list *messages,
+int jobs_read_truth(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                     struct truth **truths);
 
 /* The name of parameter p of a cause, physical or not; NULL behind the last. */
@@ -213,20 +192,22 @@ const struct effect_parameter_name *truth_parameter(const struct truth *truth, i
 /* What one process works with: the jobs read last, since runs that follow each other mostly share them. */
 struct jobs {
     const struct study *study;
-    struct pool fitted_pool, truth_pool;
-    struct study_cell fitted_of, truth_of;
-    int has_fitted, has_truth; /* 1, or -1 where it could not be read: fitted_messages or truth_messages say why */
-    struct states fitted;
-    struct truth *truth; /* of each state */
-    struct message_list fitted_messages, truth_messages;
+    struct kept_jobs {
+        struct pool pool;
+        struct study_cell of;
+        int has, status; /* of the reading; the messages say what is wrong */
+        struct message_list messages;
+        struct states fitted;
+        struct truth *truth; /* of each state */
+    } fitted, truth;
 };
 
 void jobs_open(const struct study *study, struct jobs *jobs);
 void jobs_close(struct jobs *jobs);
 
 /* Pointers into *jobs, valid until the next call. Statuses as above; the messages say what is wrong. */
-int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct states **states);
-int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **truth);
+int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, struct message_list *messages, const struct states **states);
+int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct message_list *messages, struct truth **truth);
 
 /* ------------------------------------------------------------------------------------------------------------ experiment */
 
