@@ -1,3 +1,5 @@
+/* What a file of results says as a whole: for each cell how its runs ended and what they found, by sums that grow with the runs.
+ */
 #include "study/study.h"
 
 #include <errno.h>
@@ -8,31 +10,54 @@
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
 #define NO_OBJECTIVE   1e-10 /* exact data leave rounding, which has no relative accuracy */
 
-struct parameter_sums {
-    struct cell_parameter said; /* count, mean, min, max and intervals grow with the runs, the rest follows at the end */
-    double square;              /* sum of squared deviations from the mean */
-    int stds;
-    double std_sum; /* of those stated by the fits */
-    int errors;
-    double error_sum, error_square; /* value less truth */
-    int covered;                    /* intervals that hold the truth */
+/* Of values one after the other: their sum, their mean and the sum of squared deviations from it (Welford). */
+struct tally {
+    int count;
+    double sum, mean, square;
 };
 
-struct objective { /* of one run */
-    int replicate;
-    double value; /* NaN where it did not converge */
+/* What is not known does not count. */
+static void tally(struct tally *t, double value)
+{
+    if (!isfinite(value))
+        return;
+    double from_mean = value - t->mean;
+    t->sum += value;
+    t->mean += from_mean / (double)++t->count;
+    t->square += from_mean * (value - t->mean);
+}
+
+static double mean(const struct tally *t)
+{
+    return t->count ? t->sum / (double)t->count : NAN;
+}
+
+static double deviation(const struct tally *t)
+{
+    return t->count > 1 ? sqrt(t->square / (double)(t->count - 1)) : NAN;
+}
+
+static double rms(const struct tally *t)
+{
+    return t->count ? sqrt(t->mean * t->mean + t->square / (double)t->count) : NAN;
+}
+
+struct parameter_sums {
+    const char *name, *unit;
+    double min, max;
+    struct tally value, stated, error; /* stated: deviations of the fits; error: value less truth */
+    int intervals, covered;            /* with a truth beside; that hold it */
 };
 
 struct cell_sums {
     struct study_cell_result said; /* numbers of runs and seconds grow with the runs, the rest follows at the end */
     struct cell_diagnoses diagnoses;
-    int last_start, nparameter, nobjective, scored;
+    int last_start, nparameter, scored;
     struct parameter_sums *parameter;
-    struct objective *objective;
-    int fitted, held_out;                  /* frequencies */
-    double fitted_square, held_out_square; /* [%^2] */
-    int chi2s;
-    double chi2_sum, evaluations;
+    struct tally fitted, held_out, chi2, evaluations; /* the first two: errors of frequencies [%] */
+    int replicate, reached; /* reached: starts of the replicates before this one that came to the best of theirs */
+    double *objective;      /* [nobjective] of the starts of this replicate so far; NaN where one did not converge */
+    size_t nobjective, room;
 };
 
 struct sums {
@@ -55,18 +80,14 @@ static const char *keep(struct sums *s, const char *text)
 
 static struct cell_sums *find_cell(struct sums *s, const struct study_run *run)
 {
-    const struct study_axes *axes = &run->cell;
     for (int i = s->ncell - 1; i >= 0; i--) /* runs of a cell follow each other */
-        if (summary_same_cell(&s->cell[i].said.cell, axes))
+        if (summary_same_cell(&s->cell[i].said.cell, &run->cell))
             return &s->cell[i];
-    const struct cell_sums cell = {.said = {.cell = {.deck = keep(s, axes->deck),
-                                                     .variant = keep(s, axes->variant),
-                                                     .modes = keep(s, axes->modes),
-                                                     .sensors = keep(s, axes->sensors),
-                                                     .noise_frequency = axes->noise_frequency,
-                                                     .noise_shape = axes->noise_shape,
-                                                     .hide = keep(s, axes->hide)},
-                                            .first_run = run->run}};
+    struct cell_sums cell = {.said = {.cell = run->cell, .first_run = run->run}};
+    const char **const text[] = {&cell.said.cell.deck, &cell.said.cell.variant, &cell.said.cell.modes, &cell.said.cell.sensors,
+                                 &cell.said.cell.hide};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+        *text[i] = keep(s, *text[i]);
     return POOL_ADD(s->pool, s->cell, s->ncell, &cell) || s->pool->out_of_memory ? NULL : &s->cell[s->ncell - 1];
 }
 
@@ -81,44 +102,6 @@ static void add_error(struct sums *s, const struct study_run *run)
         }
     const struct study_error error = {keep(s, text), 1, run->run};
     (void)POOL_ADD(s->pool, out->errors, out->nerrors, &error);
-}
-
-static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter)
-{
-    for (int p = 0; p < cell->nparameter; p++)
-        if (!strcmp(cell->parameter[p].said.name, parameter->name))
-            return &cell->parameter[p];
-    const struct parameter_sums sums = {
-        .said = {.name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY}};
-    return POOL_ADD(s->pool, cell->parameter, cell->nparameter, &sums) || s->pool->out_of_memory
-               ? NULL
-               : &cell->parameter[cell->nparameter - 1];
-}
-
-static void add_value(struct parameter_sums *p, const rotid_fitted_parameter *parameter, double truth)
-{
-    struct cell_parameter *said = &p->said;
-    double value = parameter->value;
-    if (!isfinite(value))
-        return;
-    double from_mean = value - said->mean; /* Welford */
-    said->mean += from_mean / (double)++said->count;
-    p->square += from_mean * (value - said->mean);
-    said->min = fmin(said->min, value);
-    said->max = fmax(said->max, value);
-    if (isfinite(parameter->std)) {
-        p->stds++;
-        p->std_sum += parameter->std;
-    }
-    if (!isfinite(truth))
-        return;
-    p->errors++;
-    p->error_sum += value - truth;
-    p->error_square += (value - truth) * (value - truth);
-    if (isfinite(parameter->ci95[0]) && isfinite(parameter->ci95[1])) {
-        said->intervals++;
-        p->covered += parameter->ci95[0] <= truth && truth <= parameter->ci95[1];
-    }
 }
 
 double study_run_truth(const struct study_run *run, const char *name)
@@ -153,22 +136,54 @@ rotid_fitted_parameter *study_run_values(struct pool *pool, const struct study_r
     return list;
 }
 
-static void add_modes(struct cell_sums *cell, const rotid_identification *fit)
+static void add_value(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter, double truth)
 {
-    for (int k = 0; k < fit->nmodes; k++) {
-        double error = fit->modes[k].error_percent;
-        int held = fit->modes[k].holdout;
-        if (!isfinite(error))
-            continue;
-        *(held ? &cell->held_out : &cell->fitted) += 1;
-        *(held ? &cell->held_out_square : &cell->fitted_square) += error * error;
+    int i = 0;
+    while (i < cell->nparameter && strcmp(cell->parameter[i].name, parameter->name) != 0)
+        i++;
+    if (i == cell->nparameter) {
+        const struct parameter_sums none = {
+            .name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY};
+        if (POOL_ADD(s->pool, cell->parameter, cell->nparameter, &none) || s->pool->out_of_memory)
+            return;
+    }
+    struct parameter_sums *p = &cell->parameter[i];
+    double value = parameter->value, lower = parameter->ci95[0], upper = parameter->ci95[1];
+    if (!isfinite(value))
+        return;
+    tally(&p->value, value);
+    tally(&p->stated, parameter->std);
+    tally(&p->error, value - truth);
+    p->min = fmin(p->min, value);
+    p->max = fmax(p->max, value);
+    if (isfinite(truth) && isfinite(lower) && isfinite(upper)) {
+        p->intervals++;
+        p->covered += lower <= truth && truth <= upper;
     }
 }
 
-static void add_objective(struct sums *s, struct cell_sums *cell, const struct study_run *run, int usable)
+/* How many of the starts of a replicate came to the best objective that any of them found. */
+static void count_reached(struct cell_sums *cell)
 {
-    const struct objective objective = {run->replicate, usable ? run->fit->objective : NAN};
-    (void)POOL_ADD(s->pool, cell->objective, cell->nobjective, &objective);
+    double best = INFINITY;
+    for (size_t i = 0; i < cell->nobjective; i++)
+        best = fmin(best, cell->objective[i]); /* of a NaN the other one */
+    for (size_t i = 0; i < cell->nobjective; i++)
+        cell->reached += cell->objective[i] <= best + SAME_OBJECTIVE * fabs(best) + NO_OBJECTIVE;
+    cell->nobjective = 0;
+}
+
+/* Starts follow each other. */
+static void add_objective(struct sums *s, struct cell_sums *cell, int replicate, double objective)
+{
+    if (replicate != cell->replicate)
+        count_reached(cell);
+    double *list = pool_grow(s->pool, cell->objective, cell->nobjective, &cell->room, sizeof *list);
+    cell->replicate = replicate;
+    if (!list)
+        return;
+    cell->objective = list;
+    list[cell->nobjective++] = objective;
 }
 
 static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
@@ -203,7 +218,8 @@ static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct s
 static void add_run(struct sums *s, const struct study_run *run)
 {
     struct cell_sums *cell = find_cell(s, run);
-    int usable = run->status == STUDY_CONVERGED || run->status == STUDY_AT_BOUND, failed = run->status == STUDY_FAILED;
+    const rotid_identification *fit = run->fit;
+    int usable = run->status == STUDY_CONVERGED || run->status == STUDY_AT_BOUND, failed = run->status == STUDY_FAILED, count;
     double seconds = isfinite(run->seconds) ? run->seconds : 0;
     if (!cell)
         return;
@@ -221,93 +237,57 @@ static void add_run(struct sums *s, const struct study_run *run)
         add_error(s, run);
         return;
     }
-    const rotid_identification *fit = run->fit;
-    cell->evaluations += fit->evaluations;
-    add_objective(s, cell, run, usable);
+    tally(&cell->evaluations, fit->evaluations);
+    add_objective(s, cell, run->replicate, usable ? fit->objective : (double)NAN);
     if (!usable)
         return;
     cell->said.not_adequate += misfit_is_inadequate(fit->chi2_per_dof * fit->dof, fit->dof);
-    if (isfinite(fit->chi2_per_dof)) {
-        cell->chi2s++;
-        cell->chi2_sum += fit->chi2_per_dof;
-    }
-    add_modes(cell, fit);
+    tally(&cell->chi2, fit->chi2_per_dof);
+    for (int k = 0; k < fit->nmodes; k++)
+        tally(fit->modes[k].holdout ? &cell->held_out : &cell->fitted, fit->modes[k].error_percent);
     struct pool scratch;
-    int count;
     pool_open(&scratch, s->pool->allocator);
     const rotid_fitted_parameter *value = study_run_values(&scratch, run, &count);
     s->pool->out_of_memory |= !value;
-    for (int p = 0; p < count && value; p++) {
-        struct parameter_sums *parameter = find_parameter(s, cell, &value[p]);
-        if (parameter)
-            add_value(parameter, &value[p], study_run_truth(run, value[p].name));
-    }
+    for (int p = 0; p < count && value; p++)
+        add_value(s, cell, &value[p], study_run_truth(run, value[p].name));
     pool_close(&scratch);
     if (run->diagnosis)
         add_diagnosis(s, cell, run);
 }
 
-static int compare(const void *left, const void *right)
-{
-    const struct objective *a = left, *b = right;
-    if (a->replicate != b->replicate)
-        return a->replicate < b->replicate ? -1 : 1;
-    return isnan(a->value) ? !isnan(b->value) : isnan(b->value) ? -1 : (a->value > b->value) - (a->value < b->value);
-}
-
-/* How many of the starts of a replicate came to the best objective that any of them found. */
-static int count_reached(struct cell_sums *cell)
-{
-    double best = NAN;
-    int reached = 0;
-    if (cell->nobjective > 1)
-        qsort(cell->objective, (size_t)cell->nobjective, sizeof *cell->objective, compare);
-    for (int i = 0; i < cell->nobjective; i++) {
-        const struct objective *now = &cell->objective[i];
-        if (!i || now->replicate != cell->objective[i - 1].replicate)
-            best = now->value;
-        reached += now->value <= best + SAME_OBJECTIVE * fabs(best) + NO_OBJECTIVE;
-    }
-    return reached;
-}
-
-static double share(double sum, int count)
-{
-    return count ? sum / (double)count : NAN;
-}
-
 static struct cell_parameter finish_parameter(const struct parameter_sums *p)
 {
-    struct cell_parameter said = p->said;
-    double n = p->errors;
-    said.mean = said.count ? said.mean : NAN;
-    said.std = said.count > 1 ? sqrt(p->square / (double)(said.count - 1)) : NAN;
-    said.mean_stated_std = share(p->std_sum, p->stds);
-    said.bias = share(p->error_sum, p->errors);
-    said.std_error = p->errors > 1 ? sqrt(fmax(0, p->error_square - n * said.bias * said.bias) / (n - 1)) : NAN;
-    said.rms_error = sqrt(share(p->error_square, p->errors));
-    said.coverage95 = share(p->covered, said.intervals);
-    return said;
+    return (struct cell_parameter){.name = p->name,
+                                   .unit = p->unit,
+                                   .count = p->value.count,
+                                   .mean = mean(&p->value),
+                                   .std = deviation(&p->value),
+                                   .min = p->min,
+                                   .max = p->max,
+                                   .mean_stated_std = mean(&p->stated),
+                                   .bias = mean(&p->error),
+                                   .std_error = deviation(&p->error),
+                                   .rms_error = rms(&p->error),
+                                   .intervals = p->intervals,
+                                   .coverage95 = p->intervals ? (double)p->covered / (double)p->intervals : (double)NAN};
 }
 
 static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *cell)
 {
     struct study_cell_result said = cell->said;
-    said.reached_best = cell->last_start ? count_reached(cell) : ROTID_NONE;
+    count_reached(cell);
+    said.reached_best = cell->last_start ? cell->reached : ROTID_NONE;
     said.parameters = POOL_ARRAY(s->pool, struct cell_parameter, cell->nparameter);
     for (int p = 0; p < cell->nparameter && said.parameters; p++)
         said.parameters[said.nparameters++] = finish_parameter(&cell->parameter[p]);
-    said.frequency_rms_percent = sqrt(share(cell->fitted_square, cell->fitted));
-    said.holdout_frequency_rms_percent = sqrt(share(cell->held_out_square, cell->held_out));
-    said.chi2_per_dof = share(cell->chi2_sum, cell->chi2s);
-    said.evaluations = share(cell->evaluations, said.runs - said.failed);
-    if (cell->diagnoses.count) {
-        said.diagnoses = POOL_NEW(s->pool, struct cell_diagnoses);
-        if (!cell->scored)
-            cell->diagnoses.scores[0] = cell->diagnoses.false_findings = ROTID_NONE;
-        if (said.diagnoses)
-            *said.diagnoses = cell->diagnoses;
-    }
+    said.frequency_rms_percent = rms(&cell->fitted);
+    said.holdout_frequency_rms_percent = rms(&cell->held_out);
+    said.chi2_per_dof = mean(&cell->chi2);
+    said.evaluations = mean(&cell->evaluations);
+    if (cell->diagnoses.count && !cell->scored)
+        cell->diagnoses.scores[0] = cell->diagnoses.false_findings = ROTID_NONE;
+    said.diagnoses = cell->diagnoses.count ? POOL_COPY(s->pool, &cell->diagnoses, 1, 0) : NULL;
     return said;
 }
 
