@@ -15,6 +15,23 @@
 
 #define LAST_PHASE 8
 
+void deck_check_options(struct deck_reader *reader, const struct card *card, const struct deck_row *rows)
+{
+    int is_cause = !strcmp(card->name, "CAUSE") || !strcmp(card->name, "HIDE"); /* which states one */
+    char list[256] = "";
+    for (const struct deck_row *row = rows; !deck_row_is_last(row); row++)
+        if (row->option)
+            (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "", row->option);
+    for (int i = 0; i < card->noption; i++) {
+        int known = is_cause && deck_cause_list_item(card, &card->option[i]);
+        for (const struct deck_row *row = rows; !deck_row_is_last(row); row++)
+            known |= row->option && same_text(row->option, card->option[i].name);
+        if (!known)
+            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
+                       card->name, *list ? list : "none");
+    }
+}
+
 void deck_check_names(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find(card->name);
@@ -28,18 +45,7 @@ void deck_check_names(struct deck_reader *reader, const struct card *card)
                    near ? "" : "one of docs/deck.md such as ", near ? near : "SHAFT");
         return;
     }
-    char list[256] = "";
-    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
-        if (row->option)
-            (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "", row->option);
-    for (int i = 0; i < card->noption; i++) {
-        int known = !strcmp(card->name, "CAUSE") && deck_cause_list_item(card, &card->option[i]);
-        for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
-            known |= row->option && same_text(row->option, card->option[i].name);
-        if (!known)
-            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
-                       card->name, *list ? list : "none");
-    }
+    deck_check_options(reader, card, kind->row);
 }
 
 static void check_materials(struct deck_reader *reader)

@@ -124,6 +124,8 @@ int deck_row_is_last(const struct deck_row *row);
 /* Takes the options of a card, or the values of a data line, that are rows other than ROW_OTHER into the struct `to`. 0, or 1
  * after an error. */
 int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to);
+/* Errors at options that have no row. */
+void deck_check_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row);
 int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
                      void *to);
 

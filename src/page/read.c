@@ -4,31 +4,6 @@
 #include "page/page.h"
 #include "study/study.h"
 
-/* The lines behind the first: each a run of this version, with the place of every mistake. */
-static void check_runs(const struct json_place *lines, const struct study_result *study)
-{
-    struct reader *reader = lines->reader;
-    char name[32];
-    struct json_place line = {.reader = reader, .above = lines, .key = name};
-    int number = 1;
-    for (const cJSON *json = lines->json->child ? lines->json->child->next : NULL; json && reader->status != ROTID_ERROR_MEMORY;
-         json = json->next) {
-        struct study_run run = {0};
-        int found = 0, wrong = reader->nwrong;
-        (void)snprintf(name, sizeof name, "line %d", ++number);
-        line.json = json;
-        if (!cJSON_IsObject(json)) {
-            place_wrong(&line, "is no run, expected an object");
-            continue;
-        }
-        record_read(&line, &study_run_record, &run);
-        for (int i = 0; i < study->ncells && !found && reader->nwrong == wrong; i++)
-            found = summary_same_cell(&run.cell, &study->cells[i].cell);
-        if (!found && reader->nwrong == wrong)
-            place_wrong(&line, "cell: is none of those that the file has, expected one of them");
-    }
-}
-
 /* A file of results of a study: its first line says what it is. */
 static void read_lines(const struct json_place *lines, struct result *result)
 {
@@ -52,8 +27,6 @@ static void read_lines(const struct json_place *lines, struct result *result)
     result->study = study;
     if (status)
         reader->status = status == ROTID_ERROR_MEMORY ? status : ROTID_ERROR_SYNTAX;
-    else
-        check_runs(lines, study);
 }
 
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result)

@@ -33,6 +33,24 @@ static struct random_stream draw_stream(unsigned long seed, enum draw_purpose pu
 
 /* What happens to data on their way: faults of the measurement chain, noise, sensors that are not there. */
 
+/* What is measured at single sensors beside the frequencies of the modes. */
+static void forget_points(struct job *job)
+{
+    job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+}
+
+static void forget_shapes(struct job *job)
+{
+    job->measurement.shape = job->measurement.shape_std = NULL;
+    forget_points(job);
+}
+
+static void forget_corrections(struct job *job)
+{
+    job->measurement.ncorrection = 0;
+    job->measurement.raw = NULL;
+}
+
 static int is_fault(const struct truth *truth, const char *id)
 {
     return truth && truth->cause && !truth->effect && !strcmp(truth->cause->id, id);
@@ -87,8 +105,8 @@ static void experiment_noise(const struct study *study, const struct study_point
 {
     const struct plan_item *noise = plan_at(study->plan, &point->cell, AXIS_NOISE);
     int from_model = truth != NULL, nsensor = job->rotor.nsensor;
-    if (noise->frequency > 0 || noise->shape > 0) /* frequencies at single sensors would contradict the rest */
-        job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+    if (noise->frequency > 0 || noise->shape > 0) /* they would contradict the rest */
+        forget_points(job);
     for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
         double level = noise->frequency * factor(truth, "FREQUENCY");
         job->measurement.frequency_hz[k] *=
@@ -125,20 +143,31 @@ struct choice { /* a sensor with its lot */
 
 ORDER_BY(by_lot, struct choice, it->lot, 0)
 
+/* The effects of a job, those of its rotor, then those of its suspects; NULL behind the last. */
+static struct effect *effect_number(const struct job *job, int i)
+{
+    int suspect = i - job->rotor.neffect;
+    return suspect < 0 ? &job->rotor.effect[i] : suspect < job->unknowns.nsuspect ? &job->unknowns.suspect[suspect].effect : NULL;
+}
+
+/* The sensor that an effect is about, -1 where it is about none, or all. */
+static int sensor_of(const struct effect *effect)
+{
+    const struct cause_kind *cause = catalogue_of(effect);
+    return cause && cause->target == TARGET_SENSOR ? effect->target : -1;
+}
+
 /* A sensor that an effect or the hidden fault is about stays. */
 static int must_stay(const struct job *job, const struct truth *truth, int s)
 {
-    for (int i = 0; i < job->rotor.neffect + job->unknowns.nsuspect; i++) {
-        const struct effect *effect =
-            i < job->rotor.neffect ? &job->rotor.effect[i] : &job->unknowns.suspect[i - job->rotor.neffect].effect;
-        const struct cause_kind *cause = catalogue_of(effect);
-        if (cause && cause->target == TARGET_SENSOR && effect->target == s)
+    int id = job->rotor.sensor[s].id;
+    for (int i = 0; effect_number(job, i); i++)
+        if (sensor_of(effect_number(job, i)) == s)
             return 1;
-    }
-    if (truth && truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target >= 0)
-        return truth->job.rotor.sensor[truth->effect->target].id == job->rotor.sensor[s].id;
+    if (truth && truth->effect && sensor_of(truth->effect) >= 0)
+        return truth->job.rotor.sensor[truth->effect->target].id == id;
     for (int i = 0; truth && truth->cause && !truth->effect && i < truth->fault.nsensor; i++)
-        if (truth->fault.sensor[i] == job->rotor.sensor[s].id)
+        if (truth->fault.sensor[i] == id)
             return 1;
     return 0;
 }
@@ -167,28 +196,6 @@ static int choose(struct pool *pool, const struct study *study, const struct stu
     return ROTID_OK;
 }
 
-static void follow(struct effect *effect, const int *new_index)
-{
-    const struct cause_kind *cause = catalogue_of(effect);
-    if (cause && cause->target == TARGET_SENSOR && effect->target >= 0)
-        effect->target = new_index[effect->target];
-}
-
-static int own_effects(struct pool *pool, struct job *job, const int *new_index)
-{
-    struct effect *effect = POOL_COPY(pool, job->rotor.effect, job->rotor.neffect, 0);
-    struct suspect *suspect = POOL_COPY(pool, job->unknowns.suspect, job->unknowns.nsuspect, 0);
-    if (!effect || !suspect)
-        return ROTID_ERROR_MEMORY;
-    job->rotor.effect = effect;
-    job->unknowns.suspect = suspect;
-    for (int i = 0; i < job->rotor.neffect; i++)
-        follow(&effect[i], new_index);
-    for (int i = 0; i < job->unknowns.nsuspect; i++)
-        follow(&suspect[i].effect, new_index);
-    return ROTID_OK;
-}
-
 /* Rows of a matrix [n * nmode] that stay, in its place. */
 static void leave_rows(int n, int nmode, const char *keep, double *matrix)
 {
@@ -210,12 +217,13 @@ static int experiment_sensors(struct pool *pool, const struct study *study, cons
     char *keep = POOL_ARRAY(pool, char, n);
     int *new_index = POOL_ARRAY(pool, int, n);
     int status = keep && new_index ? choose(pool, study, point, truth, job, keep) : ROTID_ERROR_MEMORY;
-    for (int s = 0; s < n && !status; s++)
-        new_index[s] = keep[s] ? left++ : -1;
-    if (!status)
-        status = own_effects(pool, job, new_index);
     if (status)
         return status;
+    for (int s = 0; s < n; s++)
+        new_index[s] = keep[s] ? left++ : -1;
+    for (int i = 0; effect_number(job, i); i++)
+        if (sensor_of(effect_number(job, i)) >= 0)
+            effect_number(job, i)->target = new_index[sensor_of(effect_number(job, i))];
     /* noise is relative to the largest component, which may be one of those that go: it stays what it is in absolute terms */
     if (job->measurement.shape)
         shapes_scale(job);
@@ -231,8 +239,7 @@ static int experiment_sensors(struct pool *pool, const struct study *study, cons
         shapes_rescale(job);
     if (sensor_find(job, job->measurement.hammer) < 0)
         job->measurement.hammer = 0;
-    job->measurement.ncorrection = 0; /* they are in the data already, and what the deck read is of all sensors */
-    job->measurement.raw = NULL;
+    forget_corrections(job); /* they are in the data already, and what the deck read is of all sensors */
     return ROTID_OK;
 }
 
@@ -244,8 +251,7 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
                    double upper)
 {
     struct random_stream stream = draw_stream(study->seed, purpose, replicate, digest_name(name), 0);
-    double along = random_uniform(&stream);
-    return upper > lower ? lower + along * (upper - lower) : lower;
+    return upper > lower ? lower + random_uniform(&stream) * (upper - lower) : lower;
 }
 
 static void set(struct rotor *rotor, const char *names, double value)
@@ -271,21 +277,15 @@ static void draw_values(const struct study *study, long replicate, struct truth 
         set(&job->rotor, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
     const struct effect_parameter_name *parameter;
-    for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
-        double value = draw(study, DRAW_HIDDEN, replicate, parameter->name, truth->lower[p], truth->upper[p]);
-        if (truth->effect)
-            truth->effect->value[p] = value;
-        else
-            *correction_value(&truth->fault, p) = value;
-    }
+    for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
+        *truth_value(truth, p) = draw(study, DRAW_HIDDEN, replicate, parameter->name, truth->lower[p], truth->upper[p]);
 }
 
 /* Where the sensors really are. Own arrays: a correction changes the order of the sensors and what refers to them. */
 static int place_sensors(struct pool *pool, const struct truth *truth, struct job *job)
 {
     *job = truth->job;
-    job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
-        job->measurement.point_frequency_std = NULL;
+    forget_shapes(job);
     if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
         return ROTID_OK;
     job->rotor.sensor = POOL_COPY(pool, truth->job.rotor.sensor, job->rotor.nsensor, 0);
@@ -429,10 +429,9 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
     if (!status)
         status = weigh(pool, &source, moving, job);
     /* what else was measured is not that of this model */
-    job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
-    job->measurement.hammer = job->measurement.ncorrection = 0;
-    job->measurement.raw = NULL;
-    job->measurement.has_noise_floor = 0;
+    forget_points(job);
+    forget_corrections(job);
+    job->measurement.hammer = job->measurement.has_noise_floor = 0;
     if (!status)
         experiment_fault(truth, 0, job);
     return status;
@@ -466,36 +465,21 @@ static int add_shapes(struct pool *pool, const struct plan_item *noise, struct j
     return ROTID_OK;
 }
 
-/* The data belong to this run from now on. */
-static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
-{
-    int status = data_copy(pool, job);
-    if (!status && !plan->shapes) {
-        job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
-            job->measurement.point_frequency_std = NULL;
-        job->measurement.ncorrection = 0;
-        job->measurement.raw = NULL;
-    }
-    return status;
-}
-
-/* States and unknowns of this run alone. */
+/* States, unknowns and data of this run alone. */
 static int own_states(struct pool *pool, const struct plan *plan, const struct states *fitted, struct states *out)
 {
-    int status = ROTID_OK;
-    *out = *fitted;
-    out->state = POOL_COPY(pool, fitted->state, fitted->nstate, 0);
+    int status = states_copy(pool, fitted, out);
     out->bounds = POOL_COPY(pool, fitted->bounds, fitted->nparameter, 0);
-    if (!out->state || !out->bounds)
-        return ROTID_ERROR_MEMORY;
     for (int s = 0; s < fitted->nstate && !status; s++) {
         struct job *job = &out->state[s].job;
-        status = own_data(pool, plan, job);
+        status = data_copy(pool, job);
         job->unknowns.bounds = POOL_COPY(pool, job->unknowns.bounds, job->unknowns.nparameter, 0);
-        if (!job->unknowns.bounds)
-            return ROTID_ERROR_MEMORY;
+        if (plan->shapes)
+            continue;
+        forget_shapes(job);
+        forget_corrections(job);
     }
-    return status;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
@@ -527,7 +511,7 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
     return status;
 }
 
-/* The start of this run; bounds are the job's own. */
+/* The start of this run, for all states and each. */
 static void experiment_starts(const struct study *study, const struct study_point *point, struct states *states)
 {
     const struct plan *plan = study->plan;
@@ -549,6 +533,9 @@ static void experiment_starts(const struct study *study, const struct study_poin
         double start = lower + along * (upper - lower);
         bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */
     }
+    for (int s = 0; s < states->nstate; s++)
+        for (int p = 0; p < states->state[s].job.unknowns.nparameter; p++)
+            states->state[s].job.unknowns.bounds[p].start = states->bounds[states->state[s].unknown[p]].start;
 }
 
 int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
@@ -574,8 +561,5 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
     if (status)
         return status;
     experiment_starts(study, point, &out->states);
-    for (int s = 0; s < out->states.nstate; s++)
-        for (int p = 0; p < out->states.state[s].job.unknowns.nparameter; p++)
-            out->states.state[s].job.unknowns.bounds[p].start = out->states.bounds[out->states.state[s].unknown[p]].start;
     return ROTID_OK;
 }

@@ -84,6 +84,11 @@ const struct effect_parameter_name *truth_parameter(const struct truth *truth, i
     return correction_parameter(truth->cause, p);
 }
 
+double *truth_value(struct truth *truth, int p)
+{
+    return truth->effect ? &truth->effect->value[p] : correction_value(&truth->fault, p);
+}
+
 /* Values of the hidden effect as the card behind the deck gives them. */
 static void take_values(const struct job *job, struct truth *truth, double *value)
 {

@@ -200,15 +200,16 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
         cause->option[0] =
             (struct card_option){.name = "NAME", .value = "hidden", .place = card->place, .value_place = card->place};
     memcpy(cause->option + !named, card->option, (size_t)card->noption * sizeof *card->option);
+    memcpy(cause->line, card->line, (size_t)card->nline * sizeof *card->line);
     for (int i = 0; i < card->nline; i++) {
         struct data_line *line = &cause->line[i];
-        *line = card->line[i];
-        line->field = POOL_COPY(pool, card->line[i].field, line->count, 0);
+        if (line->count <= 2)
+            continue;
+        line->field = POOL_COPY(pool, line->field, line->count, 0);
         if (!line->field)
             return NULL;
-        if (line->count > 2 && end)
-            line->field[1] = line->field[2];
-        line->count = line->count > 2 ? 2 : line->count;
+        line->field[1] = line->field[end ? 2 : 1];
+        line->count = 2;
     }
     return cause;
 }
@@ -287,21 +288,6 @@ static const struct plan_card {
 
 #define CARDS (sizeof table / sizeof *table)
 
-static void check_options(struct plan_reader *reader, const struct card *card, const struct deck_row *row)
-{
-    char list[256] = "none";
-    for (int r = 0, length = 0; row[r].option; r++)
-        length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", r ? ", " : "", row[r].option);
-    for (int i = 0; i < card->noption; i++) {
-        int known = !strcmp(card->name, "HIDE") && deck_cause_list_item(card, &card->option[i]);
-        for (int r = 0; row[r].option; r++)
-            known |= same_text(row[r].option, card->option[i].name);
-        if (!known)
-            deck_error(&reader->fields, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
-                       card->name, list);
-    }
-}
-
 /* An entry of an axis a line. */
 static void read_items(struct plan_reader *reader, const struct card *card, const struct plan_card *kind)
 {
@@ -329,7 +315,7 @@ static void read_card(struct plan_reader *reader, int c)
                    card->name);
         return;
     }
-    check_options(reader, card, kind->row);
+    deck_check_options(&reader->fields, card, kind->row);
     for (int d = 0; d < c && !kind->lines; d++) /* what has options alone stands once */
         if (!strcmp(reader->plan->text.card[d].name, card->name)) {
             deck_error(&reader->fields, card->place, "*%s is given twice, expected once", card->name);

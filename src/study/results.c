@@ -496,19 +496,14 @@ static int append(struct study_record *record, const char *bytes, size_t count)
     return ROTID_OK;
 }
 
-static int begin_file(struct pool *pool, struct study_record *record, const struct study_header *header, const char *first,
-                      struct message_list *messages)
+static int begin_file(struct study_record *record, const char *header, struct message_list *messages)
 {
-    struct results *file = &record->file;
-    int descriptor = fileno(file->stream);
-    file->place = POOL_ARRAY(pool, struct result_place, header->runs);
-    (void)header_shard(header, &file->shard, &file->shards);
-    stamp_study(header, file->study);
-    if (!file->place)
-        return ROTID_ERROR_MEMORY;
-    if (ftruncate(descriptor, 0) || append(record, first, strlen(first)) || fsync(descriptor))
-        return message_refuse(messages, ROTID_ERROR_IO, file->path, 1, 1, "cannot be written: %s", strerror(errno));
-    sync_folder(file->path);
+    int descriptor = fileno(record->file.stream);
+    if (ftruncate(descriptor, 0) || append(record, header, strlen(header)) || fsync(descriptor))
+        return message_refuse(messages, ROTID_ERROR_IO, record->path, 1, 1, "cannot be written: %s", strerror(errno));
+    sync_folder(record->path);
+    record->file.end = 0; /* to be read as any other */
+    rewind(record->file.stream);
     return ROTID_OK;
 }
 
@@ -580,9 +575,10 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
     if (!status && (!(file->stream = fdopen(descriptor, "r+b")) || !(record->path = realpath(path, NULL))))
         status = ROTID_ERROR_MEMORY;
     file->path = record->path;
+    if (!status && is_unbegun(file, first))
+        status = begin_file(record, first, messages);
     if (!status)
-        status = is_unbegun(file, first) ? begin_file(pool, record, header, first, messages)
-                                         : read_lines(pool, record, header, retry_failed, messages);
+        status = read_lines(pool, record, header, retry_failed, messages);
     json_free(first);
     if (status) {
         record_close(record);

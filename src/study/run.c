@@ -152,17 +152,15 @@ static char *line_of(struct study_run *run, double seconds)
 }
 
 /* What acts in the data and not in the fitted model, with the values drawn for it. */
-static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
+static struct run_hidden *hidden(struct pool *pool, struct truth *truth)
 {
     const struct effect_parameter_name *parameter;
     struct run_hidden *out = POOL_NEW(pool, struct run_hidden);
-    struct correction fault = truth->fault;
     if (!out)
         return NULL;
     out->id = truth->cause->id;
     for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
-        const struct run_value value = {parameter->name, parameter->unit,
-                                        truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
+        const struct run_value value = {parameter->name, parameter->unit, *truth_value(truth, p)};
         (void)POOL_ADD(pool, out->parameters, out->nparameters, &value);
     }
     return out;
@@ -195,7 +193,7 @@ static double truth_of(const struct work *w, const char *name)
 /* What was fitted, as `identify` and `diagnose` have it, and what made the data. */
 static int add_fit(struct work *w, const struct states *states, rotid_identification *fit)
 {
-    const struct truth *made_by = w->experiment.made_by;
+    struct truth *made_by = w->experiment.made_by;
     struct study_run *run = &w->run;
     if (!fit)
         return ROTID_ERROR_MEMORY;

@@ -186,8 +186,9 @@ struct truth {
 int jobs_read_truth(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                     struct truth **truths);
 
-/* The name of parameter p of a cause, physical or not; NULL behind the last. */
+/* The name of parameter p of a cause, physical or not; NULL behind the last. Where its value is. */
 const struct effect_parameter_name *truth_parameter(const struct truth *truth, int p);
+double *truth_value(struct truth *truth, int p);
 
 /* What one process works with: the jobs read last, since runs that follow each other mostly share them. */
 struct jobs {
@@ -214,12 +215,12 @@ int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct message_
 /* The job of one run: the model that is fitted, with the data, the noise, the sensors and the start of this run. */
 
 struct experiment {
-    struct states states;        /* with the data of this run; of a deck without *STATE one */
-    struct job *job;             /* of the first */
-    double *truth;               /* [states.nparameter] NaN where not known; NULL where the data are measured */
-    const struct truth *made_by; /* [states.nstate] NULL where the data are measured; its effect or fault holds the values that
+    struct states states;  /* with the data of this run; of a deck without *STATE one */
+    struct job *job;       /* of the first */
+    double *truth;         /* [states.nparameter] NaN where not known; NULL where the data are measured */
+    struct truth *made_by; /* [states.nstate] NULL where the data are measured; its effect or fault holds the values that
                                     were drawn, the same in all */
-    double length;               /* of the rotor, in the first state [m] */
+    double length;         /* of the rotor, in the first state [m] */
 };
 
 /* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read_states,
