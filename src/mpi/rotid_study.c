@@ -206,12 +206,11 @@ static void follow(const struct study *study)
 static int is_one_study(struct command *command, const struct study *study, int rank)
 {
     const struct study_header header = header_of(&command->pool, study, command->head.rotid, command->head.commit, 1, 1);
-    char *text = header_text(&header), first[4096] = "";
-    int same, all = 0;
-    if (text && !rank)
-        (void)snprintf(first, sizeof first, "%s", text);
-    MPI_Bcast(first, (int)sizeof first, MPI_CHAR, 0, MPI_COMM_WORLD);
-    same = text && !strncmp(text, first, sizeof first - 1);
+    char *text = header_text(&header);
+    uint64_t own = text ? digest_name(text) : 0, first = own;
+    int all = 0;
+    MPI_Bcast(&first, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    int same = text && own == first;
     json_free(text);
     if (!same)
         terminal_say("rotid-study: rank %d has read other files or is another program than rank 0, expected the same\n", rank);

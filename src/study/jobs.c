@@ -99,22 +99,16 @@ static void take_values(const struct job *job, struct truth *truth, double *valu
             value[p] = *correction_value(&job->measurement.correction[job->measurement.ncorrection - 1], p);
 }
 
-/* A component of a shape for a deck that has none: the plan makes them, and a fault of a sensor is one of shapes. */
-static struct card *shape_card(struct pool *pool, const struct job *job, struct place place)
+/* A component of a shape for a deck that has none: the plan makes them, and a fault of a sensor is one of shapes. NULL where
+ * memory is out. */
+static const struct card *shape_card(struct pool *pool, const struct job *job)
 {
-    struct card *card = POOL_NEW(pool, struct card);
-    struct card_option *option = POOL_NEW(pool, struct card_option);
-    struct data_line *line = POOL_NEW(pool, struct data_line);
-    struct field *field = POOL_ARRAY(pool, struct field, 2);
-    if (!card || !option || !line || !field)
-        return NULL;
-    field[0] = (struct field){pool_format(pool, "%d", job->rotor.sensor[0].id), place, 0};
-    field[1] = (struct field){"1", place, 0};
-    *line = (struct data_line){.place = place, .end = place, .text = "", .count = 2, .field = field};
-    *option = (struct card_option){
-        .name = "MODE", .value = pool_format(pool, "%d", job->measurement.number[0]), .place = place, .value_place = place};
-    *card = (struct card){.name = "SHAPE", .place = place, .noption = 1, .nline = 1, .option = option, .line = line};
-    return field[0].text && option->value ? card : NULL;
+    const char *words = pool_format(pool, "*SHAPE, MODE=%d\n%d, 1\n", job->measurement.number[0], job->rotor.sensor[0].id);
+    const struct deck_memory memory = {.name = job->deck, .length = words ? strlen(words) : 0, .text = words};
+    struct message_list unheard;
+    struct deck_text text;
+    message_open(&unheard, pool);
+    return words && !deck_text_read_memory(pool, &memory, &unheard, &text) ? text.card : NULL;
 }
 
 static int makes_shapes(const struct plan *plan)
@@ -170,7 +164,7 @@ int jobs_read_truth(struct pool *pool, const struct study *study, const struct s
     const struct job *first = &truth[0].job;
     if (states.nstate == 1 && !first->measurement.shape && first->rotor.nsensor && first->measurement.nmode &&
         makes_shapes(plan)) {
-        struct card *shape = shape_card(pool, first, hidden->place);
+        const struct card *shape = shape_card(pool, first);
         if (!shape)
             return ROTID_ERROR_MEMORY;
         card[ncard++] = *shape;

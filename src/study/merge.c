@@ -7,28 +7,23 @@
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */
 
-/* Length of a line [length] without its time, which stands last. */
-static size_t timeless(char *line, size_t length)
+/* Length of a line without its time, which stands last. */
+static size_t timeless(const char *line)
 {
     static const char key[] = ",\"seconds\":";
     const char *at = NULL;
-    line[length] = 0;
     for (const char *next = strstr(line, key); next; next = strstr(next + 1, key))
         at = next;
-    return at ? (size_t)(at - line) : length;
+    return at ? (size_t)(at - line) : strlen(line);
 }
 
-/* Whether two lines of a run say the same. ROTID_OK, 1 where they do not; ROTID_ERROR_IO, ROTID_ERROR_MEMORY. */
+/* Whether two lines of a run say the same. ROTID_OK, 1 where they do not, ROTID_ERROR_IO with errno. */
 static int compare(struct result_place one, struct result_place other)
 {
     struct pool pool;
     pool_open(&pool, NULL);
-    char *a = POOL_ROOM(&pool, char, one.length + 1), *b = POOL_ROOM(&pool, char, other.length + 1);
-    int status = !a || !b ? ROTID_ERROR_MEMORY : results_fetch(one, a) || results_fetch(other, b) ? ROTID_ERROR_IO : ROTID_OK;
-    if (!status) {
-        size_t length = timeless(a, one.length);
-        status = length != timeless(b, other.length) || memcmp(a, b, length) != 0;
-    }
+    const char *a = results_fetch(&pool, one), *b = a ? results_fetch(&pool, other) : NULL;
+    int status = b ? timeless(a) != timeless(b) || memcmp(a, b, timeless(a)) != 0 : ROTID_ERROR_IO;
     pool_close(&pool);
     return status;
 }
@@ -61,7 +56,6 @@ static int join(struct pool *pool, struct results *part, int p, struct message_l
                                   "machines of one kind?",
                                   run, part[from].path);
     }
-    all->most = add->most > all->most ? add->most : all->most;
     return status;
 }
 

@@ -297,7 +297,6 @@ static int read_header(struct reading *r, struct pool *pool)
 static void put(struct results *file, long run, const struct result_place *at)
 {
     file->place[run] = *at;
-    file->most = at->length > file->most ? at->length : file->most;
     file->in_order &= run > file->last;
     file->last = run;
 }
@@ -369,36 +368,41 @@ void results_close(struct results *file)
     file->stream = NULL;
 }
 
-int results_fetch(struct result_place place, char *text)
+char *results_fetch(struct pool *pool, struct result_place place)
 {
+    char *text = POOL_ROOM(pool, char, place.length + 1);
     size_t have = 0;
-    while (have < place.length) {
+    errno = text ? errno : ENOMEM;
+    while (text && have < place.length) {
         ssize_t got = pread(place.descriptor, text + have, place.length - have, place.offset + (off_t)have);
         if (got == 0)
             errno = EIO; /* it was longer when it was looked at */
         if (got == 0 || (got < 0 && errno != EINTR))
-            return ROTID_ERROR_IO;
+            return NULL;
         have += got > 0 ? (size_t)got : 0;
     }
-    return ROTID_OK;
+    if (text)
+        text[place.length] = 0;
+    return text;
 }
 
 int results_write(const char *path, const struct results *file)
 {
-    char *first = header_text(&file->header), *text = malloc(file->most + 1);
+    char *first = header_text(&file->header);
     struct output output;
-    int status = first && text ? output_open(&output, path) : ROTID_ERROR_MEMORY;
+    int status = first ? output_open(&output, path) : ROTID_ERROR_MEMORY;
     if (!status) {
         int failed = fputs(first, output.stream) < 0;
-        for (long run = 0; run < file->header.runs && !failed; run++)
-            failed = results_fetch(file->place[run], text) ||
-                     fwrite(text, 1, file->place[run].length, output.stream) != file->place[run].length;
+        for (long run = 0; run < file->header.runs && !failed; run++) {
+            struct pool pool;
+            pool_open(&pool, NULL);
+            const char *text = results_fetch(&pool, file->place[run]);
+            failed = !text || fputs(text, output.stream) < 0;
+            pool_close(&pool);
+        }
         status = output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
     }
-    int reason = errno;
     json_free(first);
-    free(text);
-    errno = reason;
     return status;
 }
 

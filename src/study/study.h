@@ -276,7 +276,6 @@ struct results {
     int shard, shards;              /* of the header */
     char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
     struct result_place *place;     /* [header.runs] */
-    size_t most;                    /* length of the longest line */
     long last;                      /* run of the last line, -1 where there is none */
     int in_order;                   /* the lines stand in order of the runs, once each */
     int lines;                      /* whole ones that were read, with the header */
@@ -289,8 +288,8 @@ int results_open(struct pool *pool, const char *path, struct message_list *messa
 /* Also where it is closed or was never opened. */
 void results_close(struct results *results);
 
-/* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
-int results_fetch(struct result_place place, char *text);
+/* A line by its place, "" where there is none. NULL with errno. */
+char *results_fetch(struct pool *pool, struct result_place place);
 
 /* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);

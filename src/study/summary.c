@@ -4,7 +4,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
@@ -304,28 +303,25 @@ static int add_runs(struct pool *pool, struct message_list *messages, const stru
                     struct study_result *out)
 {
     struct sums sums = {.pool = pool, .out = out};
-    char *text = malloc(file->most + 1);
-    int status = text ? ROTID_OK : ROTID_ERROR_MEMORY;
+    int status = ROTID_OK;
     for (long run = 0; run < file->header.runs && !status; run++) {
         struct pool own, *of = runs ? pool : &own; /* the table keeps its texts */
         struct study_run said;
         out->runs += run % file->shards == file->shard - 1;
         if (!file->place[run].length)
             continue;
-        status = results_fetch(file->place[run], text);
-        if (status)
-            message_add(messages, SEVERITY_ERROR, file->path, 1, 1, "reading failed: %s", strerror(errno));
         pool_open(&own, NULL);
-        if (!status)
-            status = results_line_read(of, text, file->place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
+        const char *text = results_fetch(&own, file->place[run]);
+        if (!text)
+            status = message_refuse(messages, ROTID_ERROR_IO, file->path, 1, 1, "reading failed: %s", strerror(errno));
+        else if (results_line_read(of, text, file->place[run].length, &said))
+            status = ROTID_ERROR_MEMORY;
         if (!status)
             add_run(&sums, &said);
         if (!status && runs)
             table_add_run(runs, &said);
         pool_close(&own);
-        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
     }
-    free(text);
     finish(&sums);
     return !status && pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
