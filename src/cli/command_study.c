@@ -6,12 +6,11 @@
 #include <sys/stat.h>
 
 /* Where standard error is a terminal: a line that is written over. */
-static void show_progress(void *context, const struct study_progress *now)
+static void show_progress(const struct study_record *now, long computed, double seconds)
 {
-    (void)context;
-    if (now->seconds < 0.5 || !now->computed)
+    if (seconds < 0.5 || !computed)
         return;
-    double rate = (double)now->computed / now->seconds, left = (double)(now->wanted - now->done) / rate;
+    double rate = (double)computed / seconds, left = (double)(now->wanted - now->done) / rate;
     int minutes = left >= 120, hours = left >= 7200;
     terminal_progress("rotid: %ld of %ld runs, %ld failed, %.3g a second, %.*f %s left", now->done, now->wanted, now->failed,
                       rate, hours,

@@ -31,6 +31,23 @@ static struct random_stream draw_stream(unsigned long seed, enum draw_purpose pu
     return (struct random_stream){mix(state, b)};
 }
 
+/* In (0, 1). */
+static double uniform(const struct study *study, enum draw_purpose purpose, long replicate, uint64_t a, uint64_t b)
+{
+    struct random_stream stream = draw_stream(study->seed, purpose, replicate, a, b);
+    return random_uniform(&stream);
+}
+
+#define STATE_NOISE 1000003u /* more than modes have numbers */
+
+/* Mean 0, variance 1; of state s. */
+static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int s, int mode, int sensor)
+{
+    struct random_stream stream =
+        draw_stream(study->seed, purpose, replicate, (uint64_t)mode + STATE_NOISE * (uint64_t)s, (uint64_t)sensor);
+    return random_normal(&stream);
+}
+
 /* What happens to data on their way: faults of the measurement chain, noise, sensors that are not there. */
 
 /* What is measured at single sensors beside the frequencies of the modes. */
@@ -84,15 +101,6 @@ static double factor(const struct truth *truth, const char *block)
     return is_fault(truth, "noise_level") && truth->fault.block && !strcmp(truth->fault.block, block) ? truth->fault.value : 1;
 }
 
-#define STATE_NOISE 1000003u /* more than modes have numbers */
-
-static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int s, int mode, int sensor)
-{
-    struct random_stream stream =
-        draw_stream(study->seed, purpose, replicate, (uint64_t)mode + STATE_NOISE * (uint64_t)s, (uint64_t)sensor);
-    return random_normal(&stream);
-}
-
 /* Measured data have a noise already, to which this one is added. */
 static double stated(int from_model, double std, double level)
 {
@@ -104,30 +112,28 @@ static void experiment_noise(const struct study *study, const struct study_point
                              struct job *job)
 {
     const struct plan_item *noise = plan_at(study->plan, &point->cell, AXIS_NOISE);
+    struct job_measurement *m = &job->measurement;
+    struct weighed *weighed = &m->weighed;
     int from_model = truth != NULL, nsensor = job->rotor.nsensor;
     if (noise->frequency > 0 || noise->shape > 0) /* they would contradict the rest */
         forget_points(job);
-    for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
+    for (int k = 0; k < m->nmode && noise->frequency > 0; k++) {
         double level = noise->frequency * factor(truth, "FREQUENCY");
-        job->measurement.frequency_hz[k] *=
-            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, s, job->measurement.number[k], 0);
-        job->measurement.frequency_std[k] = stated(from_model, job->measurement.frequency_std[k], noise->frequency);
+        m->frequency_hz[k] *= 1 + level * normal(study, DRAW_FREQUENCY, point->replicate, s, m->number[k], 0);
+        m->frequency_std[k] = stated(from_model, m->frequency_std[k], noise->frequency);
     }
-    for (int k = 0; k < job->measurement.nmode && job->measurement.shape && noise->shape > 0; k++) {
-        double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
-               *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor, largest = 0;
-        double level = noise->shape * factor(truth, "SHAPE");
+    for (int k = 0; k < m->nmode && m->shape && noise->shape > 0; k++) {
+        double *shape = m->shape + (ptrdiff_t)k * nsensor, *std = m->shape_std + (ptrdiff_t)k * nsensor, largest = 0,
+               level = noise->shape * factor(truth, "SHAPE");
         for (int i = 0; i < nsensor; i++)
             largest = isfinite(shape[i]) ? fmax(largest, fabs(shape[i])) : largest;
         for (int i = 0; i < nsensor; i++) {
             if (!isfinite(shape[i]))
                 continue;
-            shape[i] += level * largest *
-                        normal(study, DRAW_SHAPE, point->replicate, s, job->measurement.number[k], job->rotor.sensor[i].id);
+            shape[i] += level * largest * normal(study, DRAW_SHAPE, point->replicate, s, m->number[k], job->rotor.sensor[i].id);
             std[i] = stated(from_model, std[i], noise->shape);
         }
     }
-    struct weighed *weighed = &job->measurement.weighed;
     if (from_model) { /* 0: not weighed */
         weighed->mass += weighed->mass_std * normal(study, DRAW_WEIGHT, point->replicate, s, 0, 0);
         weighed->centre += weighed->centre_std * normal(study, DRAW_WEIGHT, point->replicate, s, 1, 0);
@@ -182,9 +188,7 @@ static int choose(struct pool *pool, const struct study *study, const struct stu
     if (!choice)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < nsensor; s++) {
-        struct random_stream stream =
-            draw_stream(study->seed, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0);
-        double lot = random_uniform(&stream);
+        double lot = uniform(study, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0);
         choice[s] = (struct choice){must_stay(job, truth, s) ? lot - 1 : lot, s};
         keep[s] = sensors->every && (s % sensors->every == 0 || choice[s].lot < 0);
     }
@@ -250,8 +254,7 @@ static int experiment_sensors(struct pool *pool, const struct study *study, cons
 static double draw(const struct study *study, enum draw_purpose purpose, long replicate, const char *name, double lower,
                    double upper)
 {
-    struct random_stream stream = draw_stream(study->seed, purpose, replicate, digest_name(name), 0);
-    return upper > lower ? lower + random_uniform(&stream) * (upper - lower) : lower;
+    return upper > lower ? lower + uniform(study, purpose, replicate, digest_name(name), 0) * (upper - lower) : lower;
 }
 
 static void set(struct rotor *rotor, const char *names, double value)
@@ -371,7 +374,8 @@ static int solve_moving(struct pool *pool, struct models *models, const struct r
     return status;
 }
 
-static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
+/* Measured mode k is that of the model whose sensors those of `source` are. */
+static void take_mode(const struct job *source, const struct modes *modes, int k, struct job *job)
 {
     const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
     double largest = 0;
@@ -382,11 +386,9 @@ static void take_mode(const struct rotor *rotor, const struct modes *modes, int 
     for (int s = 0; s < modes->nsensor; s++)
         largest = fmax(largest, fabs(made[s]));
     for (int s = 0; s < job->rotor.nsensor; s++) {
-        int there = 0;
-        while (there < modes->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
-            there++;
+        int there = sensor_find(source, job->rotor.sensor[s].id);
         if (isfinite(shape[s]))
-            shape[s] = there < modes->nsensor && largest > 0 ? made[there] / largest : NAN;
+            shape[s] = there >= 0 && largest > 0 ? made[there] / largest : NAN;
     }
 }
 
@@ -425,7 +427,7 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
         status = moving ? solve_moving(pool, source.models, &source.rotor, refine, last, &modes)
                         : solve(source.models, &source.rotor, refine, &modes);
     for (int k = 0; k < job->measurement.nmode && !status; k++)
-        take_mode(&source.rotor, &modes, k, job);
+        take_mode(&source, &modes, k, job);
     if (!status)
         status = weigh(pool, &source, moving, job);
     /* what else was measured is not that of this model */
@@ -526,9 +528,7 @@ static void experiment_starts(const struct study *study, const struct study_poin
             along = (double)(digits % plan->grid) / (plan->grid - 1);
             digits /= plan->grid;
         } else {
-            struct random_stream stream =
-                draw_stream(study->seed, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
-            along = random_uniform(&stream);
+            along = uniform(study, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
         }
         double start = lower + along * (upper - lower);
         bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */

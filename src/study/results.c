@@ -496,7 +496,6 @@ static int append(struct study_record *record, const char *bytes, size_t count)
         }
     }
     record->file.end += (off_t)count;
-    record->unsynced = 1;
     return ROTID_OK;
 }
 
@@ -626,11 +625,10 @@ int record_append(struct study_record *record, long run, const char *line)
 
 int record_sync(struct study_record *record, double now)
 {
-    if (!record->unsynced || now - record->synced < SYNC_SECONDS)
+    if (now - record->synced < SYNC_SECONDS)
         return ROTID_OK;
     if (fdatasync(fileno(record->file.stream)))
         return ROTID_ERROR_IO;
-    record->unsynced = 0;
     record->synced = clock_seconds();
     return ROTID_OK;
 }

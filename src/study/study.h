@@ -327,8 +327,7 @@ struct study_record {
                                   may */
     long wanted, done, failed; /* of the shard; failed ones are among those done */
     long next;                 /* where record_take goes on */
-    int unsynced;
-    double synced; /* on the clock */
+    double synced;             /* on the clock */
 };
 
 /* Opens or creates the file of the study that the header and `input` (as above) tell, and locks it. What is cut at its end goes;
@@ -344,7 +343,7 @@ long record_take(struct study_record *record);
  * before. */
 int record_append(struct study_record *record, long run, const char *line);
 
-/* To the disk, where there is something new and the last time is a second ago; now [s] of the clock, infinity: in any case.
+/* To the disk, where the last time is a second ago; now [s] of the clock, infinity: in any case.
  * ROTID_OK or ROTID_ERROR_IO with errno. */
 int record_sync(struct study_record *record, double now);
 
@@ -428,17 +427,12 @@ int summary_is_scored(const struct study_cell_result *cell);
 /* Runs of a study in processes of this machine. Each takes the number of a run, computes it and gives back its line; one that
  * dies costs its run, which is recorded as failed, and is replaced. */
 
-struct study_progress {
-    long done, wanted, failed; /* of the file */
-    long computed;             /* by this program */
-    double seconds;            /* since it began with them */
-};
-
 struct workers_options {
     int workers;    /* >= 1 */
     double timeout; /* [s] a run may take, 0: any time */
     int (*cancelled)(void *context);
-    void (*progress)(void *context, const struct study_progress *progress); /* NULL, or called a few times a second */
+    /* NULL, or called a few times a second with what this program has computed and since when [s] */
+    void (*progress)(const struct study_record *record, long computed, double seconds);
     void *context;
 };
 

@@ -153,9 +153,7 @@ static void show(struct crew *crew, double now)
     if (!crew->options->progress || now - crew->shown < TICK)
         return;
     crew->shown = now;
-    const struct study_progress progress = {crew->record->done, crew->record->wanted, crew->record->failed, crew->computed,
-                                            now - crew->begun};
-    crew->options->progress(crew->options->context, &progress);
+    crew->options->progress(crew->record, crew->computed, now - crew->begun);
 }
 
 static int keep(struct crew *crew, long run, const char *line)
