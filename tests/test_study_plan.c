@@ -177,20 +177,20 @@ POOL_TEST(digests_follow_the_meaning)
     (void)bench_write("modes.inc", BENCH_MODES);
     struct study first = digests("*STUDY\n*DECKS\ndata.inp\n"),
                  now = digests("** a word\n*study\n\n*DECKS\n  data.inp   ** this one\n");
-    assert_string_equal(first.plan_digest, now.plan_digest);
-    assert_string_equal(first.decks_digest, now.decks_digest);
+    assert_string_equal(first.digest.plan, now.digest.plan);
+    assert_string_equal(first.digest.decks, now.digest.decks);
     now = digests("*STUDY\n*DECKS\ndata.inp\n*MODES\n1-6\n");
-    assert_string_not_equal(first.plan_digest, now.plan_digest);
-    assert_string_equal(first.data_digest, now.data_digest);
+    assert_string_not_equal(first.digest.plan, now.digest.plan);
+    assert_string_equal(first.digest.data, now.digest.data);
     (void)bench_write("modes.inc", "*MODES\n1, 398.9\n2, 713.5\n3, 1722\n4, 2480\n5, 3970\n6, 5021\n");
     now = digests("*STUDY\n*DECKS\ndata.inp\n");
-    assert_string_equal(first.plan_digest, now.plan_digest);
-    assert_string_not_equal(first.decks_digest, now.decks_digest);
-    assert_string_not_equal(first.data_digest, now.data_digest);
+    assert_string_equal(first.digest.plan, now.digest.plan);
+    assert_string_not_equal(first.digest.decks, now.digest.decks);
+    assert_string_not_equal(first.digest.data, now.digest.data);
     (void)bench_write("modes.inc", "** the same again\n" BENCH_MODES);
     now = digests("*STUDY\n*DECKS\ndata.inp\n");
-    assert_string_equal(first.decks_digest, now.decks_digest);
-    assert_string_equal(first.data_digest, now.data_digest);
+    assert_string_equal(first.digest.decks, now.digest.decks);
+    assert_string_equal(first.digest.data, now.digest.data);
 }
 
 /* Every memory that a plan and its check ask for runs out once. */

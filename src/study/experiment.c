@@ -552,7 +552,6 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
     if (status)
         return status;
     out->job = &out->states.state[0].job;
-    out->length = rotor_length(&out->job->rotor);
     for (int s = 0; s < out->states.nstate && !status; s++) {
         const struct truth *truth = out->made_by ? &out->made_by[s] : NULL;
         experiment_noise(study, point, truth, s, &out->states.state[s].job);

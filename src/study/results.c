@@ -51,9 +51,9 @@ void digest_text(struct digest *digest, const char *text)
     digest_bytes(digest, text ? strlen(text) : 0, text);
 }
 
-void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1])
+const char *digest_letters(struct pool *pool, const struct digest *digest)
 {
-    (void)snprintf(letters, DIGEST_LETTERS + 1, "%016llx", (unsigned long long)digest->state);
+    return pool_format(pool, "%016llx", (unsigned long long)digest->state);
 }
 
 uint64_t digest_name(const char *name)
@@ -75,7 +75,7 @@ struct study_header header_of(struct pool *pool, const struct study *study, cons
                                  .command = "study",
                                  .plan = study->plan->path,
                                  .studies = plan_commands[study->plan->command],
-                                 .digest = {study->plan_digest, study->decks_digest, study->data_digest, study->options_digest},
+                                 .digest = study->digest,
                                  .seed = (double)study->seed,
                                  .runs = (int)study->runs,
                                  .shard = shards > 1 ? pool_format(pool, "%d/%d", shard, shards) : NULL};
@@ -152,7 +152,7 @@ void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 
     digest_text(&digest, header->digest.options);
     digest_integer(&digest, (long long)header->seed);
     digest_integer(&digest, header->runs);
-    digest_letters(&digest, study);
+    (void)snprintf(study, DIGEST_LETTERS + 1, "%016llx", (unsigned long long)digest.state);
 }
 
 /* The stamp [LENGTH + 1] of a line whose values end behind `body` bytes. */

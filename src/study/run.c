@@ -29,7 +29,7 @@ static int score_is_hidden(const struct experiment *e, const struct diagnosis *d
     double mass = place_of_mass(&truth->job.rotor, truth->cause, truth->effect),
            found = place_of_mass(&d->job.rotor, c->cause, &c->effect);
     if (isfinite(mass) || isfinite(found))
-        return fabs(mass - found) <= PLACE_TOLERANCE * e->length;
+        return fabs(mass - found) <= PLACE_TOLERANCE * rotor_length(&e->job->rotor);
     if (c->cause != truth->cause)
         return 0;
     if (c->cause->target != TARGET_NONE && c->cause->target != TARGET_SENSOR && c->effect.target != truth->effect->target)
@@ -38,7 +38,7 @@ static int score_is_hidden(const struct experiment *e, const struct diagnosis *d
         return 1;
     double width = c->cause->width >= 0 ? truth->effect->value[c->cause->width] : 0;
     return fabs(c->effect.value[c->cause->place] - truth->effect->value[c->cause->place]) <=
-           fmax(width, PLACE_TOLERANCE * e->length);
+           fmax(width, PLACE_TOLERANCE * rotor_length(&e->job->rotor));
 }
 
 static int has_sensor(const rotid_data_finding *f, int id)

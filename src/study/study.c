@@ -136,19 +136,13 @@ static int give_up(struct checker *c, int d, const struct message_list *found)
     return error ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* The files of a deck, those that no deck before it has; of several states the last one has all. */
+/* The files of a deck; of several states the last one has all. */
 static int keep_files(struct checker *c, const struct states *states)
 {
-    struct study *study = c->study;
     const struct job *job = &states->state[states->nstate - 1].job;
     for (int i = 0; i < job->nfile; i++) {
-        int known = 0;
-        while (known < study->nfile && strcmp(study->file[known], job->file[i]) != 0)
-            known++;
-        if (known < study->nfile)
-            continue;
         const char *file = pool_copy_text(c->pool, job->file[i]);
-        if (!file || POOL_ADD(c->pool, study->file, study->nfile, &file))
+        if (!file || POOL_ADD(c->pool, c->study->file, c->study->nfile, &file))
             return ROTID_ERROR_MEMORY;
     }
     return ROTID_OK;
@@ -247,7 +241,7 @@ static int check_cell(struct checker *c, const struct study_cell *cell)
             digest_measured(&c->data, &states.state[s].job);
     }
     c->study->deck[cell->at[AXIS_DECK]].starts[cell->at[AXIS_VARIANT]] = starts_of(plan, states.nparameter);
-    return keep_files(c, &states);
+    return cell->at[AXIS_MODES] ? ROTID_OK : keep_files(c, &states); /* those of other modes are the same */
 }
 
 /* What a run cannot do without. */
@@ -330,11 +324,11 @@ static int check_decks(struct pool *pool, struct study *study, struct message_li
         digest_more(&data, &c.data);
         own = c.cards;
         digest_more(&own, &c.data);
-        digest_letters(&own, deck->digest);
+        deck->digest = digest_letters(pool, &own);
         bad += deck->error != NULL;
     }
-    digest_letters(&decks, study->decks_digest);
-    digest_letters(&data, study->data_digest);
+    study->digest.decks = digest_letters(pool, &decks);
+    study->digest.data = digest_letters(pool, &data);
     for (size_t i = 0; i < messages->count && bad == ndeck; i++) { /* to be said whether warnings are wanted or not */
         messages->item[i].severity = SEVERITY_ERROR;
         messages->errors++;
@@ -393,7 +387,7 @@ static int count_runs(struct study *study, struct message_list *messages)
     return ROTID_OK;
 }
 
-static void digest_plan(struct study *study)
+static void digest_plan(struct pool *pool, struct study *study)
 {
     const struct plan *plan = study->plan;
     struct digest digest;
@@ -401,14 +395,14 @@ static void digest_plan(struct study *study)
     digest_cards(&digest, &plan->text);
     for (int d = 0; d < plan->axis[AXIS_DECK].count; d++)
         digest_text(&digest, plan->axis[AXIS_DECK].item[d].name);
-    digest_letters(&digest, study->plan_digest);
+    study->digest.plan = digest_letters(pool, &digest);
     digest_open(&digest);
     for (int i = 0; i < study->noverride; i++) {
         digest_text(&digest, study->override[i].card);
         digest_text(&digest, study->override[i].option);
         digest_text(&digest, study->override[i].value);
     }
-    digest_letters(&digest, study->options_digest);
+    study->digest.options = digest_letters(pool, &digest);
 }
 
 int study_open(struct pool *pool, const struct plan *plan, int noverride, const struct override *override, unsigned long seed,
@@ -423,11 +417,11 @@ int study_open(struct pool *pool, const struct plan *plan, int noverride, const 
         status = count_runs(study, messages);
     if (status)
         return status;
-    digest_plan(study);
+    digest_plan(pool, study);
     study->input = plan->path ? NULL : POOL_ARRAY(pool, const char *, study->runs); /* a run a deck */
     for (long i = 0; i < study->runs && study->input; i++)
         study->input[i] = study->deck[i].digest;
     if (!plan->path && !study->input)
         return ROTID_ERROR_MEMORY;
-    return messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return pool->out_of_memory || messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

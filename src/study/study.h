@@ -51,8 +51,8 @@ void digest_open(struct digest *digest);
 void digest_integer(struct digest *digest, long long value);
 /* With its length, so that "a", "bc" is not "ab", "c". NULL is not "". */
 void digest_text(struct digest *digest, const char *text);
-/* Hexadecimal, with an end. */
-void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1]);
+/* Hexadecimal; NULL where memory is out. */
+const char *digest_letters(struct pool *pool, const struct digest *digest);
 
 /* A number from a text, for streams of random numbers that have names. */
 uint64_t digest_name(const char *name);
@@ -135,10 +135,9 @@ struct study_point {
 };
 
 struct study_deck {
-    const char *error;               /* why every run of it fails, or NULL */
-    char digest[DIGEST_LETTERS + 1]; /* of its name, cards and data */
-    long *first;                     /* [variants + 1] runs of its variants */
-    long *starts;                    /* [variants] of a replicate */
+    const char *error, *digest; /* why every run of it fails, or NULL; of its name, cards and data */
+    long *first;                /* [variants + 1] runs of its variants */
+    long *starts;               /* [variants] of a replicate */
 };
 
 struct study {
@@ -151,8 +150,7 @@ struct study {
     long runs;
     int nfile;
     const char **file; /* what the decks are read from, where they can be read */
-    char plan_digest[DIGEST_LETTERS + 1], decks_digest[DIGEST_LETTERS + 1], data_digest[DIGEST_LETTERS + 1],
-        options_digest[DIGEST_LETTERS + 1];
+    struct study_digests digest;
 };
 
 /* Reads every deck in every variant, so that what is wrong with the plan is found before the first run. Errors of the plan go to
@@ -220,7 +218,6 @@ struct experiment {
     double *truth;         /* [states.nparameter] NaN where not known; NULL where the data are measured */
     struct truth *made_by; /* [states.nstate] NULL where the data are measured; its effect or fault holds the values that
                                     were drawn, the same in all */
-    double length;         /* of the rotor, in the first state [m] */
 };
 
 /* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read_states,
