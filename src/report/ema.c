@@ -98,15 +98,15 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
 #define MOST_LINES   10000 /* of all curves together: more makes a file of megabytes */
 #define LEAST_CURVES 3     /* the worst, the middle and the best one */
 
-/* Transfer functions by rising FRAC, without those that have none; their number. */
-static int by_frac(const struct ema *ema, int *order)
+/* Transfer functions by rising FRAC, without those that have none; their number. By insertion: a test has hundreds. */
+static int by_frac(const struct ema_result *ema, int *order)
 {
     int count = 0;
-    for (int c = 0; c < ema->nfrf; c++) {
+    for (int c = 0; c < ema->nchannels; c++) {
         int k = count;
-        if (!isfinite(ema->channel[c].fit))
+        if (!isfinite(ema->channels[c].frac))
             continue;
-        for (; k > 0 && ema->channel[order[k - 1]].fit > ema->channel[c].fit; k--)
+        for (; k > 0 && ema->channels[order[k - 1]].frac > ema->channels[c].frac; k--)
             order[k] = order[k - 1];
         order[k] = c;
         count++;
@@ -119,19 +119,10 @@ static int add_curve(struct pool *pool, const struct ema_report *r, int c, doubl
 {
     const struct frf_set *set = &r->measurement->set;
     int n = set->nline;
-    double *part[4];
-    for (int i = 0; i < 4; i++)
-        if (!(part[i] = POOL_ARRAY(pool, double, n)))
-            return 0;
     ema_synthesise(r->ema, set, c, 1, n, set->frequency_hz, h);
-    for (int l = 0; l < n; l++) {
-        part[0][l] = creal(set->frf[c].h[l]);
-        part[1][l] = cimag(set->frf[c].h[l]);
-        part[2][l] = creal(h[l]);
-        part[3][l] = cimag(h[l]);
-    }
-    *curve = (struct ema_curve){c + 1, n, set->frequency_hz, part[0], part[1], part[2], part[3]};
-    return 1;
+    *curve = (struct ema_curve){.channel = c + 1, .nfrequency_hz = n, .frequency_hz = set->frequency_hz};
+    return !complex_parts(pool, n, set->frf[c].h, &curve->measured_re, &curve->measured_im) &&
+           !complex_parts(pool, n, h, &curve->synthesised_re, &curve->synthesised_im);
 }
 
 /* Of `count` functions in this order. 0 where memory is out. */
@@ -168,7 +159,7 @@ static int add_functions(struct pool *pool, const struct ema_report *r, struct e
     double complex *h = POOL_ARRAY(pool, double complex, lines);
     if (!order || !h)
         return 0;
-    int count = by_frac(r->ema, order), taken = lines ? MOST_LINES / lines : 0;
+    int count = by_frac(out, order), taken = lines ? MOST_LINES / lines : 0;
     taken = taken < LEAST_CURVES ? LEAST_CURVES : taken;
     taken = taken > count ? count : taken;
     out->curves = POOL_ARRAY(pool, struct ema_curve, taken);
@@ -379,16 +370,7 @@ static struct table *table_of_poles(struct pool *pool, const struct ema_result *
 /* The channels with the lowest FRAC, or all. */
 static struct table *table_of_channels(struct pool *pool, const struct ema_result *ema, int all)
 {
-    int *order = POOL_ARRAY(pool, int, ema->nchannels), known = 0;
-    for (int c = 0; c < ema->nchannels && order; c++) { /* insertion by rising FRAC; the channels of a test are hundreds */
-        int i = known;
-        if (isnan(ema->channels[c].frac))
-            continue;
-        for (; i > 0 && ema->channels[order[i - 1]].frac > ema->channels[c].frac; i--)
-            order[i] = order[i - 1];
-        order[i] = c;
-        known++;
-    }
+    int *order = POOL_ARRAY(pool, int, ema->nchannels), known = order ? by_frac(ema, order) : 0;
     int shown = all || known < WORST ? known : WORST;
     struct table *table =
         table_open(pool, pool_format(pool, "FRAC of measured and synthesised transfer functions: median %.4f; %s",

@@ -76,7 +76,7 @@ static struct transfer_beside *beside_measured(struct pool *pool, const struct f
     return beside;
 }
 
-static int add_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im)
+int complex_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im)
 {
     double *real = POOL_ARRAY(pool, double, n), *imag = POOL_ARRAY(pool, double, n);
     for (int l = 0; l < n && real && imag; l++) {
@@ -113,12 +113,12 @@ static int add_functions(const struct frf_view *view, struct transfer_result *ou
         f->nfrequency_hz = r->nline;
         f->frequency_hz = frequency_hz;
         frf_synthesised(r, out->nfunctions, 1, h, work);
-        if (add_parts(pool, r->nline, h, &f->synthesised_re, &f->synthesised_im))
+        if (complex_parts(pool, r->nline, h, &f->synthesised_re, &f->synthesised_im))
             return 1;
         if (!r->is_measured)
             continue;
         frf_measured_curve(r, view->set, out->nfunctions, h);
-        if (add_parts(pool, r->nline, h, &f->measured_re, &f->measured_im))
+        if (complex_parts(pool, r->nline, h, &f->measured_re, &f->measured_im))
             return 1;
     }
     return 0;
@@ -182,14 +182,15 @@ static int direction_of(const struct frf_view *view, const struct frf_row *row)
     return measured ? measured : view->job->options.frf.axis == 0 ? 2 : 1;
 }
 
-static int write_function(FILE *stream, const struct frf_view *view, int i, double complex *h, double complex *work, double *re,
-                          double *im)
+static int write_function(FILE *stream, const struct frf_view *view, int i, double complex *h, double complex *work)
 {
     static const int specific[] = {8, 11, 12};
     static const char *const labels[] = {"Displacement", "Velocity", "Acceleration"}, *const units[] = {"m", "m/s", "m/s2"};
     const struct frf_result *r = view->result;
     const struct frf_row *row = &r->row[i];
     struct uff_function_writer writer;
+    const double *re, *im;
+    struct pool pool;
     struct uff_function f = {.type = UFF_TRANSFER,
                              .number = i + 1,
                              .response_node = row->response,
@@ -208,13 +209,11 @@ static int write_function(FILE *stream, const struct frf_view *view, int i, doub
     (void)snprintf(f.numerator.label, sizeof f.numerator.label, "%s", labels[r->quantity]);
     (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", units[r->quantity]);
     frf_synthesised(r, i, 1, h, work);
-    for (int l = 0; l < r->nline; l++) {
-        re[l] = creal(h[l]);
-        im[l] = cimag(h[l]);
-    }
-    int status = uff_write_function(stream, &f, &writer);
+    pool_open(&pool, NULL);
+    int status = complex_parts(&pool, r->nline, h, &re, &im) ? ROTID_ERROR_MEMORY : uff_write_function(stream, &f, &writer);
     if (!status)
         status = uff_write_values(&writer, r->nline, NULL, re, im);
+    pool_close(&pool);
     return status ? status : uff_end_function(&writer);
 }
 
@@ -225,8 +224,7 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
     struct uff_header header = {0};
     double complex *h = POOL_ARRAY(view->pool, double complex, r->nline),
                    *work = POOL_ARRAY(view->pool, double complex, r->nline);
-    double *re = POOL_ARRAY(view->pool, double, r->nline), *im = POOL_ARRAY(view->pool, double, r->nline);
-    if (!h || !work || !re || !im)
+    if (!h || !work)
         return ROTID_ERROR_MEMORY;
     (void)snprintf(header.model, sizeof header.model, "rotid frf");
     (void)snprintf(header.program, sizeof header.program, "rotid %s", version);
@@ -236,7 +234,7 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
     if (!status)
         status = write_nodes(stream, view);
     for (int i = 0; i < r->ndone && !status; i++)
-        status = write_function(stream, view, i, h, work, re, im);
+        status = write_function(stream, view, i, h, work);
     return status;
 }
 

@@ -278,6 +278,9 @@ struct frf_view {
 /* On view->pool; NULL where memory is out. */
 const struct transfer_result *frf_result_of(const struct frf_view *view);
 
+/* Real and imaginary parts [n], on the pool. 0, or 1 where memory is out. */
+int complex_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im);
+
 /* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write_function, ROTID_ERROR_MEMORY. */
 int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
 
