@@ -13,14 +13,13 @@
  *   run.c             study_run: identify_states or diagnose_states on that, one thread; the line of it as JSON;
  *                     score_make: the verdict beside the hidden effect
  *   workers.c         workers_run: processes of this machine, a run each; a process that dies costs its run
- *   results.c         the header; a line knows its study and its own digest; results_read: every line checked; record_open,
- *                     record_append: the file while it grows, locked; record_finish: lines in order of the runs
+ *   results.c         the header; a line knows its study and its own digest; results_open: every line checked, and where it
+ *                     stands; record_open, record_append: the file while it grows, locked; record_finish: in order of the runs
  *   merge.c, summary.c, summary_table.c  shards into one file; of each cell bias, scatter, coverage of the intervals
  *
  * Callers: src/cli/command_study.c, src/mpi (hands out runs over MPI), src/page (summary of a file). study_run knows nothing of
  * files, processes and machines. Nothing in a run depends on the clock but its times. */
 
-#include <cJSON.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -93,7 +93,7 @@ static int worker_end(struct worker *worker)
 struct crew {
     struct pool *pool;
     const struct study *study;
-    const struct workers_options *options;
+    struct workers_options options;
     struct study_record *record;
     int count, unable; /* workers; how many in a row could not be started or died idle */
     int ending;        /* what is not finished is given up, not failed */
@@ -103,16 +103,9 @@ struct crew {
     long computed;
 };
 
-static int is_stopped(const struct crew *crew)
-{
-    struct workers_options options = *crew->options;
-    return is_told_to_stop(&options);
-}
-
 /* Starts a process. ROTID_OK, or ROTID_ERROR_IO with errno. */
-static int worker_start(const struct crew *crew, struct worker *worker)
+static int worker_start(struct crew *crew, struct worker *worker)
 {
-    struct workers_options options = *crew->options;
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
         return ROTID_ERROR_IO;
@@ -130,7 +123,7 @@ static int worker_start(const struct crew *crew, struct worker *worker)
             if (crew->worker[i].process)
                 (void)close(fileno(crew->worker[i].answers));
         (void)close(pair[0]);
-        _exit(work(crew->study, pair[1], &options)); /* what the parent has in its buffers is the parent's to write */
+        _exit(work(crew->study, pair[1], &crew->options)); /* what the parent has in its buffers is the parent's to write */
     }
     int reason = errno;
     (void)close(pair[1]);
@@ -150,10 +143,10 @@ static int worker_start(const struct crew *crew, struct worker *worker)
 
 static void show(struct crew *crew, double now)
 {
-    if (!crew->options->progress || now - crew->shown < TICK)
+    if (!crew->options.progress || now - crew->shown < TICK)
         return;
     crew->shown = now;
-    crew->options->progress(crew->record, crew->computed, now - crew->begun);
+    crew->options.progress(crew->record, crew->computed, now - crew->begun);
 }
 
 static int keep(struct crew *crew, long run, const char *line)
@@ -189,9 +182,9 @@ static int bury(struct crew *crew, struct worker *worker, const char *why)
     else if (!error)
         error = WEXITSTATUS(ended) ? pool_format(crew->pool, "worker ended with exit code %d", WEXITSTATUS(ended))
                                    : "worker was told to end";
-    return run < 0 || crew->ending || is_stopped(crew) ? ROTID_OK
-           : error                                     ? keep_failure(crew, run, error, seconds)
-                                                       : ROTID_ERROR_MEMORY;
+    return run < 0 || crew->ending || is_told_to_stop(&crew->options) ? ROTID_OK
+           : error                                                    ? keep_failure(crew, run, error, seconds)
+                                                                      : ROTID_ERROR_MEMORY;
 }
 
 /* A process for each place that has none and a run for each that is idle, while there are any. */
@@ -246,7 +239,7 @@ static int listen_to(struct crew *crew, struct worker *worker)
 
 static int wait_for_answers(struct crew *crew)
 {
-    const double most = crew->options->timeout, tick = most > 0 ? fmin(most, TICK) : TICK;
+    const double most = crew->options.timeout, tick = most > 0 ? fmin(most, TICK) : TICK;
     int count = 0, status = ROTID_OK;
     for (int i = 0; i < crew->count; i++)
         if (crew->worker[i].process)
@@ -261,7 +254,7 @@ static int wait_for_answers(struct crew *crew)
 
 static int end_late_ones(struct crew *crew, double now)
 {
-    double most = crew->options->timeout;
+    double most = crew->options.timeout;
     int status = ROTID_OK;
     for (int i = 0; i < crew->count && most > 0 && !status; i++) {
         struct worker *worker = &crew->worker[i];
@@ -296,7 +289,7 @@ static int compute(struct crew *crew)
             status = record_sync(crew->record, now);
         if (status)
             return status;
-        if (is_stopped(crew))
+        if (is_told_to_stop(&crew->options))
             return ROTID_STOP_CANCELLED;
         show(crew, now);
     }
@@ -334,7 +327,7 @@ int workers_run(struct pool *pool, const struct study *study, const struct worke
     long missing = record->wanted - record->done;
     struct crew crew = {.pool = pool,
                         .study = study,
-                        .options = options,
+                        .options = *options,
                         .record = record,
                         .count = missing < options->workers ? (int)missing : options->workers,
                         .begun = clock_seconds()};
