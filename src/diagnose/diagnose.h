@@ -12,7 +12,7 @@
  *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
  *   5 refit      refit.c (refit_cause): fits with one cause more; far_starts.c
  *   6 posterior  posterior.c (posterior_run): probabilities, averaged moduli; search.c, scan_pairs.c: beam search over sets;
- *                laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; verdict.c; advice.c
+ *                laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; place_interval.c; verdict.c; advice.c
  *   7 data       3 to 6 again behind what they show (round.c, round_run): pairing.c; faults.c: channels; level of the noise
  *   8 evidence   evidence.c, leave_out.c: single causes for the reader, modes and sensors left out
  *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
@@ -712,12 +712,6 @@ double shape_data_model(const struct shape_data *data, int k, double z);
 /* The final model, the gain, the verdict in words. last: the round that named nothing more, or NULL. */
 int finalise(struct engine *engine, const struct round_result *last);
 
-/* 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2: where the least chi2 of all other unknowns
- * is within 3.84 of that of `fit`, times the square by which the intervals of that are widened. interval [2] ends where a side
- * does, or within 1 % of the range outside of it. Statuses of memory and cancellation only. Time: some twelve fits. */
-int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
-                   double interval[2]);
-
 /* ---------------------------------------------------------------------------------------------------------------- hidden */
 
 /* What a cause below its detection limit does to the parameters that are identified. */
@@ -873,6 +867,11 @@ struct strip_case {
     const rotid_environment *environment;
 };
 int evidence_over_widths(struct pool *pool, const struct evidence_data *data, const struct strip_case *c, struct evidence *out);
+
+/* The 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2 (place_interval.c), into `fit`: where the
+ * least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by which its intervals are widened, to a
+ * hundredth of the range or a seventh of the distance. Statuses of memory and cancellation only. Time: two to fourteen fits. */
+int place_interval(const struct engine *engine, const struct states *states, rotid_fit_result *fit, int p);
 
 struct model_prior { /* of a parameter of a host: normal about neutral, deviation 0: uniform, of a positive one in ln */
     double lower, upper, neutral, deviation;

@@ -7,78 +7,6 @@
 #include "base/base.h"
 #include "fit/fit.h"
 
-#define HELD  1e-6 /* of the range: what a place may still move that is held */
-#define NEAR  0.01 /* of the range: as near as an end is looked for */
-#define STEPS 6
-
-struct profile {
-    const struct engine *engine;
-    const struct states *states;
-    const rotid_fit_result *fit;
-    int p;
-    double lower, upper;
-};
-
-/* *far := square root of what chi2 is above that of the fit with the place held at z; INFINITY where there is no fit. */
-static int look_at(const struct profile *profile, double z, double *far)
-{
-    struct pool scratch;
-    struct states held;
-    rotid_fit_result *fit = NULL;
-    double room = HELD * (profile->upper - profile->lower), from = fmax(profile->lower, z - room),
-           to = fmin(profile->upper, z + room);
-    pool_open(&scratch, profile->engine->pool->allocator);
-    int status = states_started_at(&scratch, profile->states, profile->fit->x, &held);
-    if (!status) {
-        rotid_parameter *place = &held.bounds[profile->p];
-        place->lower = from;
-        place->upper = to;
-        place->start = (from + to) / 2;
-        states_share_bounds(&held, profile->p);
-        status =
-            refit_states(&scratch, &held, profile->engine->number, profile->engine->holdout, profile->engine->environment, &fit);
-    }
-    *far = status ? INFINITY : sqrt(fmax(0, fit->chi2 - profile->fit->chi2));
-    rotid_fit_free(fit);
-    pool_close(&scratch);
-    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
-}
-
-/* The end on the side of `bound`: the distance grows with that of the place, nearly in proportion. */
-static int find_end(const struct profile *profile, double z, double bound, double *end)
-{
-    double limit = sqrt(chi_square_limit(0.05, 1)) * profile->fit->widened_by, inside = z, outside = bound, near = 0, far;
-    int status = look_at(profile, bound, &far);
-    *end = bound;
-    if (status || far <= limit)
-        return status;
-    for (int i = 0; i < STEPS && fabs(outside - inside) > NEAR * (profile->upper - profile->lower); i++) {
-        double share = isfinite(far) ? (limit - near) / (far - near) : 0.5, one,
-               at = inside + fmin(fmax(share, 0.1), 0.9) * (outside - inside);
-        status = look_at(profile, at, &one);
-        if (status)
-            return status;
-        if (one <= limit) {
-            inside = at;
-            near = one;
-        } else {
-            outside = at;
-            far = one;
-        }
-    }
-    *end = outside;
-    return ROTID_OK;
-}
-
-int place_interval(const struct engine *engine, const struct states *states, const rotid_fit_result *fit, int p,
-                   double interval[2])
-{
-    double lower = states->bounds[p].lower, upper = states->bounds[p].upper, z = fmin(fmax(fit->x[p], lower), upper);
-    const struct profile profile = {engine, states, fit, p, lower, upper};
-    int status = find_end(&profile, z, lower, &interval[0]);
-    return status ? status : find_end(&profile, z, upper, &interval[1]);
-}
-
 /* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
  * much; and a place that the fit gives no interval for has that of the scan. */
 static void settle_parameter(const struct state *state, rotid_fit_result *fit, int q, struct candidate *cause)
@@ -97,37 +25,9 @@ static void settle_parameter(const struct state *state, rotid_fit_result *fit, i
     }
 }
 
-/* Whether the width of effect e ends at a bound, so that the fit knows the rest for that width alone. */
-static int has_width_at_bound(const struct state *state, const rotid_fit_result *fit, int e, int width)
-{
-    int p = effect_unknown(state, e, width);
-    return p >= 0 && !isfinite(fit->std[p]);
-}
-
-/* A place whose interval reaches beyond an end of the rotor, or that has none, is where no linear model holds, and with a width
- * at its bound the linear one is too short: its profile. */
-static int settle_place(const struct engine *engine, const struct state *state, rotid_fit_result *fit, int q,
-                        struct candidate *cause)
-{
-    const struct rotid_parameter *bounds = &state->job.unknowns.bounds[q];
-    int component = state->job.unknowns.parameter[q].component, p = state_unknown(state, q);
-    double interval[2];
-    if (component != cause->cause->place || cause->fixed[component] ||
-        (fit->ci_lower[p] > bounds->lower && fit->ci_upper[p] < bounds->upper &&
-         !has_width_at_bound(state, fit, state->job.unknowns.parameter[q].index, cause->cause->width)))
-        return ROTID_OK;
-    int status = place_interval(engine, &engine->out->extended_states, fit, p, interval);
-    if (status)
-        return status;
-    fit->ci_lower[p] = cause->ci_lower[component] = interval[0];
-    fit->ci_upper[p] = cause->ci_upper[component] = interval[1];
-    return ROTID_OK;
-}
-
 /* Takes the values of the extended model's fit into the causes of the diagnosis, with their intervals: those of the fit, but
- * where the round found that they say too much; of a place for which no linear model holds, because its interval reaches beyond
- * an end of the rotor or the width beside it ends at a bound, that of the profile of chi2, which goes into the fit as well.
- * Statuses of memory and cancellation only. */
+ * where the round found that they say too much; of a place that of the profile of chi2, which goes into the fit as well. Statuses
+ * of memory and cancellation only. */
 static int cause_intervals(const struct engine *engine)
 {
     struct diagnosis *out = engine->out;
@@ -137,15 +37,19 @@ static int cause_intervals(const struct engine *engine)
         struct candidate *cause = &out->cause[c];
         const struct state *state = &out->extended_states.state[cause->home];
         const struct job *job = &state->job;
-        int e = effect_named(state, cause->effect.name);
+        int e = effect_named(state, cause->effect.name), place = cause->cause->place;
         if (e < 0)
             continue;
         effect_at(state, e, fit->x, &cause->effect);
-        for (int q = 0; q < job->unknowns.nparameter && !status; q++)
-            if (job->unknowns.parameter[q].kind == PARAMETER_EFFECT && job->unknowns.parameter[q].index == e) {
+        for (int q = 0; q < job->unknowns.nparameter; q++)
+            if (job->unknowns.parameter[q].kind == PARAMETER_EFFECT && job->unknowns.parameter[q].index == e)
                 settle_parameter(state, fit, q, cause);
-                status = settle_place(engine, state, fit, q, cause);
-            }
+        int p = place < 0 || cause->fixed[place] ? -1 : effect_unknown(state, e, place);
+        if (p < 0)
+            continue;
+        status = place_interval(engine, &out->extended_states, fit, p);
+        cause->ci_lower[place] = fit->ci_lower[p];
+        cause->ci_upper[place] = fit->ci_upper[p];
     }
     return status;
 }

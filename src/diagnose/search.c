@@ -2,7 +2,8 @@
  * addition is scored by the evidence of its columns, the most promising are fitted, as is the set with one cause less and, where
  * no single cause leaves nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within
  * SEARCH_WITHIN of the best. What was not fitted enters by its columns; widths that are free are integrated at last
- * (over_width.c); something else comes beside the likeliest, where it leads beside every single cause. */
+ * (over_width.c), places get their intervals (place_interval.c); something else comes beside the likeliest, where it leads beside
+ * every single cause. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,8 @@
 #define PAIRS     8    /* of causes that are proposed together */
 #define ELSE_MOST 3    /* sets of a size */
 #define LINEAR    10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
+#define PLACES    12   /* of causes that are looked at by their profile, */
+#define OF_BEST   3.0  /* in ln P below the best set: a twentieth */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
 static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *found)
@@ -555,6 +558,35 @@ static int integrate_widths(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
+/* The places of the sets that count by their profiles, each cause in the likeliest set that has it there. */
+static int find_places(const struct engine *engine, struct posterior *p)
+{
+    const struct candidate *found[PLACES];
+    int known = 0, k;
+    for (int i = 0; i < p->count && p->item[i].log_posterior > p->item[0].log_posterior - OF_BEST; i++) {
+        const struct refit *refit = p->item[i].refit;
+        for (int m = 0; m < p->item[i].nmember && refit; m++) {
+            struct candidate *c = &p->item[i].member[m];
+            int place = c->cause->place, q = -1, status;
+            for (k = 0; k < known; k++)
+                if (posterior_same_model(found[k], c) && posterior_same_name(p, found[k], c))
+                    break;
+            if (place >= 0 && !c->fixed[place] && k == known && known < PLACES)
+                q = effect_unknown(&refit->states.state[c->home], effect_named(&refit->states.state[c->home], c->effect.name),
+                                   place);
+            if (q < 0)
+                continue;
+            status = place_interval(engine, &refit->states, refit->fit, q);
+            if (status)
+                return status;
+            c->ci_lower[place] = refit->fit->ci_lower[q];
+            c->ci_upper[place] = refit->fit->ci_upper[q];
+            found[known++] = c;
+        }
+    }
+    return ROTID_OK;
+}
+
 /* Something else beside set i of the list; *best: raised to its ln P. near: a scan whose fields along the rotor do for it, or
  * NULL: they are looked for beside its own fit. */
 static int add_else_beside(struct engine *engine, struct posterior *p, int i, const struct scan *near, double *best)
@@ -611,5 +643,7 @@ int search_run(struct engine *engine, struct round_result *result, struct poster
     posterior_sort(p);
     status = integrate_widths(engine, p);
     posterior_sort(p);
+    if (!status)
+        status = find_places(engine, p);
     return status ? status : add_something_else(engine, p);
 }

@@ -13,21 +13,13 @@
 #define ODDS         3.0  /* of anything over nothing, times those before */
 #define EXCLUDED     0.05 /* of the probability of another explanation */
 
-/* Whether nearly all of the place lies in one interval: by the profile of chi2 where the fit's own is too long, since towards an
- * end of the rotor a place says less and less. Statuses of memory and cancellation only. */
-static int is_placed(const struct engine *engine, const struct explanation *e, const struct candidate *c, int *placed)
+/* Whether nearly all of the place lies in one interval, that of its profile. */
+static int is_placed(const struct posterior *p, const struct explanation *e, const struct candidate *c)
 {
-    const struct state *state = &e->refit->states.state[c->home];
-    int place = c->cause->place, known = place < 0 || c->fixed[place];
-    double length = rotor_length(&state->job.rotor), interval[2];
-    *placed = known || !(e->refit->other_chi2 - e->refit->chi2 < 6);
-    if (known || !*placed || !isfinite(c->std[place]) || 1.96 * c->std[place] < POSTERIOR_NEAR * length)
-        return ROTID_OK;
-    int p = effect_unknown(state, effect_named(state, c->effect.name), place),
-        status = p < 0 ? ROTID_OK : place_interval(engine, &e->refit->states, e->refit->fit, p, interval);
-    if (!status)
-        *placed = p >= 0 && interval[1] - interval[0] < 2 * POSTERIOR_NEAR * length;
-    return status;
+    int place = c->cause->place;
+    return place < 0 || c->fixed[place] ||
+           !(e->refit->other_chi2 - e->refit->chi2 < 6 ||
+             c->ci_upper[place] - c->ci_lower[place] >= 2 * POSTERIOR_NEAR * p->length);
 }
 
 /* The likeliest explanation with a fit that has all of these, and no more where `only`; physical ones beside no fault. */
@@ -54,14 +46,14 @@ static double together(const struct posterior *p, const struct candidate *a, con
     return sum;
 }
 
-/* The causes to be named [*count]. Statuses of memory and cancellation only. */
-static int choose_names(const struct engine *engine, const struct posterior *p, struct candidate *named, int *count)
+/* The causes to be named; returns how many. */
+static int choose_names(const struct posterior *p, struct candidate *named)
 {
-    int status = ROTID_OK, placed;
-    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && *count < MOST_MEMBERS && !status; i++) {
+    int count = 0;
+    for (int i = 0; i < p->nmarginal && p->marginal[i].probability >= VERDICT_NAMED && count < MOST_MEMBERS; i++) {
         const struct candidate *c = &p->marginal[i].cause;
         int joint = !candidate_is_fault(c);
-        for (int j = 0; j < *count; j++)
+        for (int j = 0; j < count; j++)
             joint &= together(p, &named[j], c) >= VERDICT_NAMED;
         const struct explanation *with = joint ? model_with(p, 1, c, 0) : NULL;
         int m = 0;
@@ -69,11 +61,10 @@ static int choose_names(const struct engine *engine, const struct posterior *p, 
             m++;
         if (!with || m == with->nmember)
             continue;
-        status = is_placed(engine, with, &with->member[m], &placed);
-        if (!status && placed)
-            named[(*count)++] = with->member[m];
+        if (is_placed(p, with, &with->member[m]))
+            named[count++] = with->member[m];
     }
-    return status;
+    return count;
 }
 
 int posterior_take_faults(struct engine *engine, const struct posterior *p, int *changed)
@@ -221,9 +212,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     if (!out->cause || !out->alternative)
         return ROTID_ERROR_MEMORY;
     if (verdict->confident)
-        status = choose_names(engine, p, named, &count);
-    if (status)
-        return status;
+        count = choose_names(p, named);
     model = model_of(p, count, named);
     verdict->something_else = p->something_else;
     verdict->kind = posterior_kind(p->something_else, model != NULL, !lead->nmember && !lead->something_else,
