@@ -434,19 +434,22 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     return status;
 }
 
-/* Without parameters there is nothing to minimise: the model is at its minimum. */
-static int compare_only(struct fit *fit, rotid_lm_result *lm)
+/* Where nothing is to be minimised, as the models near y are at their minimum there, or there are no parameters: what is known of
+ * that point. status: why it is the end. */
+static int compare_only(struct fit *fit, int status, rotid_lm_result *lm)
 {
-    int m = fit->joint.nresidual;
-    *lm = (rotid_lm_result){.evaluations = 1};
-    if (residual(fit, m, 0, fit->y, fit->r, NULL))
+    int m = fit->joint.nresidual, n = fit->n;
+    double *gradient = fit->work;
+    *lm = (rotid_lm_result){.evaluations = 1, .jacobians = n > 0};
+    if (residual(fit, m, n, fit->y, fit->r, NULL) || (n && residual(fit, m, n, fit->y, NULL, fit->jacobian)))
         return ROTID_ERROR_CALLBACK;
-    for (int i = 0; i < m; i++)
-        lm->objective += fit->r[i] * fit->r[i] / 2;
+    lm->objective = product_dot(m, fit->r, fit->r) / 2;
     if (!isfinite(lm->objective))
         return ROTID_ERROR_FINITE;
-    rotid_lm_iteration now = {.objective = lm->objective, .gain_ratio = NAN, .x = fit->y, .gradient = fit->y};
-    lm->status = trace(fit, &now) ? ROTID_STOP_CANCELLED : ROTID_STOP_GRADIENT;
+    for (int p = 0; p < n; p++)
+        gradient[p] = product_dot(m, fit->jacobian + (ptrdiff_t)p * m, fit->r);
+    rotid_lm_iteration now = {.objective = lm->objective, .gain_ratio = NAN, .x = fit->y, .gradient = gradient};
+    lm->status = trace(fit, &now) ? ROTID_STOP_CANCELLED : status;
     return lm->status;
 }
 
@@ -477,9 +480,10 @@ static double objective_at(struct fit *fit, const double *x)
 }
 
 /* y := the minimum of models near the start, made anew where the last one ended until they agree there with the states: what the
- * minimiser has to do with the states themselves is a step then. A point that is no better for these is left, but known to the
- * next models. ROTID_OK or ROTID_ERROR_MEMORY. */
-static int begin_near(struct pool *pool, struct fit *fit, const struct fit_problem *problem, rotid_lm_options *options)
+ * minimiser has to do with the states themselves is a step then, or, where a decrease is worth nothing, none (*end: why the
+ * minimum of the models is one; else 0): what a step still promises there comes from jumps of the model. A point that is no
+ * better for the states is left, but known to the next models. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int begin_near(struct pool *pool, struct fit *fit, const struct fit_problem *problem, rotid_lm_options *options, int *end)
 {
     int n = fit->n, there = 1, agrees = 0, stands = 0, status = ROTID_OK;
     double *best = POOL_ARRAY(pool, double, n), *r = POOL_ARRAY(pool, double, fit->joint.nresidual), lowest,
@@ -489,6 +493,7 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
     struct pool of_round[2]; /* the models of a round go when those of the one behind the next are made */
     if (!best || !r)
         return ROTID_ERROR_MEMORY;
+    *end = 0;
     for (int i = 0; i < 2; i++)
         pool_open(&of_round[i], pool->allocator);
     near_options.trace = trace_near;
@@ -519,6 +524,7 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
         double now = objective_at(fit, fit->x);
         stands = now < lowest;
         agrees = fabs(now - lm.objective) <= fmax(worth / 100, NEAR_AGREES * now);
+        *end = agrees && stands && worth > 0 ? lm.status : 0;
         if (stands) {
             lowest = now;
             memcpy(best, fit->y, (size_t)n * sizeof *best);
@@ -530,7 +536,7 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
     memcpy(fit->y, best, (size_t)n * sizeof *best);
     fit->accepted = NULL;
     fit->known = stands ? r : NULL;
-    if (agrees && lowest > 0) /* what a step still promises comes from jumps of the model */
+    if (agrees && lowest > 0)
         options->objective_tolerance = fmax(options->objective_tolerance, worth / lowest);
     return status;
 }
@@ -576,13 +582,14 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
                                    .trace = trace,
                                    .trace_user = fit};
     rotid_lm_result lm;
+    int end = 0;
     fit->begin = clock_seconds();
     if (n && problem->near)
-        status = begin_near(pool, fit, problem, &lm_options);
+        status = begin_near(pool, fit, problem, &lm_options, &end);
     if (status)
         return status;
-    status = n ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
-               : compare_only(fit, &lm);
+    status = n && !end ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
+                       : compare_only(fit, end ? end : ROTID_STOP_GRADIENT, &lm);
     fit->result->seconds = clock_seconds() - fit->begin;
     if (fit->history_failed)
         return ROTID_ERROR_MEMORY;
