@@ -227,13 +227,16 @@ static double largest_size(const struct rotor *rotor, const struct solid_rule *r
 }
 
 /* Along section s: as a shaft, which bends in shorter waves where it is slender than the body beside it; and of a thin wall half
- * of the root of radius times thickness, a fifth of the waves in which its ends bend. */
+ * of the root of radius times thickness, a fifth of the waves in which its ends bend, or, with corners, where no coarse mesh
+ * tells what such elements leave, a quarter. */
 static double largest_along(const struct rotor *rotor, const struct solid_rule *rule, int refine, int s)
 {
     double length = rotor_length(rotor), outer = outline_outer(rotor, s), wall = outer - outline_inner(rotor, s);
     double size = largest_size(rotor, rule, refine, 1, fmax(outer, length / THINNEST), length);
-    return THIN_WALL * wall < outer ? fmin(size, refined(rotor, refine, 1, fmax(sqrt(outer * wall) / 2, length / THINNEST)))
-                                    : size;
+    return THIN_WALL * wall < outer
+               ? fmin(size, refined(rotor, refine, 1,
+                                    fmax(sqrt(outer * wall) / (outline_has_corners(rotor) ? 4 : 2), length / THINNEST)))
+               : size;
 }
 
 /* Without corners every element of the coarse mesh is cut into two, by which the errors of both have one ratio. */
