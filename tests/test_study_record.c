@@ -83,7 +83,7 @@ static struct study_record opened(int retry)
 
 static void append(struct study_record *record, long run, const char *status)
 {
-    assert_status(record_append(record, run, line_of(run, status, (double)run)), ROTID_OK);
+    assert_status(record_append(record, line_of(run, status, (double)run)), ROTID_OK);
 }
 
 /* Refused with these words, and the file is left as it is. */
@@ -276,7 +276,7 @@ FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
         int status = open_record(0, &messages, &record), count = 0;
         errno = 0;
         for (long run = 0; run < RUNS && !status; run++) {
-            status = record_append(&record, run, line_of(run, "converged", (double)run));
+            status = record_append(&record, line_of(run, "converged", (double)run));
             count += !status;
         }
         int reason = errno;
@@ -519,9 +519,9 @@ FIXTURE_TEST(summaries_add_up, setup, close_test_pool)
     struct study_record record = opened(0);
     static const double value[] = {2, 3, 5, 6}; /* truth 3, interval 0 to 4, std 2 */
     for (long run = 3; run >= 0; run--)
-        assert_status(record_append(&record, run, line_of(run, run == 1 ? "at_bound" : "converged", value[run])), ROTID_OK);
+        assert_status(record_append(&record, line_of(run, run == 1 ? "at_bound" : "converged", value[run])), ROTID_OK);
     append(&record, 4, "failed");
-    assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9)), ROTID_OK);
+    assert_status(record_append(&record, line_of(5, "not_converged", 1e9)), ROTID_OK);
     record_close(&record);
     message_open(&messages, &test_pool);
     assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &found, NULL, &s), ROTID_OK);

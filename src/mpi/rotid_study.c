@@ -39,11 +39,9 @@ static void rest(void)
 /* ---- rank 0 */
 
 struct office {
-    struct command *command;
     struct study_record *record;
-    int size, begun;      /* ranks; the others have got their first runs */
-    long (*given)[AHEAD]; /* [size] runs of a rank, the one that it computes first; -1: none */
-    int status, reason;   /* what went wrong with the file, and its errno */
+    int size, *given;   /* ranks; [size] runs that each has got and not answered */
+    int status, reason; /* what went wrong with the file, and its errno */
 };
 
 static int is_over(const struct office *office)
@@ -53,22 +51,18 @@ static int is_over(const struct office *office)
 
 static void give(struct office *office, int rank)
 {
-    long *given = office->given[rank];
-    for (int i = 0; i < AHEAD && !is_over(office); i++) {
-        if (given[i] >= 0)
-            continue;
-        given[i] = record_take(office->record);
-        if (given[i] < 0)
-            return;
-        MPI_Send(&given[i], 1, MPI_LONG, rank, TAG_RUN, MPI_COMM_WORLD);
+    long run;
+    while (office->given[rank] < AHEAD && !is_over(office) && (run = record_take(office->record)) >= 0) {
+        MPI_Send(&run, 1, MPI_LONG, rank, TAG_RUN, MPI_COMM_WORLD);
+        office->given[rank]++;
     }
 }
 
-static void keep(struct office *office, long run, const char *line)
+static void keep(struct office *office, const char *line)
 {
     if (office->status || !*line) /* empty: it was stopped */
         return;
-    office->status = record_append(office->record, run, line);
+    office->status = record_append(office->record, line);
     office->reason = errno;
 }
 
@@ -86,11 +80,9 @@ static void serve(struct office *office)
         }
         MPI_Recv(line, length, MPI_CHAR, from.MPI_SOURCE, TAG_LINE, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         line[length] = 0;
-        long *given = office->given[from.MPI_SOURCE];
-        keep(office, given[0], line);
+        keep(office, line);
         free(line);
-        memmove(given, given + 1, (AHEAD - 1) * sizeof *given);
-        given[AHEAD - 1] = -1;
+        office->given[from.MPI_SOURCE]--;
         give(office, from.MPI_SOURCE);
     }
     if (!office->status && record_sync(office->record, clock_seconds())) {
@@ -110,7 +102,7 @@ static int serve_meanwhile(void *context)
 static int is_waiting(const struct office *office)
 {
     for (int rank = 1; rank < office->size; rank++)
-        if (office->given[rank][0] >= 0)
+        if (office->given[rank] > 0)
             return 1;
     return 0;
 }
@@ -126,7 +118,7 @@ static void compute_own(struct office *office, struct jobs *jobs)
     if (status == ROTID_ERROR_MEMORY)
         office->status = status;
     if (status == ROTID_OK)
-        keep(office, run, line);
+        keep(office, line);
     json_free(line);
 }
 
@@ -134,14 +126,12 @@ static int hand_out(void *context, struct command *command, const struct study *
 {
     struct office *office = context;
     struct jobs jobs;
-    double end = INFINITY;
     int computes = office->size <= COMPUTING_RANKS;
     (void)command;
     office->record = record;
-    office->given = malloc((size_t)office->size * sizeof *office->given);
+    office->given = calloc((size_t)office->size, sizeof *office->given);
     if (!office->given)
         return ROTID_ERROR_MEMORY;
-    memset(office->given, -1, (size_t)office->size * sizeof *office->given);
     jobs_open(study, &jobs);
     for (int rank = 1; rank < office->size; rank++)
         give(office, rank);
@@ -153,7 +143,7 @@ static int hand_out(void *context, struct command *command, const struct study *
         if (!computes || record->next == before)
             rest();
     }
-    for (end = clock_seconds() + GRACE; is_waiting(office) && clock_seconds() < end; rest())
+    for (double end = clock_seconds() + GRACE; is_waiting(office) && clock_seconds() < end; rest())
         serve(office);
     jobs_close(&jobs);
     if (record_sync(record, INFINITY) && !office->status) {
@@ -167,7 +157,7 @@ static int hand_out(void *context, struct command *command, const struct study *
 static int lead(struct command *command, const struct study *study, int size)
 {
     const long end = -1;
-    struct office office = {.command = command, .size = size};
+    struct office office = {.size = size};
     int code = study_conduct(command, study, hand_out, &office);
     for (int rank = 1; rank < size; rank++)
         MPI_Send(&end, 1, MPI_LONG, rank, TAG_RUN, MPI_COMM_WORLD);

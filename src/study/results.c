@@ -605,9 +605,10 @@ long record_take(struct study_record *record)
     return -1;
 }
 
-int record_append(struct study_record *record, long run, const char *line)
+int record_append(struct study_record *record, const char *line)
 {
     struct results *file = &record->file;
+    long run = strtol(line + strlen("{\"run\":"), NULL, 10);
     const struct result_place at = {.descriptor = fileno(file->stream),
                                     .failed = strstr(line, "\"status\":\"failed\",\"error\":") != NULL,
                                     .offset = file->end,

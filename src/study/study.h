@@ -335,9 +335,9 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
 /* The next run that is missing and was not given out yet, or -1. */
 long record_take(struct study_record *record);
 
-/* Appends the line of a run, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
+/* Appends the line of a run as study_run makes it, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
  * before. */
-int record_append(struct study_record *record, long run, const char *line);
+int record_append(struct study_record *record, const char *line);
 
 /* To the disk, where the last time is a second ago; now [s] of the clock, infinity: in any case.
  * ROTID_OK or ROTID_ERROR_IO with errno. */

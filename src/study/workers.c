@@ -149,16 +149,16 @@ static void show(struct crew *crew, double now)
     crew->options.progress(crew->record, crew->computed, now - crew->begun);
 }
 
-static int keep(struct crew *crew, long run, const char *line)
+static int keep(struct crew *crew, const char *line)
 {
     crew->computed++;
-    return record_append(crew->record, run, line);
+    return record_append(crew->record, line);
 }
 
 static int keep_failure(struct crew *crew, long run, const char *error, double seconds)
 {
     char *line = study_run_failed(crew->study, run, error, seconds);
-    int status = line ? keep(crew, run, line) : ROTID_ERROR_MEMORY;
+    int status = line ? keep(crew, line) : ROTID_ERROR_MEMORY;
     json_free(line);
     return status;
 }
@@ -225,12 +225,11 @@ static int employ(struct crew *crew, long *ready)
 /* Takes the answer that has begun to arrive, which a worker writes at once: its line, or its end. */
 static int listen_to(struct crew *crew, struct worker *worker)
 {
-    long run = worker->run;
     ssize_t length = getline(&worker->line, &worker->room, worker->answers);
     if (length > 0 && worker->line[length - 1] == '\n') {
         worker->run = -1;
         crew->unable = 0;
-        return keep(crew, run, worker->line);
+        return keep(crew, worker->line);
     }
     if (ferror(worker->answers)) /* by a signal to this program: what was read of the line is lost */
         worker_tell(worker, SIGKILL);
