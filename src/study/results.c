@@ -432,24 +432,20 @@ static int open_locked(const char *path, struct message_list *messages, int *des
         *descriptor = open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
         if (*descriptor < 0)
             return message_refuse(messages, ROTID_ERROR_IO, path, 1, 1, "cannot be opened: %s", strerror(errno));
-        int status = ROTID_OK;
-        if (fstat(*descriptor, &open_one) || !S_ISREG(open_one.st_mode))
-            status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
-                                    "this is no file that lines can be added to, expected a regular one");
-        long holder = status ? 0 : lock(*descriptor);
-        if (holder > 0) {
-            status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
-                                    "is being written by process %ld, expected another file or its end", holder);
-        } else if (holder < 0) {
+        int regular = !fstat(*descriptor, &open_one) && S_ISREG(open_one.st_mode);
+        long holder = regular ? lock(*descriptor) : 0;
+        if (holder < 0)
             message_add(messages, SEVERITY_WARNING, path, 1, 1,
                         "cannot be locked here (%s): see to it that no second study writes to it", strerror(errno));
-        }
-        int same = !status && !stat(path, &named) && named.st_dev == open_one.st_dev && named.st_ino == open_one.st_ino;
-        if (!status && same)
+        if (regular && holder <= 0 && !stat(path, &named) && named.st_dev == open_one.st_dev && named.st_ino == open_one.st_ino)
             return ROTID_OK;
         (void)close(*descriptor);
-        if (status)
-            return status;
+        if (!regular)
+            return message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                  "this is no file that lines can be added to, expected a regular one");
+        if (holder > 0)
+            return message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+                                  "is being written by process %ld, expected another file or its end", holder);
     }
 }
 
