@@ -2,7 +2,6 @@
 #include "study/study.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Random numbers that have a name instead of a place in a sequence: what a replicate draws for one purpose, mode and sensor is
@@ -142,13 +141,6 @@ static void experiment_noise(const struct study *study, const struct study_point
         experiment_fault(truth, 1, job);
 }
 
-struct choice { /* a sensor with its lot */
-    double lot;
-    int sensor;
-};
-
-ORDER_BY(by_lot, struct choice, it->lot, 0)
-
 /* The effects of a job, those of its rotor, then those of its suspects; NULL behind the last. */
 static struct effect *effect_number(const struct job *job, int i)
 {
@@ -178,35 +170,33 @@ static int must_stay(const struct job *job, const struct truth *truth, int s)
     return 0;
 }
 
-/* keep [nsensor]: which stay. The lots of a replicate do not depend on how many are kept: fewer sensors are some of more. */
+/* Which sensors stay: new_index [nsensor] of each, -1 of those that go. Returns how many, or ROTID_ERROR_MEMORY. The lots of a
+ * replicate do not depend on how many are kept: fewer sensors are some of more. */
 static int choose(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
-                  const struct job *job, char *keep)
+                  const struct job *job, int *new_index)
 {
     const struct plan_item *sensors = plan_at(study->plan, &point->cell, AXIS_SENSORS);
-    int nsensor = job->rotor.nsensor;
-    struct choice *choice = POOL_ARRAY(pool, struct choice, nsensor);
-    if (!choice)
+    int n = job->rotor.nsensor, left = 0;
+    double *lot = POOL_ARRAY(pool, double, 2 * (size_t)n), limit = 0; /* of those that have to stay it is below 0 */
+    if (!lot)
         return ROTID_ERROR_MEMORY;
-    for (int s = 0; s < nsensor; s++) {
-        double lot = uniform(study, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0);
-        choice[s] = (struct choice){must_stay(job, truth, s) ? lot - 1 : lot, s};
-        keep[s] = sensors->every && (s % sensors->every == 0 || choice[s].lot < 0);
-    }
-    if (sensors->keep) {
-        qsort(choice, (size_t)nsensor, sizeof *choice, by_lot);
-        for (int i = 0; i < sensors->keep && i < nsensor; i++)
-            keep[choice[i].sensor] = 1;
-    }
-    return ROTID_OK;
+    for (int s = 0; s < n; s++)
+        lot[s] = lot[n + s] =
+            uniform(study, DRAW_SENSOR, point->replicate, (uint64_t)job->rotor.sensor[s].id, 0) - must_stay(job, truth, s);
+    if (sensors->keep)
+        limit = sensors->keep < n ? double_of_rank((size_t)n, (size_t)sensors->keep - 1, lot + n) : 1;
+    for (int s = 0; s < n; s++)
+        new_index[s] = lot[s] <= limit || (sensors->every && s % sensors->every == 0) ? left++ : -1;
+    return left;
 }
 
 /* Rows of a matrix [n * nmode] that stay, in its place. */
-static void leave_rows(int n, int nmode, const char *keep, double *matrix)
+static void leave_rows(int n, int nmode, const int *new_index, double *matrix)
 {
     ptrdiff_t next = 0;
     for (int k = 0; k < nmode && matrix; k++)
         for (int s = 0; s < n; s++)
-            if (keep[s])
+            if (new_index[s] >= 0)
                 matrix[next++] = matrix[s + (ptrdiff_t)k * n];
 }
 
@@ -215,28 +205,25 @@ static int experiment_sensors(struct pool *pool, const struct study *study, cons
                               const struct truth *truth, struct job *job)
 {
     const struct plan_item *sensors = plan_at(study->plan, &point->cell, AXIS_SENSORS);
-    int n = job->rotor.nsensor, left = 0;
+    int n = job->rotor.nsensor;
     if (!n || !(sensors->keep || sensors->every))
         return ROTID_OK;
-    char *keep = POOL_ARRAY(pool, char, n);
     int *new_index = POOL_ARRAY(pool, int, n);
-    int status = keep && new_index ? choose(pool, study, point, truth, job, keep) : ROTID_ERROR_MEMORY;
-    if (status)
-        return status;
-    for (int s = 0; s < n; s++)
-        new_index[s] = keep[s] ? left++ : -1;
+    int left = new_index ? choose(pool, study, point, truth, job, new_index) : ROTID_ERROR_MEMORY;
+    if (left < 0)
+        return left;
     for (int i = 0; effect_number(job, i); i++)
         if (sensor_of(effect_number(job, i)) >= 0)
             effect_number(job, i)->target = new_index[sensor_of(effect_number(job, i))];
     /* noise is relative to the largest component, which may be one of those that go: it stays what it is in absolute terms */
     if (job->measurement.shape)
         shapes_scale(job);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape_std);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_hz);
-    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_std);
+    leave_rows(n, job->measurement.nmode, new_index, job->measurement.shape);
+    leave_rows(n, job->measurement.nmode, new_index, job->measurement.shape_std);
+    leave_rows(n, job->measurement.nmode, new_index, job->measurement.point_frequency_hz);
+    leave_rows(n, job->measurement.nmode, new_index, job->measurement.point_frequency_std);
     for (int s = 0; s < n; s++)
-        if (keep[s])
+        if (new_index[s] >= 0)
             job->rotor.sensor[new_index[s]] = job->rotor.sensor[s];
     job->rotor.nsensor = left;
     if (job->measurement.shape)
@@ -289,14 +276,12 @@ static int place_sensors(struct pool *pool, const struct truth *truth, struct jo
 {
     *job = truth->job;
     forget_shapes(job);
-    if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
+    forget_corrections(job);
+    if (!is_fault(truth, "sensor_position") && !is_fault(truth, "sensor_line"))
         return ROTID_OK;
-    job->rotor.sensor = POOL_COPY(pool, truth->job.rotor.sensor, job->rotor.nsensor, 0);
-    job->rotor.effect = POOL_COPY(pool, truth->job.rotor.effect, job->rotor.neffect, 0);
-    if (!job->rotor.sensor || !job->rotor.effect)
-        return ROTID_ERROR_MEMORY;
     job->unknowns.nsuspect = 0;
-    return correction_apply(pool, job, &truth->fault);
+    int status = data_copy(pool, job);
+    return status ? status : correction_apply(pool, job, &truth->fault);
 }
 
 struct modes { /* elastic ones of a model at the sensors of its rotor */
@@ -411,15 +396,12 @@ static int experiment_model(struct pool *pool, const struct study *study, long r
 {
     struct modes modes;
     struct job source;
-    int highest = 0;
     draw_values(study, replicate, truth);
     int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
     if (status == ROTID_ERROR_ARGUMENT)
         message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift puts the sensor onto another one");
-    for (int k = 0; k < job->measurement.nmode; k++)
-        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     if (!status)
-        status = modes_room(pool, highest, source.rotor.nsensor, &modes);
+        status = modes_room(pool, comparison_highest(job), source.rotor.nsensor, &modes);
     /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
     int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
     int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;

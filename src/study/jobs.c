@@ -123,7 +123,7 @@ static int makes_shapes(const struct plan *plan)
 static int hide(const struct plan_item *hidden, struct job *lower, const struct job *upper, struct message_list *messages,
                 struct truth *truth)
 {
-    truth->cause = catalogue_find(card_option(hidden->lower, "TYPE")->value);
+    truth->cause = catalogue_find(card_option(hidden->end[0], "TYPE")->value);
     if (truth->cause->class == CAUSE_PHYSICAL) { /* else the deck as it stands: the fault is put into the data of the model */
         truth->job = *lower;
         truth->effect = &truth->job.rotor.effect[truth->job.rotor.neffect - 1];
@@ -152,14 +152,14 @@ int jobs_read_truth(struct pool *pool, const struct study *study, const struct s
     int count, ncard = 1;
     struct override *list = overrides(pool, study, &bare, plan_at(plan, &bare, AXIS_NOISE), &count);
     struct card card[2];
-    struct states states = {0}, lower, upper;
+    struct states states = {0}, with[2];
     int status = list ? deck_read_states(pool, path, NULL, count, list, messages, &states) : ROTID_ERROR_MEMORY;
     struct truth *truth = *truths = POOL_ARRAY(pool, struct truth, states.nstate);
     if (!status && !truth)
         status = ROTID_ERROR_MEMORY;
     for (int s = 0; s < states.nstate && !status; s++)
         truth[s].job = states.state[s].job;
-    if (status || !hidden->lower)
+    if (status || !hidden->end[0])
         return status;
     const struct job *first = &truth[0].job;
     if (states.nstate == 1 && !first->measurement.shape && first->rotor.nsensor && first->measurement.nmode &&
@@ -169,13 +169,12 @@ int jobs_read_truth(struct pool *pool, const struct study *study, const struct s
             return ROTID_ERROR_MEMORY;
         card[ncard++] = *shape;
     }
-    card[0] = *hidden->lower;
-    status = deck_read_with(pool, path, count, list, ncard, card, messages, &lower);
-    card[0] = *hidden->upper;
-    if (!status)
-        status = deck_read_with(pool, path, count, list, ncard, card, messages, &upper);
+    for (int end = 0; end < 2 && !status; end++) {
+        card[0] = *hidden->end[end];
+        status = deck_read_with(pool, path, count, list, ncard, card, messages, &with[end]);
+    }
     for (int s = 0; s < states.nstate && !status; s++)
-        status = hide(hidden, &lower.state[s].job, &upper.state[s].job, messages, &truth[s]);
+        status = hide(hidden, &with[0].state[s].job, &with[1].state[s].job, messages, &truth[s]);
     return status;
 }
 

@@ -229,10 +229,8 @@ static void read_hide(struct plan_reader *reader, const struct card *card)
         else
             (void)deck_count(&reader->fields, &card->line[i], 3, "parameter, value [, upper value]");
     }
-    if (!none) {
-        hide.lower = cause_card(reader, card, 0);
-        hide.upper = cause_card(reader, card, 1);
-    }
+    for (int end = 0; end < 2 && !none; end++)
+        hide.end[end] = cause_card(reader, card, end);
     if (hide.name && find_item(reader->plan, AXIS_HIDE, hide.name))
         deck_error(&reader->fields, card->place, "two *HIDE are called %s, expected another NAME on one of them", hide.name);
     add_item(reader, AXIS_HIDE, &hide);

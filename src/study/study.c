@@ -203,7 +203,7 @@ static int check_hidden(struct checker *c, struct study_cell cell)
         struct truth *truth;
         const rotid_message *m;
         message_open(&found, &c->scratch);
-        if (plan_at(plan, &cell, AXIS_HIDE)->lower &&
+        if (plan_at(plan, &cell, AXIS_HIDE)->end[0] &&
             jobs_read_truth(&c->scratch, c->study, &cell, &found, &truth) == ROTID_ERROR_MEMORY)
             return ROTID_ERROR_MEMORY;
         for (size_t i = 0; (m = next_error(&found, &i));)

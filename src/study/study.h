@@ -77,7 +77,7 @@ struct plan_item {
     int keep, every;              /* AXIS_SENSORS; keep > 0: so many, drawn anew for each replicate; every > 0: the first and each
                                      one so far on; else all */
     double frequency, shape;      /* AXIS_NOISE: relative standard deviations, 0: none is added; shape NaN where none is stated */
-    const struct card *lower, *upper; /* AXIS_HIDE: CAUSE cards with the values at either end; NULL: nothing is hidden */
+    const struct card *end[2];    /* AXIS_HIDE: CAUSE cards with the values at either end; NULL: nothing is hidden */
 };
 
 struct plan_truth { /* a parameter of the model that makes the data, drawn between the two */
@@ -335,8 +335,8 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
 /* The next run that is missing and was not given out yet, or -1. */
 long record_take(struct study_record *record);
 
-/* Appends the line of a run as study_run makes it, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
- * before. */
+/* Appends the line of a run as study_run makes it, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file
+ * then ends with the line before. */
 int record_append(struct study_record *record, const char *line);
 
 /* To the disk, where the last time is a second ago; now [s] of the clock, infinity: in any case.
