@@ -71,35 +71,31 @@ static int score_false_findings(const struct experiment *e, const struct diagnos
     return count;
 }
 
-static int is_in_set(const struct experiment *e, const struct diagnosis *d)
+/* How many of the candidates are the hidden cause. */
+static int count_hidden(const struct experiment *e, const struct diagnosis *d, int n, const struct candidate *list)
 {
-    for (int i = 0; i < d->nalternative; i++)
-        if (score_is_hidden(e, d, &d->alternative[i]))
-            return 1;
-    return 0;
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        count += score_is_hidden(e, d, &list[i]);
+    return count;
 }
 
 enum score score_make(const struct experiment *e, const struct diagnosis *d)
 {
     const struct truth *truth = e->made_by;
-    int wrong = 0, faults = score_false_findings(e, d), found = d->result.ndata_findings > faults;
+    int faults = score_false_findings(e, d), adequate = d->result.verdict.kind == ROTID_ADEQUATE;
+    enum score silent = adequate ? SCORE_SILENT : SCORE_UNEXPLAINED;
     if (!truth->cause)
-        return d->result.verdict.kind == ROTID_ADEQUATE && !d->ncause && !d->result.ndata_findings ? SCORE_QUIET
-                                                                                                   : SCORE_FALSE_ALARM;
-    for (int i = 0; i < d->ncause; i++)
-        wrong |= !score_is_hidden(e, d, &d->cause[i]);
-    if (wrong)
+        return adequate && !d->ncause && !d->result.ndata_findings ? SCORE_QUIET : SCORE_FALSE_ALARM;
+    if (count_hidden(e, d, d->ncause, d->cause) < d->ncause)
         return SCORE_WRONG;
     if (!truth->effect)
-        return found                                      ? SCORE_RIGHT
-               : faults                                   ? SCORE_WRONG
-               : d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT
-                                                          : SCORE_UNEXPLAINED;
+        return d->result.ndata_findings > faults ? SCORE_RIGHT : faults ? SCORE_WRONG : silent;
     if (d->ncause)
         return SCORE_RIGHT;
     if (d->result.verdict.kind == ROTID_AMBIGUOUS)
-        return is_in_set(e, d) ? SCORE_IN_SET : SCORE_OTHER_SET;
-    return d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
+        return count_hidden(e, d, d->nalternative, d->alternative) ? SCORE_IN_SET : SCORE_OTHER_SET;
+    return silent;
 }
 
 /* ---- the run */

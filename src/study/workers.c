@@ -187,6 +187,14 @@ static int bury(struct crew *crew, struct worker *worker, const char *why)
                                                                       : ROTID_ERROR_MEMORY;
 }
 
+static int is_busy(const struct crew *crew)
+{
+    for (int i = 0; i < crew->count; i++)
+        if (crew->worker[i].process && crew->worker[i].run >= 0)
+            return 1;
+    return 0;
+}
+
 /* A process for each place that has none and a run for each that is idle, while there are any. */
 static int employ(struct crew *crew, long *ready)
 {
@@ -199,11 +207,7 @@ static int employ(struct crew *crew, long *ready)
         if (worker->process && worker->run >= 0)
             continue;
         if (!worker->process && worker_start(crew, worker)) {
-            int any = 0, reason = errno;
-            for (int w = 0; w < crew->count; w++)
-                any |= crew->worker[w].process != 0;
-            errno = reason;
-            if (!any && ++crew->unable >= DIED_WITHIN)
+            if (!is_busy(crew) && ++crew->unable >= DIED_WITHIN)
                 return ROTID_ERROR_IO;
             continue; /* the others go on */
         }
@@ -264,14 +268,6 @@ static int end_late_ones(struct crew *crew, double now)
         status = why ? bury(crew, worker, why) : ROTID_ERROR_MEMORY;
     }
     return status;
-}
-
-static int is_busy(const struct crew *crew)
-{
-    for (int i = 0; i < crew->count; i++)
-        if (crew->worker[i].process && crew->worker[i].run >= 0)
-            return 1;
-    return 0;
 }
 
 static int compute(struct crew *crew)
