@@ -328,18 +328,15 @@ static int solve(struct models *models, const struct rotor *rotor, int refine, s
 static int solve_moving(struct pool *pool, struct models *models, const struct rotor *rotor, int refine, int effect,
                         struct modes *modes)
 {
-    int n = modes->nsensor, status;
+    int n = modes->nsensor;
     struct rotor with = *rotor;
     struct modes bare, loaded;
     with.effect = POOL_COPY(pool, rotor->effect, rotor->neffect, 0);
-    status = with.effect ? modes_room(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = modes_room(pool, modes->count, n, &loaded);
-    if (status)
-        return status;
+    if (!with.effect || modes_room(pool, modes->count, n, &bare) || modes_room(pool, modes->count, n, &loaded))
+        return ROTID_ERROR_MEMORY;
     with.effect[effect].variant = 1; /* FIXED */
     with.effect[effect].target = -1; /* nowhere */
-    status = solve(models, &with, refine, &bare);
+    int status = solve(models, &with, refine, &bare);
     for (int k = 0; k < modes->count; k++)
         modes->hz[k] = 0;
     for (int s = 0; s < n && !status; s++) {

@@ -32,9 +32,9 @@ static int compare(struct result_place one, struct result_place other)
 static int join(struct pool *pool, struct results *part, int p, struct message_list *messages)
 {
     struct results *all = &part[0], *add = &part[p];
-    const char *difference;
-    int status = header_difference(pool, &add->header, &all->header, 0, &difference);
-    if (!status && difference)
+    const char *difference = header_difference(pool, &add->header, &all->header, 0);
+    int status = difference ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (difference && *difference)
         return message_refuse(messages, ROTID_ERROR_ARGUMENT, add->path, 1, 1, "this file is not of the same study as %s: %s",
                               all->path, difference);
     for (long run = 0; !status && run < all->header.runs; run++) {

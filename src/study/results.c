@@ -98,8 +98,8 @@ char *header_text(const struct study_header *header)
     return json_close_line(&tree);
 }
 
-int header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here, int other_decks,
-                      const char **text)
+const char *header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here,
+                              int other_decks)
 {
     const char *changed = "";
     const struct {
@@ -109,24 +109,19 @@ int header_difference(struct pool *pool, const struct study_header *file, const 
                  {file->digest.data, here->digest.data, "the measured data"},
                  {file->digest.options, here->digest.options, "--set"}};
     int other_options = strcmp(file->digest.options, here->digest.options) != 0; /* they may change the data as well */
-    *text = NULL;
     for (int i = 0; i < 4 && changed; i++)
         if (strcmp(parts[i].file, parts[i].here) != 0 && !(other_decks && (i == 1 || i == 2)) && !(other_options && i == 2))
             changed = pool_format(pool, "%s%s%s", changed, *changed ? " and " : "", parts[i].what);
-    if (!changed)
-        return ROTID_ERROR_MEMORY;
     if (strcmp(file->rotid, here->rotid) != 0 || strcmp(file->commit, here->commit) != 0)
-        *text = pool_format(pool, "it was begun by rotid %s (%s), this is %s (%s)", file->rotid, file->commit, here->rotid,
-                            here->commit);
-    else if (file->seed != here->seed)
-        *text = pool_format(pool, "its seed is %.0f, not %.0f", file->seed, here->seed);
-    else if (*changed)
-        *text = pool_format(pool, "%s %s changed since it was begun", changed, strstr(changed, " and ") ? "have" : "has");
-    else if (file->runs != here->runs || strcmp(file->studies, here->studies) != 0)
-        *text = pool_format(pool, "it has %d runs of %s, not %d of %s", file->runs, file->studies, here->runs, here->studies);
-    else
-        return ROTID_OK;
-    return *text ? ROTID_OK : ROTID_ERROR_MEMORY;
+        return pool_format(pool, "it was begun by rotid %s (%s), this is %s (%s)", file->rotid, file->commit, here->rotid,
+                           here->commit);
+    if (file->seed != here->seed)
+        return pool_format(pool, "its seed is %.0f, not %.0f", file->seed, here->seed);
+    if (changed && *changed)
+        return pool_format(pool, "%s %s changed since it was begun", changed, strstr(changed, " and ") ? "have" : "has");
+    if (changed && (file->runs != here->runs || strcmp(file->studies, here->studies) != 0))
+        return pool_format(pool, "it has %d runs of %s, not %d of %s", file->runs, file->studies, here->runs, here->studies);
+    return changed;
 }
 
 /* ---- stamps */
@@ -511,12 +506,12 @@ static int compare(struct pool *pool, const struct study_record *record, const s
                    struct message_list *messages)
 {
     const struct results *file = &record->file;
-    const char *difference;
-    int shard, shards, status = header_difference(pool, &file->header, header, record->input != NULL, &difference);
+    const char *difference = header_difference(pool, &file->header, header, record->input != NULL);
+    int shard, shards;
     (void)header_shard(header, &shard, &shards);
-    if (status)
-        return status;
-    if (difference)
+    if (!difference)
+        return ROTID_ERROR_MEMORY;
+    if (*difference)
         return message_refuse(messages, ROTID_ERROR_ARGUMENT, file->path, 1, 1,
                               "this file is of another study: %s; expected a new name, or things as they were", difference);
     if (file->shard != shard || file->shards != shards)
@@ -571,9 +566,10 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
     char *first = header_text(header);
     int descriptor = -1, status = first ? open_locked(path, messages, &descriptor) : ROTID_ERROR_MEMORY;
     *record = (struct study_record){.input = input, .synced = clock_seconds(), .file = {.last = -1, .in_order = 1}};
-    if (!status && (!(file->stream = fdopen(descriptor, "r+b")) || !(record->path = realpath(path, NULL))))
+    if (!status && !(file->stream = fdopen(descriptor, "r+b")))
+        (void)close(descriptor);
+    if (!status && !(file->path = record->path = file->stream ? realpath(path, NULL) : NULL))
         status = ROTID_ERROR_MEMORY;
-    file->path = record->path;
     if (!status && is_unbegun(file, first))
         status = begin_file(record, first, messages);
     if (!status)

@@ -238,10 +238,10 @@ char *header_text(const struct study_header *header);
 /* The header in a line [length]; texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is none, ROTID_ERROR_MEMORY. */
 int results_header_read(struct pool *pool, const char *text, size_t length, struct study_header *header);
 
-/* What differs in "the file ..., here ...", such as "the plan has changed"; NULL where they are of one study. The shard does not
- * count, nor do decks and data with other_decks. ROTID_OK or ROTID_ERROR_MEMORY. */
-int header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here, int other_decks,
-                      const char **text);
+/* What differs in "the file ..., here ...", such as "the plan has changed"; "" where they are of one study, NULL where memory is
+ * out. The shard does not count, nor do decks and data with other_decks. */
+const char *header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here,
+                              int other_decks);
 
 /* What a line of results carries so that it can be told from a line that was changed or belongs elsewhere: which study it is of,
  * and a digest of everything before. One byte that is changed always changes the digest, more of them but once in 2^64. Against
