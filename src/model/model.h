@@ -104,12 +104,12 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
 
 /* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the frequency
  * that counts, and f otherwise. finer, finer_share: the same the other way, from a mesh refined by `finer`, h, to
- * h - finer_share (f - h). */
+ * h - finer_share (f - h). may_be_off: how many times the way to it the limit may be off. */
 struct mesh_limit {
     int refine;
     double share;
     int counts, finer;
-    double finer_share;
+    double finer_share, may_be_off;
 };
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 

@@ -346,6 +346,7 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         int partner = coarse_first ? partner_of(&own, j) : partner_from(&other, count, j);
         s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
         lead(hz, &other, partner, limit.share, limit.counts, s, j);
+        s->mesh_error_percent[j] *= limit.may_be_off;
     }
     if (limit.counts && coarse_first)
         status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s, &missed);
