@@ -161,6 +161,35 @@ UNIT_TEST(the_interval_of_a_place_at_a_step_is_that_of_its_profile)
     rotid_diagnosis_free(d);
 }
 
+/* Four frequencies do not tell where a spring is: each place that explains them is an explanation, the true one among them. */
+UNIT_TEST(by_frequencies_alone_each_place_of_a_cause_is_an_explanation)
+{
+    rotid_diagnosis *d = diagnosed("several_places");
+    double z[64] = {0}, sum = 0;
+    int count = 0, there = 0;
+    assert_int_equal(d->verdict.kind, ROTID_AMBIGUOUS);
+    for (int i = 0; i < d->verdict.nexplanations; i++) {
+        const rotid_explanation *e = &d->verdict.explanations[i];
+        sum += e->probability;
+        if (e->something_else || e->ncauses != 1 || strcmp(e->causes[0].id, "support_extra") != 0)
+            continue;
+        z[count] = value_of(&e->causes[0], "z");
+        for (int k = 0; k < count; k++)
+            assert_true(fabs(z[k] - z[count]) > 0.125 * 1.758196);
+        for (int q = 0; q < e->causes[0].nparameters; q++) {
+            const rotid_cause_value *v = &e->causes[0].parameters[q];
+            int is_place = !strcmp(v->name, "z");
+            double truth = is_place ? 0.0419595 : 6427420;
+            there += v->ci95[0] <= truth && truth <= v->ci95[1] && z[count] < 0.2;
+        }
+        count++;
+    }
+    assert_true(count >= 4);
+    assert_int_equal(there, 2); /* place and stiffness */
+    assert_true(sum > 0.99 && sum < 1 + 1e-9);
+    rotid_diagnosis_free(d);
+}
+
 /* Of 504.7 and 506.6 Hz one is no mode: without shapes only the fits can tell. */
 UNIT_TEST(a_mode_that_was_counted_twice_is_left_out)
 {

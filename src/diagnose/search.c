@@ -12,14 +12,17 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
-#define FAULTS    24   /* proposed beside a set */
-#define BEAM      4    /* sets expanded in a pass */
-#define FITTED    8    /* fits of a pass, the first three times as many */
-#define PAIRS     8    /* of causes that are proposed together */
-#define ELSE_MOST 3    /* sets of a size */
-#define LINEAR    10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
-#define PLACES    12   /* of causes that are looked at by their profile, */
-#define OF_BEST   3.0  /* in ln P below the best set: a twentieth */
+#define FAULTS     24   /* proposed beside a set */
+#define BEAM       4    /* sets expanded in a pass */
+#define FITTED     8    /* fits of a pass, the first three times as many */
+#define PAIRS      8    /* of causes that are proposed together */
+#define ELSE_MOST  3    /* sets of a size */
+#define LINEAR     10.0 /* of ln Z: by columns alone no set gains more over one that explains the data */
+#define ELSEWHERE  10   /* places along the rotor from which a cause is fitted, by frequencies alone */
+#define OTHER_SIZE 4.0  /* times: of one that spans decades */
+#define AT_END     1e-3 /* of the length */
+#define PLACES     12   /* of causes that are looked at by their profile, */
+#define OF_BEST    3.0  /* in ln P below the best set: a twentieth */
 
 /* Whether a set stands elsewhere than the same causes found beside another one: its fit may have ended in another minimum. */
 static int stands_elsewhere(const struct posterior *p, const struct explanation *set, const struct explanation *found)
@@ -86,6 +89,14 @@ static double gain_of(const struct states *states, const struct scan *scan, int 
     return sum - log(c->count);
 }
 
+static void add_to_evidence(struct explanation *e, double more)
+{
+    e->evidence.log_z += more;
+    e->evidence.log_stated += more;
+    e->evidence.log_exact += more;
+    e->log_posterior += more;
+}
+
 /* ln Z of a single cause by its columns alone where the fit goes no further than they do: then the sum over all places and widths
  * counts, not the normal about the best one. */
 static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent,
@@ -101,11 +112,9 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
     double columns = parent->evidence.log_exact + gain_of(states, scan, index, &best), more = columns - e->evidence.log_exact;
     if (e->evidence.log_stated > e->evidence.log_exact + 1 || fabs(e->evidence.log_z - e->evidence.log_exact) > 3)
         return; /* it leaves something, or the noise is another one: columns know neither */
-    e->evidence.log_exact += more;
-    e->evidence.log_stated += more;
-    e->evidence.log_z += more;
-    e->log_posterior += more;
+    add_to_evidence(e, more);
     e->by_columns = 1;
+    e->of_columns = more;
 }
 
 /* A cause whose columns lie within those of the unknowns: no fit tells it from what it was added to. */
@@ -558,7 +567,8 @@ static int integrate_widths(struct engine *engine, struct posterior *p)
     return ROTID_OK;
 }
 
-/* The places of the sets that count by their profiles, each cause in the likeliest set that has it there. */
+/* The places of the sets that count by their profiles, each cause in the likeliest set that has it there. Of what is a solid
+ * beside beams, whose fits take a hundred times as long, the fit's own intervals do. */
 static int find_places(const struct engine *engine, struct posterior *p)
 {
     const struct candidate *found[PLACES];
@@ -571,7 +581,8 @@ static int find_places(const struct engine *engine, struct posterior *p)
             for (k = 0; k < known; k++)
                 if (posterior_same_model(found[k], c) && posterior_same_name(p, found[k], c))
                     break;
-            if (place >= 0 && !c->fixed[place] && k == known && known < PLACES)
+            if (place >= 0 && !c->fixed[place] && k == known && known < PLACES &&
+                refit->states.state->job.options.solid == engine->job->options.solid)
                 q = effect_unknown(&refit->states.state[c->home], effect_named(&refit->states.state[c->home], c->effect.name),
                                    place);
             if (q < 0)
@@ -630,6 +641,105 @@ static int add_something_else(struct engine *engine, struct posterior *p)
     return status;
 }
 
+/* Whether the place of a cause is within the interval of the other one: fits along a ridge end somewhere on it. A place without
+ * an interval may be anywhere, but at an end of the rotor. */
+static int is_within(const struct posterior *p, const struct candidate *a, const struct candidate *b)
+{
+    int place = b->cause->place;
+    double z_b = b->effect.value[place];
+    int at_end = !(z_b > AT_END * p->length && z_b < (1 - AT_END) * p->length);
+    double z = a->effect.value[place];
+    return isfinite(b->std[place]) ? z > b->ci_lower[place] && z < b->ci_upper[place] : !at_end;
+}
+
+/* A set whose cause stands elsewhere, as likely as it may be there: fitted from place z and so many times the size, entered
+ * unless another one is there. */
+static int enter_at(struct engine *engine, struct round_result *result, struct posterior *p, const struct explanation *from,
+                    double z, double factor)
+{
+    struct explanation e = *from, *known = NULL;
+    struct candidate *c = &e.member[0];
+    struct refit *refit = &result->refit[result->nrefit];
+    if (result->nrefit == result->room)
+        return ROTID_OK;
+    c->effect.value[c->cause->place] = z;
+    c->effect.value[c->cause->size] *= factor;
+    e.evidence = (struct evidence){0};
+    e.scan = NULL;
+    e.by_columns = 0;
+    int status = refit_set(engine->pool, engine, &e, from->refit->fit->x, refit), better = 0;
+    if (status || !refit->fit)
+        return status;
+    e.refit = refit;
+    take_values(engine, refit, c);
+    status = posterior_score(engine, p, NULL, &e);
+    for (int i = 0; i < p->count && !known && !status; i++)
+        if (p->item[i].nmember == 1 && posterior_same_model(&p->item[i].member[0], c) &&
+            (posterior_same_name(p, &p->item[i].member[0], c) || is_within(p, &p->item[i].member[0], c) ||
+             is_within(p, c, &p->item[i].member[0])))
+            known = &p->item[i];
+    if (known && known->refit)
+        better = e.log_posterior > known->log_posterior && refit->chi2 < known->refit->chi2;
+    else if (!known)
+        better = e.log_posterior > best_stated(p) - SEARCH_WITHIN;
+    if (status || !better) {
+        rotid_fit_free(refit->fit);
+        *refit = (struct refit){0};
+        return status;
+    }
+    result->nrefit++;
+    if (known)
+        *known = e;
+    return known || posterior_append(p, &e) ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Takes out of set i, whose ln Z is over all places, those that stand in the list of their own from `first` on; what its fit has
+ * is left. */
+static void leave_to_others(struct posterior *p, int i, int first)
+{
+    struct explanation *e = &p->item[i];
+    double others = -INFINITY;
+    for (int k = first; k < p->count; k++)
+        others = log_sum(others, p->item[k].log_posterior);
+    double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY;
+    if (e->by_columns)
+        add_to_evidence(e, fmax(rest, fmin(0, -e->of_columns)));
+}
+
+/* By frequencies alone a cause does the same at several places: each of them is an explanation, and none has a part of another
+ * place any more. */
+static int enter_elsewhere(struct engine *engine, struct round_result *result, struct posterior *p)
+{
+    int listed = p->count, status = engine->job->options.solid;
+    double best = best_stated(p);
+    for (int s = 0; s < engine->states.nstate; s++)
+        status |= job_fits_shapes(&engine->states.state[s].job);
+    if (status)
+        return ROTID_OK;
+    for (int i = 0; i < listed; i++) {
+        const struct explanation from = p->item[i];
+        int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1, first = p->count;
+        if (place < 0 || from.member[0].fixed[place] || from.log_posterior < best - SEARCH_WITHIN)
+            continue;
+        const struct state *home = &from.refit->states.state[from.member[0].home];
+        int q = effect_unknown(home, effect_named(home, from.member[0].effect.name), place),
+            decades = from.member[0].cause->parameter[from.member[0].cause->size].prior == PRIOR_LOG_FLAT;
+        add_to_evidence(&p->item[i], -evidence_of_other_place(from.refit));
+        p->item[i].member[0].other_place = p->item[i].member[0].other_chi2 = NAN;
+        for (int k = 0; k < ELSEWHERE && q >= 0 && !status; k++)
+            for (int times = -decades; times <= decades && !status; times++) {
+                const rotid_parameter *bounds = &from.refit->states.bounds[q];
+                double share = (k + 0.5) / ELSEWHERE;
+                status = enter_at(engine, result, p, &from, bounds->lower + share * (bounds->upper - bounds->lower),
+                                  pow(OTHER_SIZE, times));
+            }
+        if (status)
+            return status;
+        leave_to_others(p, i, first);
+    }
+    return ROTID_OK;
+}
+
 int search_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int more = 1, status = enter_singles(engine, result, p);
@@ -638,6 +748,9 @@ int search_run(struct engine *engine, struct round_result *result, struct poster
         if (!status)
             status = expand(engine, result, p, pass, &more);
     }
+    if (status)
+        return status;
+    status = enter_elsewhere(engine, result, p);
     if (status)
         return status;
     posterior_sort(p);
