@@ -38,7 +38,7 @@ POOL_TEST(the_cards_of_a_machine_are_read)
     const char *text = pool_format(
         &test_pool,
         SHAFT
-        "*RUNNING, WITHOUT=f\n*DISK, NAME=fan\n1.0, 5, 0.1, 0.2\n*BEARING, NAME=p, STD=0.2, 0.3\n0.2, 1e8, 10\n*BEARING, NAME=q, "
+        "*RUNNING, WITHOUT=f\n*DISK, NAME=fan\n1.0, 5, 0.1, 0.2\n*BEARING, NAME=p, STD=.2, .3\n0.2, 1e8, 10\n*BEARING, NAME=q, "
         "LIKE=p\n1.8, 1, 2, 3, 4, 5, 6, 7, 8\n*BEARING, FILE=%s, STD=0.1\n1.5\n*PEDESTAL, BEARING=q\n10, 20, 3e9, 4e9, 5\n"
         "*LOSS\na, 0.02, 0.01\n*PULL, GROUP=a, STD=0.3\n100\n*CHANGE\na.E, 0.9, 0.02\n*UNBALANCE\n1, 0.01, 90\n*PROBE, "
         "NAME=x\n0.5, 45\n*OPERATION, MARGIN=0.15\n3000, 4000\n",

@@ -135,12 +135,18 @@ static struct place at(const struct reader *reader, const char *line_begin, cons
     return (struct place){reader->open_file[reader->depth], line, (int)(here - line_begin) + 1};
 }
 
+static int begins_number(const char *text, const char *end)
+{
+    text += text < end && *text == '.';
+    return text < end && isdigit((unsigned char)*text);
+}
+
 int deck_text_is_next_item(const char *list, const char *begin, const char *end)
 {
     int runup = !strncasecmp(list, "RUNUP", 5); /* which comes first in a HOLDOUT */
     int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && (runup || !strncasecmp(list, "STATE:", 6));
-    return state || (!memchr(begin, '=', (size_t)(end - begin)) && isdigit((unsigned char)*begin) &&
-                     (runup || isdigit((unsigned char)*list)));
+    return state || (!memchr(begin, '=', (size_t)(end - begin)) && begins_number(begin, end) &&
+                     (runup || begins_number(list, list + strlen(list))));
 }
 
 /* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2 or HOLDOUT=STATE:a, the next item of the
