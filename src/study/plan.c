@@ -192,7 +192,7 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
         return NULL;
     *cause = (struct card){.name = "CAUSE", .place = card->place, .noption = card->noption + !named, .nline = card->nline};
     cause->option = POOL_ARRAY(pool, struct card_option, cause->noption);
-    cause->line = POOL_ARRAY(pool, struct data_line, card->nline);
+    cause->line = POOL_COPY(pool, card->line, card->nline, 0);
     if (!cause->option || !cause->line)
         return NULL;
     /* in front: behind BETWEEN=left, the name of the second group may stand last */
@@ -200,7 +200,6 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
         cause->option[0] =
             (struct card_option){.name = "NAME", .value = "hidden", .place = card->place, .value_place = card->place};
     memcpy(cause->option + !named, card->option, (size_t)card->noption * sizeof *card->option);
-    memcpy(cause->line, card->line, (size_t)card->nline * sizeof *card->line);
     for (int i = 0; i < card->nline; i++) {
         struct data_line *line = &cause->line[i];
         if (line->count <= 2)
