@@ -152,7 +152,15 @@ static void list_alternatives(struct diagnosis *out, const struct posterior *p)
     }
 }
 
-/* What would tell the two likeliest sets apart that were fitted, each by a cause that the other one has not. */
+static int has_cause(const struct explanation *e, const struct candidate *c)
+{
+    int found = 0;
+    for (int m = 0; m < e->nmember; m++)
+        found |= posterior_same_cause(&e->member[m], c);
+    return found;
+}
+
+/* What would tell the two likeliest sets apart that were fitted, each by a cause that the other one has not anywhere. */
 static const char *advice(struct engine *engine, const struct posterior *p)
 {
     struct possible model[2] = {{0}};
@@ -162,10 +170,10 @@ static const char *advice(struct engine *engine, const struct posterior *p)
         const struct explanation *e = &p->item[i];
         const struct candidate *own = NULL;
         for (int m = 0; m < e->nmember && e->refit && !e->something_else; m++)
-            if (!first || !posterior_has(p, first, &e->member[m]))
+            if (!first || !has_cause(first, &e->member[m]))
                 own = &e->member[m];
         for (int m = 0; m < (first ? first->nmember : 0) && own; m++)
-            if (!posterior_has(p, e, &first->member[m]))
+            if (!has_cause(e, &first->member[m]))
                 model[0].cause = &first->member[m];
         if (!own)
             continue;
@@ -206,6 +214,7 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
     rotid_verdict *verdict = &out->result.verdict;
     const struct explanation *lead = &p->item[0], *model = NULL;
     struct candidate named[MOST_MEMBERS];
+    double largest = 0; /* of a cause, wherever it is */
     int count = 0, status = ROTID_OK;
     out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, (size_t)p->count * MOST_MEMBERS + 1);
@@ -215,8 +224,10 @@ int posterior_verdict(struct engine *engine, struct posterior *p)
         count = choose_names(p, named);
     model = model_of(p, count, named);
     verdict->something_else = p->something_else;
-    verdict->kind = posterior_kind(p->something_else, model != NULL, !lead->nmember && !lead->something_else,
-                                   p->nmarginal ? p->marginal[0].probability : 0, p->nothing, p->nothing_prior);
+    for (int i = 0; i < p->nmarginal; i++)
+        largest = fmax(largest, posterior_of_cause(p, &p->marginal[i].cause));
+    verdict->kind = posterior_kind(p->something_else, model != NULL, !lead->nmember && !lead->something_else, largest, p->nothing,
+                                   p->nothing_prior);
     verdict->adequate_after =
         verdict->kind == ROTID_ADEQUATE || (verdict->kind == ROTID_NAMED && explanation_explains(engine, p, model));
     if (verdict->kind == ROTID_AMBIGUOUS)

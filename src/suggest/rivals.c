@@ -206,7 +206,13 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
         int elsewhere =
             count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] && c->other_chi2 - c->result.chi2 < rivals->margin;
         double here = elsewhere ? 1 / (1 + exp((c->result.chi2 - c->other_chi2) / 2)) : 1;
-        status = add(pool, &from, count, c, NAN, here * c->probability, rivals);
+        double place = NAN; /* told where the same cause is a rival elsewhere */
+        for (int k = 0; k < d->nalternative && count == 1 && c->cause->place >= 0; k++)
+            if (d->alternative[k].set != c->set && posterior_same_cause(&d->alternative[k], c) &&
+                (k + 1 == d->nalternative || d->alternative[k + 1].set != d->alternative[k].set) &&
+                (!k || d->alternative[k - 1].set != d->alternative[k].set))
+                place = c->effect.value[c->cause->place];
+        status = add(pool, &from, count, c, place, here * c->probability, rivals);
         if (!status && elsewhere && rivals->n < MOST_RIVALS)
             status = add(pool, &from, count, c, c->other_place, (1 - here) * c->probability, rivals);
     }
