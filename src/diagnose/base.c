@@ -242,8 +242,7 @@ static int take_numbers(struct engine *engine)
 }
 
 /* Measured modes keep the numbers that they have beside the base: a spring that a candidate adds or stiffens makes its suspension
- * modes bend, and counting them anew would turn every number into that of another mode. A solid keeps what its mesh is held to.
- */
+ * modes bend, and counting them anew would turn every number into that of another mode. A solid keeps what holds its mesh. */
 static void settle_numbers(struct engine *engine)
 {
     for (int s = 0; s < engine->states.nstate; s++) {

@@ -113,7 +113,6 @@ static void prefer_columns(const struct states *states, const struct scan *scan,
     if (e->evidence.log_stated > e->evidence.log_exact + 1 || fabs(e->evidence.log_z - e->evidence.log_exact) > 3)
         return; /* it leaves something, or the noise is another one: columns know neither */
     add_to_evidence(e, more);
-    e->by_columns = 1;
     e->of_columns = more;
 }
 
@@ -520,7 +519,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
 /* The first cause of a set whose width is free; NULL: none, or its ln Z is over all widths already. */
 static const struct candidate *free_width(const struct explanation *e)
 {
-    for (int m = 0; m < e->nmember && e->refit && !e->by_columns; m++)
+    for (int m = 0; m < e->nmember && e->refit && e->of_columns == 0; m++)
         if (e->member[m].cause->width >= 0 && !e->member[m].fixed[e->member[m].cause->width])
             return &e->member[m];
     return NULL;
@@ -666,7 +665,7 @@ static int enter_at(struct engine *engine, struct round_result *result, struct p
     c->effect.value[c->cause->size] *= factor;
     e.evidence = (struct evidence){0};
     e.scan = NULL;
-    e.by_columns = 0;
+    e.of_columns = 0;
     int status = refit_set(engine->pool, engine, &e, from->refit->fit->x, refit), better = 0;
     if (status || !refit->fit)
         return status;
@@ -702,21 +701,16 @@ static void leave_to_others(struct posterior *p, int i, int first)
     for (int k = first; k < p->count; k++)
         others = log_sum(others, p->item[k].log_posterior);
     double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY;
-    if (e->by_columns)
-        add_to_evidence(e, fmax(rest, fmin(0, -e->of_columns)));
+    add_to_evidence(e, fmax(rest, -fmax(0, e->of_columns))); /* 0 where it is that of its fit */
 }
 
 /* By frequencies alone a cause does the same at several places: each of them is an explanation, and none has a part of another
  * place any more. */
 static int enter_elsewhere(struct engine *engine, struct round_result *result, struct posterior *p)
 {
-    int listed = p->count, status = engine->job->options.solid;
+    int status = ROTID_OK;
     double best = best_stated(p);
-    for (int s = 0; s < engine->states.nstate; s++)
-        status |= job_fits_shapes(&engine->states.state[s].job);
-    if (status)
-        return ROTID_OK;
-    for (int i = 0; i < listed; i++) {
+    for (int i = 0, listed = p->data->nblock || engine->job->options.solid ? 0 : p->count; i < listed; i++) {
         const struct explanation from = p->item[i];
         int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1, first = p->count;
         if (place < 0 || from.member[0].fixed[place] || from.log_posterior < best - SEARCH_WITHIN)

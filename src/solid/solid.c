@@ -6,6 +6,7 @@
 
 #include "linalg/linalg.h"
 #include "rotor/rotor.h"
+
 static const double place[SHARES] = {-0.77459666924148337704, 0, 0.77459666924148337704};
 static const double weight[SHARES] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 

@@ -23,6 +23,22 @@ static int is_model(const struct candidate *c)
     return c->cause->class == CAUSE_PHYSICAL && c->cause->effect && !c->cause->solid && isfinite(c->result.chi2);
 }
 
+static int is_alone(const struct diagnosis *d, int i)
+{
+    const struct candidate *c = d->alternative;
+    return (!i || c[i - 1].set != c[i].set) && (i + 1 == d->nalternative || c[i + 1].set != c[i].set);
+}
+
+/* Whether cause i stands alone, and alone at another place as well. */
+static int is_elsewhere(const struct diagnosis *d, int i)
+{
+    const struct candidate *c = d->alternative;
+    int found = 0;
+    for (int k = 0; k < d->nalternative; k++)
+        found |= k != i && is_alone(d, k) && posterior_same_cause(&c[k], &c[i]);
+    return found && is_alone(d, i) && c[i].cause->place >= 0;
+}
+
 /* The causes [count] of a rival in the states, the own parameters from x (NULL: their starts), the first cause at another place
  * where that is finite; held: at their values. */
 static int add_causes(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
@@ -206,12 +222,7 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
         int elsewhere =
             count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] && c->other_chi2 - c->result.chi2 < rivals->margin;
         double here = elsewhere ? 1 / (1 + exp((c->result.chi2 - c->other_chi2) / 2)) : 1;
-        double place = NAN; /* told where the same cause is a rival elsewhere */
-        for (int k = 0; k < d->nalternative && count == 1 && c->cause->place >= 0; k++)
-            if (d->alternative[k].set != c->set && posterior_same_cause(&d->alternative[k], c) &&
-                (k + 1 == d->nalternative || d->alternative[k + 1].set != d->alternative[k].set) &&
-                (!k || d->alternative[k - 1].set != d->alternative[k].set))
-                place = c->effect.value[c->cause->place];
+        double place = is_elsewhere(d, i) ? c->effect.value[c->cause->place] : NAN; /* that tells the two apart */
         status = add(pool, &from, count, c, place, here * c->probability, rivals);
         if (!status && elsewhere && rivals->n < MOST_RIVALS)
             status = add(pool, &from, count, c, c->other_place, (1 - here) * c->probability, rivals);
