@@ -190,6 +190,31 @@ UNIT_TEST(by_frequencies_alone_each_place_of_a_cause_is_an_explanation)
     rotid_diagnosis_free(d);
 }
 
+/* A support of a free bar is at either of two places alike: each has less than nothing has, both have more. */
+UNIT_TEST(a_cause_weighs_with_all_its_places)
+{
+    rotid_diagnosis *d;
+    rotid_suggestion *s;
+    rotid_deck *deck = bench_deck(ROTID_SOURCE_DIR "/input/foam_bar.inp");
+    double support = 0, largest = 0;
+    assert_status(rotid_diagnose(deck, NULL, NULL, NULL, &d), ROTID_OK);
+    assert_int_equal(d->verdict.kind, ROTID_AMBIGUOUS);
+    assert_int_equal(d->verdict.explanations[0].ncauses + d->verdict.explanations[0].something_else, 0);
+    for (int i = 0; i < d->verdict.nmarginals; i++) {
+        largest = fmax(largest, d->verdict.marginals[i].probability);
+        support += strcmp(d->verdict.marginals[i].id, "support_extra") ? 0 : d->verdict.marginals[i].probability;
+    }
+    assert_true(largest < 0.2 && support > 0.25);
+    assert_status(rotid_suggest(deck, NULL, NULL, NULL, &s), ROTID_OK);
+    for (int i = 0; i < s->nrivals; i++)
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(s->rivals[i].label, s->rivals[k].label);
+    assert_true(s->nrivals > 4);
+    rotid_suggestion_free(s);
+    rotid_diagnosis_free(d);
+    rotid_deck_free(deck);
+}
+
 /* Of 504.7 and 506.6 Hz one is no mode: without shapes only the fits can tell. */
 UNIT_TEST(a_mode_that_was_counted_twice_is_left_out)
 {
