@@ -25,6 +25,7 @@
  * fit. */
 
 #include <stdio.h>
+#include <sys/stat.h>
 
 #include "base/base.h"
 #include "diagnose/causes/causes.h"
@@ -38,11 +39,11 @@
 /* A deck as text: cards with their options and data lines, each piece with its place. */
 
 #define DECK_LINE_LENGTH   1024
-#define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
-#define DECK_MOST_INCLUDES 16          /* depth */
-#define DECK_MOST_FILES    1000        /* included ones: few lines in each of them include thousands more */
-#define DECK_MOST_CARDS    5000        /* names are compared with each other */
-#define DECK_MOST_MODES    100         /* and the highest number: a spectrum costs the cube of the number of modes */
+#define DECK_MOST_BYTES    (16ul << 20) /* all files together: a rotor takes kilobytes */
+#define DECK_MOST_INCLUDES 16           /* depth */
+#define DECK_MOST_FILES    1000         /* included ones: few lines in each of them include thousands more */
+#define DECK_MOST_CARDS    5000         /* names are compared with each other */
+#define DECK_MOST_MODES    100          /* and the highest number: a spectrum costs the cube of the number of modes */
 
 struct field { /* of a data line, trimmed; empty between two commas */
     const char *text;
@@ -75,12 +76,13 @@ struct deck_file {
 struct card_option {
     const char *name, *value; /* value "" where there is no '=' */
     struct place place, value_place;
-    int overridden; /* --set gave it */
+    int overridden;   /* --set gave it */
+    struct place end; /* just behind it */
 };
 
 struct card {
-    const char *name; /* upper case, without the asterisk */
-    struct place place;
+    const char *name;        /* upper case, without the asterisk */
+    struct place place, end; /* end: just behind its name and options */
     int noption, nline;
     struct card_option *option;
     struct data_line *line;
@@ -113,6 +115,19 @@ int deck_text_read(struct pool *pool, const char *path, struct message_list *mes
 /* The same of a deck that is no file; its name is kept, not copied. */
 int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
                           struct deck_text *text);
+
+/* The bytes of a file with a zero behind them; *about as by fstat. *length above `most`: it is longer, and of a regular file
+ * nothing was read. NULL: memory is out, or *failed is the error number of the opening; else it is that of the reading, or 0. */
+char *deck_read_file(struct pool *pool, const char *path, size_t most, struct stat *about, size_t *length, int *failed);
+
+/* A path that `file` names: relative to the directory where that is not NULL, else to the folder of the file (NULL: to where the
+ * program runs). NULL: memory is out. */
+const char *deck_path_from(struct pool *pool, const char *path, const char *file, const char *directory);
+/* As seen from the root. NULL: memory is out, or there is no such folder. */
+const char *deck_absolute(struct pool *pool, const char *path);
+
+/* The cards of a piece of a deck, whose places count from its text: *INCLUDE is a card like others, and nothing is said. */
+void deck_text_read_piece(struct pool *pool, size_t length, const char *piece, struct deck_text *text);
 
 /* A path that an option names, as seen from where the program runs: relative ones are relative to the file that names them, those
  * of an override to where the program runs; in a deck from memory both are relative to its directory. NULL: no memory, or, with
@@ -445,6 +460,7 @@ int deck_is_of_bearing(const struct deck_reader *reader, const char *name);
 struct deck_part {
     const char *text, *file; /* file: that it stands in */
     size_t length;
+    struct card read;             /* its first card, whose places count from its text; without a name where there is none */
     const struct deck_card *card; /* NULL: not known, and what stands before the first card */
     int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
     int state;                    /* which *STATE it stands behind, from 0; -1: none; DECK_BEHIND_STATES */
@@ -464,18 +480,19 @@ int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_ori
 /* The same of a text whose included files are left alone. */
 int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path, const char *text);
 
-/* The value of an option of a part: where it begins, and its length; NULL: the card has none of that name. */
-const char *deck_edit_option(const struct deck_part *part, const char *name, size_t *length);
+/* The value of an option of a part, NULL: the card has none of that name. */
+const char *deck_edit_option(const struct deck_part *part, const char *name);
 /* Gives the option that value in place of its own, or behind the others; NULL: takes it out. */
 void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *value);
 
-/* The part with `line` in place of each data line: called with its text [length], line feed and all, and its number from 0. */
-void deck_edit_lines(struct deck_edit *e, int part, void (*line)(struct deck_writer *, const char *, size_t, int, void *),
-                     void *context);
-/* Field `number` (from 0) of a data line: where it begins, and its length without blanks; -1 where the line has fewer. */
-int deck_edit_field(const char *line, size_t length, int number, int *count);
-/* The line with that field replaced, or added behind the one before it. */
-void deck_edit_put_field(struct deck_writer *w, const char *line, size_t length, int number, const char *value);
+/* What becomes of a data line, the `number`-th from 0: text in front of it, values in place of its fields or behind them. */
+#define DECK_EDIT_FIELDS 4
+struct deck_line_edit {
+    const struct data_line *line;
+    int number;
+    const char *before, *value[DECK_EDIT_FIELDS]; /* NULL: as it is */
+};
+void deck_edit_lines(struct deck_edit *e, int part, void (*edit)(struct deck_line_edit *, void *), void *context);
 
 /* The comments of a part alone. */
 void deck_edit_clear(struct deck_edit *e, int part);
@@ -566,12 +583,12 @@ int deck_propose(struct pool *pool, const struct states *given, const char *home
 
 /* A table as a spreadsheet writes it: rows of cells with their places. */
 
-#define TABLE_MOST_BYTES   (16l << 20) /* of one file */
-#define TABLE_MOST_CELLS   500000      /* of one file: 10,000 sensors with fifty modes */
-#define TABLE_MOST_TAKEN   1000000     /* rows that all cards of a deck take of tables */
-#define TABLE_MOST_TABLES  100         /* of a deck */
-#define TABLE_MOST_COLUMNS 20100       /* 10,000 sensors with a standard deviation each, and what else a row says */
-#define TABLE_CELL_LENGTH  32          /* of the name of a cell */
+#define TABLE_MOST_BYTES   (16ul << 20) /* of one file */
+#define TABLE_MOST_CELLS   500000       /* of one file: 10,000 sensors with fifty modes */
+#define TABLE_MOST_TAKEN   1000000      /* rows that all cards of a deck take of tables */
+#define TABLE_MOST_TABLES  100          /* of a deck */
+#define TABLE_MOST_COLUMNS 20100        /* 10,000 sensors with a standard deviation each, and what else a row says */
+#define TABLE_CELL_LENGTH  32           /* of the name of a cell */
 
 struct table_text {
     const char *path;

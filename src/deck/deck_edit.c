@@ -2,11 +2,7 @@
  * part, and what no edit touches is written as it was read, character by character. */
 
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "deck/deck_row.h"
 
@@ -16,41 +12,6 @@ static size_t line_length(const char *line, const char *stop)
     return (size_t)((feed ? feed + 1 : stop) - line);
 }
 
-/* Where what is no comment ends, less blanks. */
-static const char *end_of_line(const char *line, size_t length)
-{
-    const char *end = line + length;
-    for (const char *c = line; c + 1 < end; c++)
-        if (c[0] == '*' && c[1] == '*')
-            end = c;
-    while (end > line && isspace((unsigned char)end[-1]))
-        end--;
-    return end;
-}
-
-/* The first asterisk of a line that begins a card, or NULL. */
-static const char *begins_card(const char *line)
-{
-    line += strspn(line, " \t\r\v\f");
-    return line[0] == '*' && line[1] != '*' ? line : NULL;
-}
-
-static void name_of_card(const char *star, char name[32])
-{
-    size_t count = 0;
-    star += 1 + strspn(star + 1, " \t");
-    for (; count + 1 < 32 && (isalnum((unsigned char)*star) || *star == '_'); star++)
-        name[count++] = (char)toupper((unsigned char)*star);
-    name[count] = 0;
-}
-
-/* ------------------------------------------------------------------------------------------------ options */
-
-/* An option of a part, and the comma in front of it. */
-struct span {
-    const char *comma, *name, *name_end, *value, *end; /* value: NULL without '=' */
-};
-
 static const char *skip_blanks(const char *c, const char *end)
 {
     while (c < end && isspace((unsigned char)*c))
@@ -58,75 +19,37 @@ static const char *skip_blanks(const char *c, const char *end)
     return c;
 }
 
-/* The piece of a line up to the next comma. */
-static struct span piece_of(const char *begin, const char *last)
+static int begins_card(const char *line, const char *stop)
 {
-    const char *equals = memchr(begin, '=', (size_t)(last - begin)), *name_end = equals ? equals : last;
-    struct span s = {.name = skip_blanks(begin, last), .end = last, .value = equals ? skip_blanks(equals + 1, last) : NULL};
-    while (s.end > s.name && isspace((unsigned char)s.end[-1]))
-        s.end--;
-    while (name_end > s.name && isspace((unsigned char)name_end[-1]))
-        name_end--;
-    s.name_end = name_end;
-    return s;
-}
-
-static int is_called(const struct span *s, const char *name)
-{
-    return (size_t)(s->name_end - s->name) == strlen(name) && !strncasecmp(s->name, name, strlen(name));
-}
-
-/* The option of that name. *last: the end of the last option, or of the name of the card. Returns whether there is one. */
-static int find_option(const struct deck_part *part, const char *name, struct span *found, const char **last)
-{
-    const char *line = part->text, *stop = line + part->length, *comma = NULL;
-    struct span before = {.value = NULL};
-    int any = 0, first = 1;
-    *last = line;
-    for (int continues = 1; continues && line < stop; line += line_length(line, stop)) {
-        const char *begin = skip_blanks(line, stop), *end = end_of_line(line, line_length(line, stop));
-        if (line == part->text)
-            end = end_of_line(begin + 1, line_length(line, stop) - (size_t)(begin + 1 - line));
-        if (begin >= end)
-            continue;
-        continues = end[-1] == ',';
-        while (begin < end) {
-            const char *next = memchr(begin, ',', (size_t)(end - begin));
-            struct span piece = piece_of(begin, next ? next : end);
-            if (first) {
-                *last = piece.end;
-            } else if (piece.end > piece.name) {
-                if (before.value && deck_text_is_next_item(before.value, piece.name, piece.end)) {
-                    before.end = piece.end;
-                } else {
-                    before = piece;
-                    before.comma = comma;
-                }
-                if (is_called(&before, name) && before.value) {
-                    *found = before;
-                    any = 1;
-                }
-                *last = piece.end;
-            }
-            first = 0;
-            comma = next ? next : comma;
-            begin = next ? next + 1 : end;
-        }
-    }
-    return any;
-}
-
-const char *deck_edit_option(const struct deck_part *part, const char *name, size_t *length)
-{
-    struct span found;
-    const char *last;
-    if (!find_option(part, name, &found, &last))
-        return NULL;
-    *length = (size_t)(found.end - found.value);
-    return found.value;
+    const char *c = skip_blanks(line, line + line_length(line, stop));
+    return c + 1 < stop && c[0] == '*' && c[1] != '*';
 }
 
 /* ------------------------------------------------------------------------------------------------ parts */
+
+/* Reads the text of a part, which is new: its card as any deck is read. */
+static void read_part(struct deck_edit *e, struct deck_part *part)
+{
+    struct deck_text text;
+    deck_text_read_piece(e->pool, part->length, part->text, &text);
+    e->status = e->pool->out_of_memory ? ROTID_ERROR_MEMORY : e->status;
+    part->read = text.ncard ? text.card[0] : (struct card){.name = ""};
+}
+
+/* Where a place of the card lies in its text. */
+static const char *text_at(const struct deck_part *part, struct place place)
+{
+    const char *line = part->text;
+    for (int i = 1; i < place.line; i++)
+        line += line_length(line, part->text + part->length);
+    return line + place.column - 1;
+}
+
+const char *deck_edit_option(const struct deck_part *part, const char *name)
+{
+    const struct card_option *option = card_option(&part->read, name);
+    return option ? option->value : NULL;
+}
 
 static struct deck_part *add_part(struct deck_edit *e)
 {
@@ -137,15 +60,10 @@ static struct deck_part *add_part(struct deck_edit *e)
 }
 
 /* A path as an option of a part names it, as the reader saw it. */
-static const char *path_from(const struct deck_edit *e, const char *file, const char *path, size_t length)
+static const char *path_from(const struct deck_edit *e, const char *file, const char *path)
 {
-    const char *slash = strrchr(file, '/');
-    if (*path == '/')
-        return pool_format(e->pool, "%.*s", (int)length, path);
-    if (e->origin->memory && file == e->origin->path)
-        return pool_format(e->pool, "%s/%.*s", e->origin->directory ? e->origin->directory : ".", (int)length, path);
-    return slash ? pool_format(e->pool, "%.*s/%.*s", (int)(slash - file), file, (int)length, path)
-                 : pool_format(e->pool, "%.*s", (int)length, path);
+    const char *directory = e->origin->directory ? e->origin->directory : ".";
+    return deck_path_from(e->pool, path, file, e->origin->memory && file == e->origin->path ? directory : NULL);
 }
 
 static const char *text_of(const struct deck_edit *e, const char *path)
@@ -163,20 +81,17 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
 {
     const char *stop = text + strlen(text);
     for (const char *end = text; *text && !e->status; text = end) {
-        const char *star = begins_card(text);
         struct deck_part *part = add_part(e);
-        char name[32] = "";
         if (!part)
             return;
-        if (star)
-            name_of_card(star, name);
         do
             end += line_length(end, stop);
-        while (*end && !begins_card(end));
-        *part = (struct deck_part){
-            .text = text, .file = file, .length = (size_t)(end - text), .card = deck_card_find(name), .state = e->nstate - 1};
-        if (part->card && !strcmp(name, "STATE"))
-            part->state = e->nstate++;
+        while (*end && !begins_card(end, stop));
+        *part = (struct deck_part){.text = text, .file = file, .length = (size_t)(end - text)};
+        read_part(e, part);
+        const char *name = part->read.name;
+        part->card = deck_card_find(name);
+        part->state = !strcmp(name, "STATE") ? e->nstate++ : e->nstate - 1;
         e->running |= !strcmp(name, "RUNNING");
         if (e->running)
             part->state = DECK_BEHIND_STATES;
@@ -186,8 +101,7 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
         if (depth < 0)
             continue;
         int at = e->npart - 1;
-        size_t length;
-        const char *value = deck_edit_option(part, "FILE", &length), *path = value ? path_from(e, file, value, length) : NULL,
+        const char *value = deck_edit_option(part, "FILE"), *path = value ? path_from(e, file, value) : NULL,
                    *inside = depth < DECK_MOST_INCLUDES ? text_of(e, path) : NULL;
         if (inside)
             gather(e, inside, path, depth + 1);
@@ -205,83 +119,75 @@ static void replace(struct deck_edit *e, int part, struct deck_writer *w)
     e->part[part].text = w->text ? w->text : "";
     e->part[part].length = w->length;
     e->part[part].changed = 1;
+    read_part(e, &e->part[part]);
+}
+
+static void put_span(struct deck_writer *w, const char *from, const char *to)
+{
+    deck_put(w, "%.*s", (int)(to - from), from);
+}
+
+/* The text [*from, *to) that goes with an option, and what stays of it. Of the last one the comma in front goes, behind which the
+ * card would go on, of the others the one behind; comments stay. */
+static const char *around(struct deck_edit *e, const struct deck_part *p, const struct card_option *option, const char **from,
+                          const char **to)
+{
+    const struct card *card = &p->read;
+    int is_last = option + 1 == card->option + card->noption, is_first = option == card->option;
+    const char *name = text_at(p, option->place), *end = text_at(p, option->end),
+               *before = is_last ? text_at(p, is_first ? card->place : option[-1].end) : end,
+               *comma = memchr(before, ',', (size_t)(p->text + p->length - before)), *left = is_last ? comma + 1 : end,
+               *stop = is_last ? name : comma;
+    *from = is_last ? comma : name;
+    *to = is_last ? end : comma + 1;
+    return memchr(left, '\n', (size_t)(stop - left)) ? pool_format(e->pool, "%.*s", (int)(stop - left), left) : "";
 }
 
 void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *value)
 {
-    struct deck_part *p = &e->part[part];
+    const struct deck_part *p = &e->part[part];
+    const struct card_option *option = card_option(&p->read, name);
+    const char *from = text_at(p, option ? option->value_place : p->read.end), *to = option ? text_at(p, option->end) : from;
     struct deck_writer w = {.pool = e->pool};
-    struct span found;
-    const char *last, *stop = p->text + p->length;
-    if (find_option(p, name, &found, &last) && value) {
-        deck_put(&w, "%.*s%s%.*s", (int)(found.value - p->text), p->text, value, (int)(stop - found.end), found.end);
-    } else if (value) {
-        deck_put(&w, "%.*s, %s=%s%.*s", (int)(last - p->text), p->text, name, value, (int)(stop - last), last);
-    } else if (found.end == last) { /* of the last one the comma in front, behind which the card would go on */
-        int between = memchr(found.comma, '\n', (size_t)(found.name - found.comma)) ? (int)(found.name - found.comma - 1) : 0;
-        deck_put(&w, "%.*s%.*s%.*s", (int)(found.comma - p->text), p->text, between, found.comma + 1, (int)(stop - found.end),
-                 found.end);
-    } else {
-        const char *comma = memchr(found.end, ',', (size_t)(stop - found.end));
-        deck_put(&w, "%.*s%.*s%.*s", (int)(found.name - p->text), p->text, (int)(comma - found.end), found.end,
-                 (int)(stop - comma - 1), comma + 1);
-    }
+    if (!option && value)
+        value = pool_format(e->pool, ", %s=%s", name, value);
+    else if (option && !value)
+        value = around(e, p, option, &from, &to);
+    put_span(&w, p->text, from);
+    deck_put(&w, "%s", value ? value : "");
+    put_span(&w, to, p->text + p->length);
     replace(e, part, &w);
 }
 
-int deck_edit_field(const char *line, size_t length, int number, int *count)
-{
-    const char *end = end_of_line(line, length), *begin = line;
-    *count = 0;
-    for (int field = 0; field < number; field++) {
-        const char *comma = memchr(begin, ',', (size_t)(end - begin));
-        if (!comma)
-            return -1;
-        begin = comma + 1;
-    }
-    const char *comma = memchr(begin, ',', (size_t)(end - begin)), *stop = comma ? comma : end;
-    begin = skip_blanks(begin, stop);
-    while (stop > begin && isspace((unsigned char)stop[-1]))
-        stop--;
-    *count = (int)(stop - begin);
-    return (int)(begin - line);
-}
-
-void deck_edit_put_field(struct deck_writer *w, const char *line, size_t length, int number, const char *value)
-{
-    int count, at = deck_edit_field(line, length, number, &count);
-    const char *between = at < 0 ? ", " : "";
-    if (at < 0) {
-        at = deck_edit_field(line, length, number - 1, &count) + count;
-        count = 0;
-    }
-    deck_put(w, "%.*s%s%s%.*s", at, line, between, value, (int)length - at - count, line + at + count);
-}
-
-void deck_edit_lines(struct deck_edit *e, int part, void (*line)(struct deck_writer *, const char *, size_t, int, void *),
-                     void *context)
+void deck_edit_lines(struct deck_edit *e, int part, void (*edit)(struct deck_line_edit *, void *), void *context)
 {
     const struct deck_part *p = &e->part[part];
-    const char *at = p->text, *stop = at + p->length;
+    const char *done = p->text;
     struct deck_writer w = {.pool = e->pool};
-    int continues = 1, number = 0;
-    for (size_t length; at < stop; at += length) {
-        length = line_length(at, stop);
-        const char *end = end_of_line(at, length);
-        if (at == p->text) {
-            const char *star = begins_card(at);
-            end = star ? end_of_line(star + 1, length - (size_t)(star + 1 - at)) : end;
+    for (int i = 0; i < p->read.nline; i++) {
+        struct deck_line_edit line = {.line = &p->read.line[i], .number = i};
+        edit(&line, context);
+        if (line.before) {
+            const char *begin = text_at(p, (struct place){.line = line.line->place.line, .column = 1});
+            put_span(&w, done, begin);
+            deck_put(&w, "%s", line.before);
+            done = begin;
         }
-        int blank = end == at || skip_blanks(at, end) == end;
-        if (!continues && !blank)
-            line(&w, at, length, number++, context);
-        else
-            deck_put(&w, "%.*s", (int)length, at);
-        if (continues && !blank)
-            continues = end[-1] == ',';
+        for (int f = 0; f < DECK_EDIT_FIELDS; f++) {
+            if (!line.value[f])
+                continue;
+            int is_new = f >= line.line->count;
+            const struct field *field = &line.line->field[is_new ? line.line->count - 1 : f];
+            const char *at = text_at(p, field->place), *behind = at + strlen(field->text);
+            put_span(&w, done, is_new ? behind : at);
+            deck_put(&w, "%s%s", is_new ? ", " : "", line.value[f]);
+            done = behind;
+        }
     }
-    if (w.length != p->length || (w.text && memcmp(w.text, p->text, w.length) != 0))
-        replace(e, part, &w);
+    if (done == p->text)
+        return;
+    put_span(&w, done, p->text + p->length);
+    replace(e, part, &w);
 }
 
 static int is_comment(const char *line, const char *stop)
@@ -312,15 +218,9 @@ void deck_edit_clear(struct deck_edit *e, int part)
 /* Where the comments and empty lines begin with which a part ends. */
 static size_t behind_last_line(const struct deck_part *part)
 {
-    const char *stop = part->text + part->length;
-    size_t behind = 0, at = 0;
-    for (size_t count; at < part->length; at += count) {
-        const char *line = part->text + at;
-        count = line_length(line, stop);
-        if (!is_comment(line, line + count) && skip_blanks(line, line + count) < line + count)
-            behind = at + count;
-    }
-    return behind;
+    const struct card *card = &part->read;
+    int last = card->nline ? card->line[card->nline - 1].place.line : card->end.line;
+    return (size_t)(text_at(part, (struct place){.line = last + 1, .column = 1}) - part->text);
 }
 
 void deck_edit_append(struct deck_edit *e, int part, const char *text)
@@ -346,6 +246,7 @@ void deck_edit_insert(struct deck_edit *e, int at, const char *text)
     struct deck_part *before = at ? &e->part[at - 1] : NULL, *part = &e->part[at];
     *part = (struct deck_part){.text = text, .length = strlen(text), .file = e->origin->path, .changed = 1};
     part->state = before ? before->state : -1;
+    read_part(e, part);
     if (!before || at == last || before->file != part[1].file || !(before->card || before->include))
         return;
     size_t behind = behind_last_line(before);
@@ -363,12 +264,8 @@ static void apply(struct deck_edit *e, const struct override *o)
 {
     const char *value = o->value;
     int found = 0;
-    if (same_text(o->option, "FILE") && *value != '/') {
-        char here[4096] = ""; /* PATH_MAX of Linux */
-        value = e->origin->memory ? pool_format(e->pool, "%s/%s", e->origin->directory ? e->origin->directory : ".", value)
-                : getcwd(here, sizeof here) ? pool_format(e->pool, "%s/%s", here, value)
-                                            : NULL;
-    }
+    if (same_text(o->option, "FILE"))
+        value = deck_absolute(e->pool, path_from(e, e->origin->memory ? e->origin->path : NULL, value));
     if (!value) {
         e->status = ROTID_ERROR_MEMORY;
         return;
@@ -430,20 +327,13 @@ int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path
 
 void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck_part *part, int with)
 {
-    size_t length = 0;
-    const char *path = deck_edit_option(part, "FILE", &length), *text = part->text;
+    const struct card_option *file = card_option(&part->read, "FILE");
+    const char *text = part->text, *stop = text + part->length;
     size_t count = part->length;
-    char here[4096] = "";
-    if (path && *path != '/') {
-        const char *whole = path_from(e, part->file, path, length);
-        if (whole && *whole != '/')
-            whole = getcwd(here, sizeof here) ? pool_format(e->pool, "%s/%s", here, whole) : NULL;
-        if (!whole) {
-            w->status = w->status ? w->status : ROTID_ERROR_MEMORY;
-            return;
-        }
-        text = pool_format(e->pool, "%.*s%s%.*s", (int)(path - part->text), part->text, whole,
-                           (int)(part->text + part->length - (path + length)), path + length);
+    if (file && *file->value != '/') {
+        const char *whole = deck_absolute(e->pool, path_from(e, part->file, file->value)),
+                   *from = text_at(part, file->value_place), *to = text_at(part, file->end);
+        text = whole ? pool_format(e->pool, "%.*s%s%.*s", (int)(from - text), text, whole, (int)(stop - to), to) : NULL;
         count = text ? strlen(text) : 0;
         w->status = text ? w->status : ROTID_ERROR_MEMORY;
     }
@@ -466,8 +356,7 @@ static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int 
     for (int i = from; i < to && !e->status; i += 1 + (e->part[i].include ? e->part[i].inside : 0)) {
         const struct deck_part *part = &e->part[i];
         int behind = i + 1 + part->inside, any = !which;
-        size_t length = 0;
-        const char *file = part->include ? deck_edit_option(part, "FILE", &length) : NULL;
+        const char *file = part->include ? deck_edit_option(part, "FILE") : NULL;
         for (int k = part->include ? i + 1 : i; k < behind && which; k++)
             any |= !e->part[k].include && (which[k] & mask) != 0;
         if (!any)
@@ -476,8 +365,7 @@ static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int 
             deck_edit_put(e, w, part, 3);
             continue;
         }
-        deck_put(w, "** the cards of %.*s, which is not included as some of them change or stand elsewhere\n", (int)length,
-                 file ? file : "");
+        deck_put(w, "** the cards of %s, which is not included as some of them change or stand elsewhere\n", file ? file : "");
         put_parts(e, w, i + 1, behind, which, mask);
         if (!which || mask & 1)
             deck_edit_put(e, w, part, 2);

@@ -3,7 +3,6 @@
 
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* The states to write and the values of their unknowns: the base model where nothing was named, with the mesh of the deck where
  * that suffices, and of a solid, whose mesh follows from its outline. */
@@ -58,25 +57,21 @@ struct folder {
 
 static int find_folder(struct pool *pool, const char *file, struct folder *folder)
 {
-    char here[4096] = ""; /* PATH_MAX of Linux; a longer one is refused */
-    const char *slash = strrchr(file, '/');
-    int count = slash ? (int)(slash - file) : 0;
-    if (*file != '/' && !getcwd(here, sizeof here))
-        return ROTID_ERROR_IO;
-    folder->path = pool_format(pool, "%s%s%.*s", here, *file != '/' && count ? "/" : "", count, file);
+    const char *whole = deck_absolute(pool, file);
+    folder->path = whole ? pool_format(pool, "%.*s", (int)(strrchr(whole, '/') - whole), whole) : NULL;
     if (!folder->path)
-        return ROTID_ERROR_MEMORY;
+        return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_IO;
     return stat(*folder->path ? folder->path : "/", &folder->about) != 0 ? ROTID_ERROR_IO : ROTID_OK;
 }
 
 /* Paths in this folder become relative to it. */
 static void shorten(struct deck_edit *e, const char *folder)
 {
-    size_t count = strlen(folder), length;
+    size_t count = strlen(folder);
     for (int i = 0; i < e->npart && !e->status; i++) {
-        const char *path = deck_edit_option(&e->part[i], "FILE", &length);
-        if (path && length > count + 1 && !strncmp(path, folder, count) && path[count] == '/')
-            deck_edit_set(e, i, "FILE", pool_format(e->pool, "%.*s", (int)(length - count - 1), path + count + 1));
+        const char *path = deck_edit_option(&e->part[i], "FILE");
+        if (path && !strncmp(path, folder, count) && path[count] == '/' && path[count + 1])
+            deck_edit_set(e, i, "FILE", path + count + 1);
     }
 }
 

@@ -262,7 +262,7 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */
 static const char *measured_file(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
-    char folder[4096], why[HOST_ERROR_TEXT];
+    char why[HOST_ERROR_TEXT];
     if (!*option->value) {
         deck_error(reader, option->place, "*FRF has an empty FILE, expected FILE=path of a universal file");
         return NULL;
@@ -274,9 +274,8 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
         deck_error(reader, option->value_place, "%s: %s, expected a universal file", path, host_error_text(errno, why));
         return NULL;
     }
-    if (*path != '/' && getcwd(folder, sizeof folder))
-        path = pool_format(reader->pool, "%s/%s", folder, path);
-    return path;
+    const char *absolute = deck_absolute(reader->pool, path);
+    return absolute ? absolute : path;
 }
 
 static int is_of_nodes(const char *option)

@@ -150,12 +150,10 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
 
 enum { COMMON = 1, MEASURED = 2, RUNNING = 4 };
 
-static int is_called(struct deck_edit *e, const struct deck_part *part, const char *name)
+static int is_called(const struct deck_part *part, const char *name)
 {
-    size_t length = 0;
-    const char *value = part->card && !strcmp(part->card->name, "STATE") ? deck_edit_option(part, "NAME", &length) : NULL,
-               *own = value ? pool_format(e->pool, "%.*s", (int)length, value) : "";
-    return value && own && same_text(own, name);
+    const char *own = part->card && !strcmp(part->card->name, "STATE") ? deck_edit_option(part, "NAME") : NULL;
+    return own && same_text(own, name);
 }
 
 /* The cards of that state of the deck but for what was measured, and without comments. */
@@ -166,7 +164,7 @@ static void put_cards_of(struct deck_edit *e, struct deck_writer *w, const char 
         const struct deck_part *part = &e->part[i];
         const char *card = part->card ? part->card->name : "";
         if (!strcmp(card, "STATE"))
-            inside = is_called(e, part, name);
+            inside = is_called(part, name);
         else if (inside && part->card && part->card->states != CARD_OF_STATE && strcmp(card, "NOISE") != 0 &&
                  strcmp(card, "SENSORS") != 0)
             deck_edit_put(e, w, part, 1);
@@ -178,7 +176,7 @@ static const char *free_name(struct deck_edit *e, const char *name)
 {
     const char *own = name;
     for (int i = 0, n = 1; i < e->npart && own; i++)
-        if (is_called(e, &e->part[i], own)) {
+        if (is_called(&e->part[i], own)) {
             own = pool_format(e->pool, "%s_%d", name, ++n);
             i = -1;
         }
@@ -192,18 +190,15 @@ static const char *take_modes(struct deck_edit *e, const char *option)
     const char *list = NULL;
     for (int i = 0; i < e->npart && !e->status; i++) {
         const struct deck_part *part = &e->part[i];
-        size_t length = 0;
-        const char *value = part->card && !strcmp(part->card->name, "FIT") ? deck_edit_option(part, option, &length) : NULL;
+        const char *value = part->card && !strcmp(part->card->name, "FIT") ? deck_edit_option(part, option) : NULL;
         if (!value || !isdigit((unsigned char)*value))
             continue;
-        list = pool_format(e->pool, "%.*s", (int)length, value);
+        list = value;
         deck_edit_set(e, i, option, NULL);
     }
-    for (int i = 0; i < e->npart && list && !e->status; i++) {
-        size_t length;
-        if (e->part[i].card && !strcmp(e->part[i].card->name, "STATE") && !deck_edit_option(&e->part[i], option, &length))
+    for (int i = 0; i < e->npart && list && !e->status; i++)
+        if (e->part[i].card && !strcmp(e->part[i].card->name, "STATE") && !deck_edit_option(&e->part[i], option))
             deck_edit_set(e, i, option, list);
-    }
     return list;
 }
 

@@ -316,7 +316,7 @@ static struct card *new_card(struct taking *t, struct place place)
 
 static void add_option(struct taking *t, struct card *card, const char *name, const struct field *value)
 {
-    struct card_option option = {name, value->text, value->place, value->place, 0};
+    struct card_option option = {.name = name, .value = value->text, .place = value->place, .value_place = value->place};
     (void)deck_text_add_option(t->reader->pool, card, option);
 }
 

@@ -2,81 +2,41 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <stdarg.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "file/file.h"
-
-/* Where the characters of a deck come from: a file, or the memory of a host. What was read is kept: writers edit that text. */
-
-#define DECK_SOURCE_END (-1)
-
-struct deck_source {
-    struct stat information; /* of the file; zeros for memory */
-    FILE *stream;            /* NULL: memory */
-    const char *text;
-    size_t left;
-    char *kept;
-    size_t nkept, room;
-};
-
-/* 0, or the error number of the operating system. A deck "-" is standard input. */
-static int deck_source_open(struct deck_source *source, const char *path, int is_deck)
-{
-    *source = (struct deck_source){.text = NULL};
-    source->stream = file_open(is_deck && !strcmp(path, "-") ? "/dev/stdin" : path, 0, &source->information);
-    return source->stream ? 0 : errno;
-}
-
-/* Bytes that it holds, -1 where nobody knows: a pipe. */
-static long long deck_source_length(const struct deck_source *source)
-{
-    if (!source->stream)
-        return source->left <= (size_t)1 << 62 ? (long long)source->left : 1LL << 62;
-    return S_ISREG(source->information.st_mode) ? (long long)source->information.st_size : -1;
-}
 
 struct reader {
     struct pool *pool;
     struct message_list *messages;
     struct deck_text *text;
-    long bytes_left;
-    int early; /* data lines before the first card; the first is told */
-    int over;  /* a limit of the whole deck is passed, which has been said: nothing more is read */
+    size_t bytes_left;
+    int early;    /* data lines before the first card; the first is told */
+    int over;     /* a limit of the whole deck is passed, which has been said: nothing more is read */
+    int is_piece; /* what it includes is left alone */
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
-    struct place keyword; /* a keyword line that ends in a comma goes on here */
-    int continues;
+    int continues; /* a keyword line ended in a comma */
 };
 
-/* The next byte, or DECK_SOURCE_END. */
-static int deck_source_next(struct reader *reader, struct deck_source *source)
+char *deck_read_file(struct pool *pool, const char *path, size_t most, struct stat *about, size_t *length, int *failed)
 {
-    int c = DECK_SOURCE_END;
-    if (source->stream)
-        c = getc(source->stream);
-    else if (source->left) {
-        source->left--;
-        c = (unsigned char)*source->text++;
+    FILE *stream = file_open(path, 0, about);
+    size_t room = 1 << 14, got = 1, known = stream && S_ISREG(about->st_mode) ? (size_t)about->st_size : 0;
+    char *text = stream ? pool_get(pool, room, 1) : NULL;
+    *failed = stream ? 0 : errno;
+    if (!stream)
+        return NULL;
+    for (*length = known > most ? known : 0; text && got && *length <= most; *length += got) {
+        text = pool_grow(pool, text, *length + 1, &room, 1); /* as it comes: a pipe does not know its length */
+        got = text ? fread(text + *length, 1, room - *length - 1, stream) : 0;
     }
-    char *grown = pool_grow(reader->pool, source->kept, source->nkept, &source->room, 1);
-    if (!grown)
-        return DECK_SOURCE_END;
-    source->kept = grown;
-    source->kept[source->nkept] = (char)(c < 0 ? 0 : c); /* a zero ends the text */
-    source->nkept += c >= 0;
-    return c;
-}
-
-/* 0, or the error number where reading ended before the end. */
-static int deck_source_close(struct deck_source *source)
-{
-    int number = source->stream && ferror(source->stream) ? errno : 0;
-    if (source->stream)
-        (void)fclose(source->stream);
-    return number;
+    *failed = ferror(stream) ? errno : 0;
+    (void)fclose(stream);
+    return text;
 }
 
 const struct card_option *card_option(const struct card *card, const char *name)
@@ -89,21 +49,11 @@ const struct card_option *card_option(const struct card *card, const char *name)
 
 static char *copy_span(struct reader *reader, const char *begin, const char *end)
 {
-    char *copy = pool_get(reader->pool, (size_t)(end - begin) + 1, 1);
-    if (copy)
-        memcpy(copy, begin, (size_t)(end - begin));
-    return copy;
+    return pool_copy(reader->pool, begin, (size_t)(end - begin), 1, 1);
 }
 
-__attribute__((format(printf, 3, 4))) static void text_error(struct reader *reader, struct place place, const char *format, ...)
-{
-    char text[2 * DECK_LINE_LENGTH];
-    va_list values;
-    va_start(values, format);
-    (void)vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    message_add(reader->messages, SEVERITY_ERROR, place.file, place.line, place.column, "%s", text);
-}
+#define text_error(reader, place, ...)                                                                                           \
+    message_add((reader)->messages, SEVERITY_ERROR, (place).file, (place).line, (place).column, __VA_ARGS__)
 
 static void trim(const char **begin, const char **end)
 {
@@ -115,7 +65,7 @@ static void trim(const char **begin, const char **end)
 
 struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
 {
-    const struct card card = {.name = name, .place = place};
+    const struct card card = {.name = name, .place = place, .end = place};
     return POOL_ADD(pool, text->card, text->ncard, &card) ? NULL : &text->card[text->ncard - 1];
 }
 
@@ -157,22 +107,23 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     trim(&begin, &end);
     if (begin == end)
         return;
-    const char *equals = memchr(begin, '=', (size_t)(end - begin));
+    const char *equals = memchr(begin, '=', (size_t)(end - begin)), *name_end = equals ? equals : end,
+               *value = equals ? equals + 1 : end;
     struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
+    card->end = at(reader, line_begin, end, line);
     if (list && deck_text_is_next_item(list->value, begin, end)) {
-        char *item = copy_span(reader, begin, end), *longer = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
-        if (longer)
-            list->value = longer;
+        const char *longer = pool_format(reader->pool, "%s,%.*s", list->value, (int)(end - begin), begin);
+        list->value = longer ? longer : list->value;
+        list->end = card->end;
         return;
     }
-    const char *name_end = equals ? equals : end, *value = equals ? equals + 1 : end, *value_end = end;
-    const char *name = begin;
-    trim(&name, &name_end);
-    trim(&value, &value_end);
-    struct card_option option = {.name = copy_span(reader, name, name_end),
-                                 .value = copy_span(reader, value, value_end),
-                                 .place = at(reader, line_begin, name, line),
-                                 .value_place = at(reader, line_begin, value, line)};
+    trim(&begin, &name_end);
+    trim(&value, &end);
+    struct card_option option = {.name = copy_span(reader, begin, name_end),
+                                 .value = copy_span(reader, value, end),
+                                 .place = at(reader, line_begin, begin, line),
+                                 .value_place = at(reader, line_begin, value, line),
+                                 .end = card->end};
     if (!option.name || !option.value)
         return;
     if (card_option(card, option.name))
@@ -195,20 +146,32 @@ static void read_options(struct reader *reader, struct card *card, const char *l
     }
 }
 
+const char *deck_path_from(struct pool *pool, const char *path, const char *file, const char *directory)
+{
+    const char *slash = file ? strrchr(file, '/') : NULL;
+    if (*path == '/' || (!directory && !slash))
+        return path;
+    return directory ? pool_format(pool, "%s/%s", directory, path)
+                     : pool_format(pool, "%.*s/%s", (int)(slash - file), file, path);
+}
+
+const char *deck_absolute(struct pool *pool, const char *path)
+{
+    char here[4096]; /* PATH_MAX of Linux */
+    return !path || *path == '/' ? path : getcwd(here, sizeof here) ? deck_path_from(pool, path, NULL, here) : NULL;
+}
+
 const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
                            const struct card_option *option, struct message_list *messages)
 {
-    const char *here = card->place.file, *slash = option->overridden ? NULL : strrchr(here, '/'), *path = option->value;
+    const char *here = option->overridden ? NULL : card->place.file;
     if (text->memory && !text->directory) {
         message_add(messages, SEVERITY_ERROR, option->value_place.file, option->value_place.line, option->value_place.column,
-                    "%s is a file, and a deck from memory has no directory of its own, expected one beside its text", path);
+                    "%s is a file, and a deck from memory has no directory of its own, expected one beside its text",
+                    option->value);
         return NULL;
     }
-    if (*path == '/')
-        return path;
-    if (text->memory && (option->overridden || here == text->memory))
-        return pool_format(pool, "%s/%s", text->directory, path);
-    return slash ? pool_format(pool, "%.*s/%s", (int)(slash - here), here, path) : path;
+    return deck_path_from(pool, option->value, here, text->memory && (!here || here == text->memory) ? text->directory : NULL);
 }
 
 int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path)
@@ -259,6 +222,7 @@ static void read_keyword(struct reader *reader, const char *line_begin, const ch
     struct card *card = upper ? deck_text_add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
     if (!card)
         return;
+    card->end = at(reader, line_begin, name_end, line);
     reader->continues = 0;
     if (comma)
         read_options(reader, card, line_begin, comma + 1, end, line);
@@ -346,89 +310,69 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
         return 0;
     }
     struct deck_text *text = reader->text;
-    if (text->ncard && !reader->continues && !reader->pool->out_of_memory && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
+    if (text->ncard && !reader->continues && !reader->pool->out_of_memory && !reader->is_piece &&
+        !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
         include(reader, text->card[--text->ncard]);
     return 0;
 }
 
-static void too_large(struct reader *reader, const char *path)
+/* `path`: the file of the places in it. more: the text goes on, beyond what a deck may have. */
+static void read_lines(struct reader *reader, const char *path, const char *text, size_t length, int more)
 {
-    reader->over = 1;
-    text_error(reader, (struct place){path, 1, 1}, "the deck is larger than %ld MiB, expected cards of a rotor",
-               DECK_MOST_BYTES >> 20);
-}
-
-/* Without the carriage return at the end of a line that is not too long. */
-static size_t bare_length(const char *line, size_t length)
-{
-    return length && length < DECK_LINE_LENGTH + 2 && line[length - 1] == '\r' ? length - 1 : length;
-}
-
-/* `path`: the file of the places in it. */
-static int read_source(struct reader *reader, struct deck_source *source, const char *path)
-{
-    char why[HOST_ERROR_TEXT];
-    if (deck_source_length(source) > reader->bytes_left) {
-        too_large(reader, path);
-        (void)deck_source_close(source);
-        return ROTID_ERROR_SYNTAX;
-    }
+    const char *stop = text + length;
+    int line = 1, is_text = 1;
     reader->open_file[reader->depth] = path;
-    reader->open_stat[reader->depth] = source->information;
-    char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
-    size_t length = 0;
-    int line = 1, c, stop = 0;
-    while (!stop && !reader->over && !reader->pool->out_of_memory && (c = deck_source_next(reader, source)) != DECK_SOURCE_END) {
-        if (--reader->bytes_left < 0) {
-            too_large(reader, path);
-            break;
+    reader->bytes_left -= length;
+    for (; text < stop && is_text && !reader->over && !reader->pool->out_of_memory; line++) {
+        const char *feed = memchr(text, '\n', (size_t)(stop - text)), *end = feed ? feed : stop;
+        size_t count = (size_t)(end - text);
+        char line_text[DECK_LINE_LENGTH + 1];
+        count -= count && end[-1] == '\r';
+        if (count > DECK_LINE_LENGTH) {
+            text_error(reader, ((struct place){path, line, DECK_LINE_LENGTH + 1}),
+                       "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
+            is_text = !memchr(text, 0, DECK_LINE_LENGTH + 1);
+        } else {
+            memcpy(line_text, text, count);
+            is_text = !read_line(reader, line_text, count, line);
         }
-        if (c == '\n') {
-            length = bare_length(line_text, length);
-            stop = length <= DECK_LINE_LENGTH && read_line(reader, line_text, length, line);
-            reader->text->end = (struct place){path, line, (int)length + 1};
-            line++;
-            length = 0;
-        } else if (length < sizeof line_text) {
-            line_text[length++] = (char)c;
-            if (length == sizeof line_text || (length == DECK_LINE_LENGTH + 1 && c != '\r')) {
-                length = sizeof line_text;
-                text_error(reader, (struct place){path, line, DECK_LINE_LENGTH + 1},
-                           "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
-                stop = memchr(line_text, 0, DECK_LINE_LENGTH + 1) != NULL;
-            }
-        }
+        reader->text->end = (struct place){path, line, (int)count + 1};
+        text = feed ? feed + 1 : stop;
     }
-    length = bare_length(line_text, length);
-    if (!stop && !reader->over && length && length <= DECK_LINE_LENGTH)
-        (void)read_line(reader, line_text, length, line);
-    if (length)
-        reader->text->end = (struct place){path, line, (int)length + 1};
-    int failed = deck_source_close(source);
-    const struct deck_file read = {path, source->kept ? source->kept : ""};
-    (void)POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
-    if (failed)
-        text_error(reader, (struct place){path, line, 1}, "reading failed: %s", host_error_text(failed, why));
+    if (more && is_text && !reader->over) {
+        reader->over = 1;
+        text_error(reader, ((struct place){path, 1, 1}), "the deck is larger than %ld MiB, expected cards of a rotor",
+                   DECK_MOST_BYTES >> 20);
+    }
     reader->continues = 0;
-    return ROTID_OK;
 }
 
 static int read_file(struct reader *reader, const char *path, struct place from)
 {
-    struct deck_source source;
     char why[HOST_ERROR_TEXT];
-    int failed = deck_source_open(&source, path, !from.file);
-    if (failed) {
-        text_error(reader, (struct place){from.file ? from.file : path, from.line, from.column},
+    struct stat about;
+    size_t length, left = reader->bytes_left;
+    int failed;
+    const char *text =
+        deck_read_file(reader->pool, !from.file && !strcmp(path, "-") ? "/dev/stdin" : path, left, &about, &length, &failed);
+    if (!text && failed) {
+        text_error(reader, ((struct place){from.file ? from.file : path, from.line, from.column}),
                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
         reader->pool->out_of_memory |= file_status(failed) == ROTID_ERROR_MEMORY;
         return file_status(failed);
     }
+    if (!text)
+        return ROTID_ERROR_MEMORY;
     (void)deck_text_add_file(reader->pool, reader->text, path);
     reader->depth += from.file != NULL;
-    int status = read_source(reader, &source, path);
+    reader->open_stat[reader->depth] = about;
+    read_lines(reader, path, text, length <= left ? length : S_ISREG(about.st_mode) ? 0 : left, length > left);
     reader->depth -= from.file != NULL;
-    return status;
+    const struct deck_file read = {path, text};
+    (void)POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
+    if (failed)
+        text_error(reader, ((struct place){path, reader->text->end.line, 1}), "reading failed: %s", host_error_text(failed, why));
+    return ROTID_OK;
 }
 
 static int conclude(const struct reader *reader, int status)
@@ -449,9 +393,22 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
                           struct deck_text *text)
 {
     struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
-    struct deck_source source = {.text = memory->text, .left = memory->length};
+    int more = memory->length > DECK_MOST_BYTES;
+    const struct deck_file read = {memory->name, pool_copy(pool, memory->text, more ? 0 : memory->length, 1, 1)};
     *text = (struct deck_text){.end = {memory->name, 1, 1}, .memory = memory->name, .directory = memory->directory};
-    return conclude(&reader, read_source(&reader, &source, memory->name));
+    if (read.text)
+        read_lines(&reader, memory->name, read.text, more ? 0 : memory->length, more);
+    (void)POOL_ADD(pool, text->source, text->nsource, &read);
+    return conclude(&reader, ROTID_OK);
+}
+
+void deck_text_read_piece(struct pool *pool, size_t length, const char *piece, struct deck_text *text)
+{
+    struct message_list unheard;
+    struct reader reader = {.pool = pool, .messages = &unheard, .text = text, .bytes_left = length, .is_piece = 1};
+    message_open(&unheard, pool);
+    *text = (struct deck_text){.ncard = 0};
+    read_lines(&reader, "", piece, length, 0);
 }
 
 /* ------------------------------------------------------------------------------------------------ overrides */
@@ -471,7 +428,7 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
 {
     static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED", "FRF"};
     struct place place = {override->text, 1, 1};
-    struct card_option option = {override->option, override->value, place, place, 1};
+    struct card_option option = {override->option, override->value, place, place, 1, place};
     int found = 0;
     for (int i = 0; i < text->ncard; i++)
         found |= same_text(text->card[i].name, override->card);

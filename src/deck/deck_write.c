@@ -170,22 +170,12 @@ static int is_card(const struct deck_part *part, const char *name)
     return part->card && !strcmp(part->card->name, name);
 }
 
-static const char *option_text(struct writing *w, const struct deck_part *part, const char *name)
-{
-    size_t length = 0;
-    const char *value = deck_edit_option(part, name, &length),
-               *copy = value ? pool_format(w->pool, "%.*s", (int)length, value) : NULL;
-    if (value && !copy)
-        w->edit.status = ROTID_ERROR_MEMORY;
-    return copy;
-}
-
 static void find_states(struct writing *w)
 {
     for (int s = 0; s < w->meant.nstate; s++) {
         w->of[s] = -1;
         for (int i = 0; i < w->edit.npart && w->meant.state[s].name; i++) {
-            const char *name = is_card(&w->edit.part[i], "STATE") ? option_text(w, &w->edit.part[i], "NAME") : NULL;
+            const char *name = is_card(&w->edit.part[i], "STATE") ? deck_edit_option(&w->edit.part[i], "NAME") : NULL;
             if (name && same_text(name, w->meant.state[s].name))
                 w->of[s] = w->edit.part[i].state;
         }
@@ -227,13 +217,11 @@ static const char *own_name(const struct state *state, int p)
     return length && !strncasecmp(name, state->name, length) && name[length] == ':' ? name + length + 1 : name;
 }
 
-static int find_unknown(const struct state *state, const char *name, size_t length)
+static int find_unknown(const struct state *state, const char *name)
 {
-    for (int p = 0; p < state->job.unknowns.nparameter; p++) {
-        const char *own = own_name(state, p);
-        if (strlen(own) == length && !strncasecmp(own, name, length))
+    for (int p = 0; p < state->job.unknowns.nparameter; p++)
+        if (same_text(own_name(state, p), name))
             return p;
-    }
     return -1;
 }
 
@@ -244,42 +232,35 @@ struct in_part {
 };
 
 /* A line of *IDENTIFY: what differs of bounds and start, in the unit of the deck. */
-static void put_unknown(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+static void edit_unknown(struct deck_line_edit *edit, void *context)
 {
     const struct in_part *in = context;
-    const struct writing *w = in->w;
-    int count, at = deck_edit_field(line, length, 0, &count);
-    (void)number;
+    struct writing *w = in->w;
+    const char *name = edit->line->field[0].text;
     for (int s = 0; s < w->meant.nstate; s++) {
         const struct state *meant = &w->meant.state[s], *given = &w->given->state[s];
-        int p = is_in(w, in->part, s) ? find_unknown(meant, line + at, (size_t)count) : -1,
-            q = is_in(w, in->part, s) ? find_unknown(given, line + at, (size_t)count) : -1;
+        int p = is_in(w, in->part, s) ? find_unknown(meant, name) : -1,
+            q = is_in(w, in->part, s) ? find_unknown(given, name) : -1;
         if (p < 0 || q < 0 || (in->part->state < 0 && own_name(given, q) != given->job.unknowns.bounds[q].name))
             continue;
         const rotid_parameter *to = &meant->job.unknowns.bounds[p], *from = &given->job.unknowns.bounds[q];
         const double value[] = {to->lower, to->upper, to->start}, was[] = {from->lower, from->upper, from->start};
-        struct deck_writer edited = {.pool = w->pool};
-        deck_put(&edited, "%.*s", (int)length, line);
         for (int k = 0; k < 3; k++) {
-            struct deck_writer number_of = writer_of(w, s), next = {.pool = w->pool};
-            if (value[k] == was[k] || edited.status)
+            struct deck_writer number = writer_of(w, s);
+            if (value[k] == was[k])
                 continue;
-            deck_put_number(&number_of, "", value[k], to->unit ? to->unit : "");
-            next.status = number_of.status;
-            deck_edit_put_field(&next, edited.text, edited.length, k + 1, number_of.text ? number_of.text : "");
-            edited = next;
+            deck_put_number(&number, "", value[k], to->unit ? to->unit : "");
+            edit->value[k + 1] = number.text;
+            w->edit.status = w->edit.status ? w->edit.status : number.status;
         }
-        out->status = out->status ? out->status : edited.status;
-        deck_put(out, "%s", edited.text ? edited.text : "");
         return;
     }
-    deck_put(out, "%.*s", (int)length, line);
 }
 
 /* A suspect that was named: it stands among the causes of the model, which come last. */
 static int is_named_suspect(struct writing *w, const struct deck_part *part)
 {
-    const char *name = is_card(part, "CAUSE") ? option_text(w, part, "NAME") : NULL;
+    const char *name = is_card(part, "CAUSE") ? deck_edit_option(part, "NAME") : NULL;
     for (int s = 0; s < w->given->nstate && name; s++) {
         int was = 0, is = 0;
         for (int i = 0; i < w->given->state[s].job.unknowns.nsuspect; i++)
@@ -297,7 +278,7 @@ static void edit_searched(struct writing *w)
     for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
         struct in_part in = {.w = w, .part = &w->edit.part[i]};
         if (is_card(in.part, "IDENTIFY"))
-            deck_edit_lines(&w->edit, i, put_unknown, &in);
+            deck_edit_lines(&w->edit, i, edit_unknown, &in);
         else if (is_named_suspect(w, in.part))
             deck_edit_clear(&w->edit, i);
     }
@@ -329,22 +310,20 @@ static void edit_fit(struct writing *w)
 {
     const struct job_options *options = &w->meant.state->job.options;
     int at = fit_card(w);
-    size_t length;
     if (w->edit.status)
         return;
     if (options->fit.functional >= 0)
         deck_edit_set(&w->edit, at, "FUNCTIONAL", functional_words[options->fit.functional]);
     deck_edit_set(&w->edit, at, "REDUCTION", reduction_words[options->fit.reduction]);
-    if (options->fit.derivative != ROTID_NELSON || deck_edit_option(&w->edit.part[at], "DERIVATIVE", &length))
+    if (options->fit.derivative != ROTID_NELSON || deck_edit_option(&w->edit.part[at], "DERIVATIVE"))
         deck_edit_set(&w->edit, at, "DERIVATIVE", derivative_words[options->fit.derivative]);
-    if (options->solid || deck_edit_option(&w->edit.part[at], "MODEL", &length))
+    if (options->solid || deck_edit_option(&w->edit.part[at], "MODEL"))
         deck_edit_set(&w->edit, at, "MODEL", options->solid ? "SOLID" : "BEAM");
 }
 
 static void set_or_drop(struct writing *w, int at, const char *option, const char *value)
 {
-    size_t length;
-    if ((value && *value) || deck_edit_option(&w->edit.part[at], option, &length))
+    if ((value && *value) || deck_edit_option(&w->edit.part[at], option))
         deck_edit_set(&w->edit, at, option, value && *value ? value : NULL);
 }
 
@@ -405,19 +384,15 @@ static const struct segment *segment_of(const struct rotor *rotor, int group, in
     return NULL;
 }
 
-static void put_elements(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+static void set_elements(struct deck_line_edit *edit, void *context)
 {
     const struct in_part *in = context;
-    const struct segment *to = segment_of(&in->w->meant.state[in->s].job.rotor, in->first, number),
-                         *from = segment_of(&in->w->given->state[in->s].job.rotor, in->first, number);
-    char text[16];
-    int count, has = deck_edit_field(line, length, 3, &count) >= 0 && count > 0;
-    int solid = deck_edit_field(line, length, 2, &count) < 0; /* the inner diameter was left out */
-    (void)snprintf(text, sizeof text, "%s%d", solid ? "0, " : "", to ? to->elements : 0);
-    if (to && (!has || !from || to->elements != from->elements))
-        deck_edit_put_field(out, line, length, solid ? 2 : 3, text);
-    else
-        deck_put(out, "%.*s", (int)length, line);
+    const struct segment *to = segment_of(&in->w->meant.state[in->s].job.rotor, in->first, edit->number),
+                         *from = segment_of(&in->w->given->state[in->s].job.rotor, in->first, edit->number);
+    if (!to || (deck_has(edit->line, 3) && from && to->elements == from->elements))
+        return;
+    edit->value[2] = edit->line->count > 2 ? NULL : "0"; /* the inner diameter was left out */
+    edit->value[3] = pool_format(in->w->pool, "%d", to->elements);
 }
 
 static void put_sections(struct deck_writer *lines, const struct rotor *rotor, int group)
@@ -455,7 +430,7 @@ static int last_unnamed(struct writing *w, const struct rotor *rotor, int first)
     for (; last < rotor_axis_groups(rotor); last++)
         for (int i = 0; i < w->edit.npart; i++)
             if ((is_card(&w->edit.part[i], "SHAFT") || is_card(&w->edit.part[i], "BEAM")) &&
-                group_of(rotor, option_text(w, &w->edit.part[i], "NAME")) == last)
+                group_of(rotor, deck_edit_option(&w->edit.part[i], "NAME")) == last)
                 return last - 1;
     return last - 1;
 }
@@ -465,7 +440,6 @@ static void edit_elements(struct writing *w)
     for (int i = 0, before = -1; i < w->edit.npart && !w->edit.status; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
-        size_t length;
         if (!is_card(part, "SHAFT") && !is_card(part, "BEAM"))
             continue;
         while (in.s < w->meant.nstate && !is_in(w, part, in.s))
@@ -473,8 +447,8 @@ static void edit_elements(struct writing *w)
         if (in.s == w->meant.nstate)
             continue;
         const struct rotor *rotor = &w->meant.state[in.s].job.rotor;
-        int last = in.first = group_of(rotor, option_text(w, part, "NAME")), named = in.first >= 0;
-        int is_table = deck_edit_option(part, "FILE", &length) != NULL;
+        int last = in.first = group_of(rotor, deck_edit_option(part, "NAME")), named = in.first >= 0;
+        int is_table = deck_edit_option(part, "FILE") != NULL;
         if (is_table && !named) {
             in.first = before + 1;
             last = last_unnamed(w, rotor, in.first);
@@ -484,7 +458,7 @@ static void edit_elements(struct writing *w)
         else if (is_table) /* its groups stand with those of the table before */
             deck_edit_clear(&w->edit, i);
         else if (named)
-            deck_edit_lines(&w->edit, i, put_elements, &in);
+            deck_edit_lines(&w->edit, i, set_elements, &in);
         before = last > before ? last : before;
     }
 }
@@ -560,52 +534,45 @@ static void edit_data(struct writing *w, int s)
 
 /* ------------------------------------------------------------------------------------------------ names */
 
-/* Line `number` of a list of springs or disks whose item has got a name stands under a card of its own. */
-static void put_named(struct deck_writer *out, const char *line, size_t length, int number, void *context)
+/* The name of spring or disk i, NULL beyond the last one. */
+static const char *name_of_part(const struct rotor *rotor, int is_spring, int i)
+{
+    if (i < 0 || i >= (is_spring ? rotor->nspring : rotor->ndisk))
+        return NULL;
+    return is_spring ? rotor->spring[i].name : rotor->disk[i].name;
+}
+
+/* A line of a list of springs or disks whose item has got a name stands under a card of its own, and so does what follows. */
+static void split_list(struct deck_line_edit *edit, void *context)
 {
     const struct in_part *in = context;
     const struct rotor *meant = &in->w->meant.state[in->s].job.rotor, *given = &in->w->given->state[in->s].job.rotor;
-    int spring = !strcmp(in->part->card->name, "SPRING"), at = in->first + number, count = spring ? given->nspring : given->ndisk;
-    const char *is = at >= count ? NULL
-                     : spring    ? meant->spring[at].name
-                                 : meant->disk[at].name,
-               *was = at >= count ? NULL
-                      : spring    ? given->spring[at].name
-                                  : given->disk[at].name,
-               *before = !number || at > count ? NULL
-                         : spring              ? meant->spring[at - 1].name
-                                               : meant->disk[at - 1].name;
-    if (number && is && !was)
-        deck_put(out, "*%s, NAME=%s\n", in->part->card->name, is);
-    else if (before)
-        deck_put(out, "*%s\n", in->part->card->name);
-    deck_put(out, "%.*s", (int)length, line);
-}
-
-static void count_line(struct deck_writer *out, const char *line, size_t length, int number, void *context)
-{
-    *(int *)context = number + 1;
-    deck_put(out, "%.*s", (int)length, line);
+    const char *card = in->part->card->name;
+    int is_spring = !strcmp(card, "SPRING"), at = in->first + edit->number;
+    const char *name = name_of_part(given, is_spring, at) ? NULL : name_of_part(meant, is_spring, at);
+    if (edit->number && name)
+        edit->before = pool_format(in->w->pool, "*%s, NAME=%s\n", card, name);
+    else if (edit->number && name_of_part(meant, is_spring, at - 1))
+        edit->before = pool_format(in->w->pool, "*%s\n", card);
 }
 
 /* Names of springs or disks on which a new cause acts. */
 static void edit_names(struct writing *w, int s, const char *card)
 {
-    int next = 0, spring = !strcmp(card, "SPRING");
+    int next = 0, is_spring = !strcmp(card, "SPRING");
     const struct rotor *meant = &w->meant.state[s].job.rotor, *given = &w->given->state[s].job.rotor;
     for (int own = 0; own < 2; own++)
         for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
             struct in_part in = {.w = w, .part = &w->edit.part[i], .s = s, .first = next};
-            int lines = 0, count = spring ? given->nspring : given->ndisk, any = 0;
+            int lines = in.part->read.nline, any = 0;
             if (!is_card(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
                 continue;
-            deck_edit_lines(&w->edit, i, count_line, &lines);
-            for (int k = next; k < next + lines && k < count; k++)
-                any |= spring ? meant->spring[k].name && !given->spring[k].name : meant->disk[k].name && !given->disk[k].name;
-            const char *first = !any ? NULL : spring ? meant->spring[next].name : meant->disk[next].name;
+            for (int k = next; k < next + lines; k++)
+                any |= name_of_part(meant, is_spring, k) && !name_of_part(given, is_spring, k);
+            const char *first = name_of_part(meant, is_spring, next);
             next += lines;
             if (any)
-                deck_edit_lines(&w->edit, i, put_named, &in);
+                deck_edit_lines(&w->edit, i, split_list, &in);
             if (any && first)
                 deck_edit_set(&w->edit, i, "NAME", first);
         }
@@ -629,7 +596,7 @@ static void put_new(struct writing *w, int s, int common, struct deck_writer *ou
     for (int p = 0; p < meant->job.unknowns.nparameter; p++) {
         const char *name = own_name(meant, p);
         int is_common = alone || (w->meant.nstate > 1 && name == meant->job.unknowns.bounds[p].name);
-        if (find_unknown(given, name, strlen(name)) >= 0 || is_common != common)
+        if (find_unknown(given, name) >= 0 || is_common != common)
             continue;
         deck_put(out, "%s", any++ ? "" : "*IDENTIFY\n");
         deck_put_unknown(out, p, name);

@@ -1,6 +1,5 @@
 #include "deck/deck.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -262,49 +261,23 @@ static int table_text_split(struct pool *pool, const char *path, size_t length, 
     return messages->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
-/* The whole stream, grown as it comes: a pipe does not know its length. NULL: out of memory, or longer than allowed. */
-static char *read_whole(struct pool *pool, FILE *stream, size_t *length)
-{
-    size_t room = 0, got = 1;
-    char *text = NULL;
-    for (*length = 0; got && *length <= (size_t)TABLE_MOST_BYTES; *length += got) {
-        size_t wanted = room ? 2 * room : 1 << 14;
-        char *grown = *length + 1 < room ? text : pool_get(pool, wanted, 1);
-        if (!grown)
-            return NULL;
-        if (grown != text) {
-            if (text)
-                memcpy(grown, text, *length);
-            text = grown;
-            room = wanted;
-        }
-        got = fread(text + *length, 1, room - *length - 1, stream);
-    }
-    return text;
-}
-
 int table_text_read(struct pool *pool, const char *path, struct place from, struct message_list *messages,
                     struct table_text *table)
 {
     struct stat about;
     char why[HOST_ERROR_TEXT];
-    size_t length = 0;
-    FILE *stream = file_open(path, 0, &about);
+    size_t length;
+    int failed;
+    char *text = deck_read_file(pool, path, TABLE_MOST_BYTES, &about, &length, &failed);
     *table = (struct table_text){.path = path};
-    if (!stream) {
-        int status = file_status(errno);
-        return message_refuse(messages, status, from.file, from.line, from.column, "cannot read %s: %s, expected a table as CSV",
-                              path, file_error_text(errno, why));
-    }
-    char *text = read_whole(pool, stream, &length);
-    int failed = ferror(stream) ? errno : 0;
-    (void)fclose(stream);
-    if (!text)
+    if (!text && !failed)
         return ROTID_ERROR_MEMORY;
-    if (failed || length > (size_t)TABLE_MOST_BYTES)
+    if (failed)
+        return message_refuse(messages, text ? ROTID_ERROR_IO : file_status(failed), from.file, from.line, from.column,
+                              "cannot read %s: %s%s", path, file_error_text(failed, why),
+                              text ? "" : ", expected a table as CSV");
+    if (length > TABLE_MOST_BYTES)
         return message_refuse(messages, ROTID_ERROR_IO, from.file, from.line, from.column,
-                              failed ? "cannot read %s: %s"
-                                     : "%s is larger than %s, expected a table of measured values or sections",
-                              path, failed ? file_error_text(failed, why) : "16 MiB");
+                              "%s is larger than 16 MiB, expected a table of measured values or sections", path);
     return table_text_split(pool, path, length, text, messages, table);
 }
