@@ -27,10 +27,11 @@ const struct deck_row deck_laminated_rows[] = {
     {NUMBER(struct material, nu, "Poisson ratio of a sheet")},
     {ABOVE_0(struct material, stacking, "stacking factor"), OPTIONAL},
     LAST};
-const struct deck_row deck_density_rows[] = {
+static const struct deck_row density[] = {
     {ABOVE_0(struct material, rho, "density [kg/m3]")},
     LAST};
-const struct deck_row deck_shaft_rows[] = {
+static const struct deck_row shaft[] = {
+    OPTION("NAME"), OPTION("MATERIAL"), OPTION("FILE"),
     {ABOVE_0(struct segment, length, "length [m]")},
     {ABOVE_0(struct segment, outer, "outer diameter [m]")},
     {FROM_0(struct segment, inner, "inner diameter [m]"), OPTIONAL},
@@ -38,22 +39,25 @@ const struct deck_row deck_shaft_rows[] = {
     {ABOVE_0(struct segment, stiff_outer, "outer diameter that carries stiffness [m]"), OPTIONAL,
      .as = offsetof(struct segment, outer)},
     LAST};
-const struct deck_row deck_beam_rows[] = {
+static const struct deck_row beam[] = {
+    OPTION("NAME"), OPTION("MATERIAL"), OPTION("FILE"),
     {ABOVE_0(struct segment, length, "length [m]")},
     {ABOVE_0(struct segment, height, "height in the bending plane [m]")},
     {ABOVE_0(struct segment, width, "width [m]")},
     ELEMENTS(struct segment),
     LAST};
-const struct deck_row deck_layer_rows[] = {
+static const struct deck_row layer[] = {
+    OPTION("NAME"), OPTION("GROUP"), OPTION("MATERIAL"),
     {ABOVE_0(struct ring, outer, "outer diameter [m]")},
     {FROM_0(struct ring, inner, "inner diameter [m]")},
     LAST};
-const struct deck_row deck_perforation_rows[] = {
+static const struct deck_row perforation[] = {
+    OPTION("GROUP"),
     {WHOLE(struct group, holes, "number of holes"), FROM_TO(3, 10000)},
     {ABOVE_0(struct group, hole_diameter, "hole diameter [m]")},
     {ABOVE_0(struct group, hole_pitch, "pitch radius [m]")},
     LAST};
-const struct deck_row deck_tierod_rows[] = {
+static const struct deck_row tierod[] = {
     NAME(struct tierod),
     MATERIAL(struct tierod),
     {.option = "FROM", POSITION(struct tierod, from)},
@@ -66,7 +70,7 @@ const struct deck_row deck_tierod_rows[] = {
     {NUMBER(struct tierod, tension, "tension per rod [N]")},
     {WHOLE(struct tierod, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL, .standard = 1},
     LAST};
-const struct deck_row deck_bars_rows[] = {
+static const struct deck_row bars[] = {
     NAME(struct bars),
     MATERIAL(struct bars),
     {.option = "CENTER", POSITION(struct bars, center)},
@@ -77,42 +81,40 @@ const struct deck_row deck_bars_rows[] = {
     {ABOVE_0(struct bars, pitch, "pitch radius [m]")},
     {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS)},
     LAST};
-const struct deck_row deck_clamp_rows[] = {
+static const struct deck_row clamp[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},
     {.option = "AT", POSITION(struct spring, position)},
     LAST};
-const struct deck_row deck_sling_rows[] = {
+static const struct deck_row sling[] = {
     {.option = "LENGTH", ABOVE_0(struct rotor, sling, "length [m]")},
     LAST};
 
 /* ---- measured data, causes, identification, transfer functions */
 
-const struct deck_row deck_noise_rows[] = {
+static const struct deck_row noise[] = {
     {.option = "FREQUENCY", ABOVE_0(struct deck_reader, noise_frequency, ""), OPTIONAL},
     {.option = "SHAPE", ABOVE_0(struct deck_reader, noise_shape, ""), OPTIONAL},
     {.option = "FLOOR_FREQUENCY", FROM_0(struct deck_reader, floor_frequency, "(0)"), OPTIONAL},
     {.option = "FLOOR_SHAPE", FROM_0(struct deck_reader, floor_shape, "(0)"), OPTIONAL},
     LAST};
-const struct deck_row deck_weight_rows[] = {
+static const struct deck_row weight[] = {
     {ABOVE_0(struct weighed, mass, "mass [kg]")},
     {ABOVE_0(struct weighed, mass_std, "standard deviation of it [kg]")},
     LAST};
-const struct deck_row deck_centre_rows[] = {
+static const struct deck_row centre[] = {
     {POSITION(struct weighed, centre)},
     {ABOVE_0(struct weighed, centre_std, "standard deviation of it [m]")},
     LAST};
-const struct deck_row deck_fit_rows[] = {
+static const struct deck_row fit[] = {
     {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functional_words), OPTIONAL, .standard = -1},
     {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
-    OTHER("MODES", .what = ""),
-    OTHER("HOLDOUT", .what = ""),
-    OTHER("STATE", .what = ""),
+    OPTION("MODES"), OPTION("HOLDOUT"), OPTION("STATE"),
     {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivative_words), OPTIONAL},
     OTHER("TIE", .words = ties, .standard = -1),
     OTHER("MODEL", .words = discretisations),
     LAST};
-const struct deck_row deck_frf_rows[] = {
-    OTHER("FILE", .what = ""),
+static const struct deck_row frf[] = {
+    OPTION("FILE"),
     {.option = "LOW", ABOVE_0(struct frf_request, low_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
     {.option = "HIGH", ABOVE_0(struct frf_request, high_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
     {.option = "STEP", ABOVE_0(struct frf_request, step_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
@@ -124,13 +126,17 @@ const struct deck_row deck_frf_rows[] = {
     {.option = "ORIGIN", NUMBER(struct frf_request, origin, "[m]"), OPTIONAL},
     {.option = "FLIP", WORD(struct frf_request, flip, deck_answers)},
     LAST};
+static const struct deck_row identify[] = {
+    {.kind = ROW_NAME, IN(rotid_parameter, name), .what = "parameter"},
+    {NUMBER(rotid_parameter, lower, "lower bound")},
+    {NUMBER(rotid_parameter, upper, "upper bound")},
+    {NUMBER(rotid_parameter, start, "start")},
+    LAST};
 
 static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL};
 
 static const struct deck_row nothing[] = {LAST}, material[] = {NAME(struct material), LAST},
-    elastic[] = {OTHER("TYPE", .words = types), LAST},
-    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), OTHER("FILE", .what = ""), LAST}, table[] = {OTHER("FILE", .what = ""), LAST},
-    layer[] = {OTHER("NAME", .what = ""), OTHER("GROUP", .what = ""), OTHER("MATERIAL", .what = ""), LAST}, of_group[] = {OTHER("GROUP", .what = ""), LAST};
+    elastic[] = {OTHER("TYPE", .words = types), LAST}, preload[] = {OPTION("GROUP"), LAST};
 
 static const struct deck_row disk[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct disk, name), OPTIONAL, .what = "name"},
@@ -151,29 +157,47 @@ static const struct deck_row spring[] = {
     LAST};
 
 const char *const deck_counts[] = {"ELASTIC", "ALL", NULL};
-static const struct deck_row modes[] = {OTHER("TYPE", .words = mode_type_words), OTHER("COUNT", .words = deck_counts, .standard = -1), OTHER("FILE", .what = ""), LAST};
-static const struct deck_row mode[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), LAST},
-    frequencies[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
-const struct deck_row deck_measured_rows[] = {
-    OTHER("FILE", .what = ""),
+static const struct deck_row sensors[] = {
+    OPTION("FILE"),
+    {WHOLE(struct sensor, id, "sensor id"), FROM_TO(1, 1000000000)},
+    {POSITION(struct sensor, position)},
+    LAST};
+static const struct deck_row modes[] = {
+    OTHER("TYPE", .words = mode_type_words),
+    OTHER("COUNT", .words = deck_counts, .standard = -1),
+    OPTION("FILE"),
+    {WHOLE(struct mode_line, number, "mode"), FROM_TO(1, DECK_MOST_MODES)},
+    {ABOVE_0(struct mode_line, hz, "frequency [Hz]")},
+    {FROM_0(struct mode_line, damping, "damping ratio"), OPTIONAL},
+    {ABOVE_0(struct mode_line, std, "standard deviation of the frequency [Hz]"), OPTIONAL},
+    LAST};
+static const struct deck_row shape[] = {
+    OPTION("MODE"), OPTION("FILE"),
+    {WHOLE(struct point_line, id, "sensor id"), FROM_TO(1, 1000000000)},
+    {NUMBER(struct point_line, value, "value")},
+    {ABOVE_0(struct point_line, std, "standard deviation"), OPTIONAL},
+    LAST};
+static const struct deck_row frequencies[] = {
+    OPTION("MODE"), OPTION("FILE"),
+    OTHER("MEAN", .words = deck_answers, .standard = 1),
+    {WHOLE(struct point_line, id, "sensor id"), FROM_TO(1, 1000000000)},
+    {ABOVE_0(struct point_line, value, "frequency [Hz]")},
+    {ABOVE_0(struct point_line, std, "standard deviation [Hz]"), OPTIONAL},
+    LAST};
+static const struct deck_row measured[] = {
+    OPTION("FILE"),
     {.option = "AXIS", WORD(struct measured_nodes, axis, axes), .standard = 2},
     {.option = "DIRECTION", WORD(struct measured_nodes, component, axes)},
     {.option = "ORIGIN", NUMBER(struct measured_nodes, origin, "[m]"), OPTIONAL},
     {.option = "FLIP", WORD(struct measured_nodes, flip, deck_answers)},
     {.option = "SCALE", ABOVE_0(struct measured_nodes, scale, "(1)"), OPTIONAL},
     OTHER("COUNT", .words = deck_counts, .standard = -1),
-    OTHER("HAMMER", .what = ""),
+    OPTION("HAMMER"),
     LAST};
-static const struct deck_row state[] = {OTHER("NAME", .what = ""), OTHER("MODES", .what = ""), OTHER("HOLDOUT", .what = ""), LAST};
+static const struct deck_row state[] = {OPTION("NAME"), OPTION("MODES"), OPTION("HOLDOUT"), LAST};
 static const struct deck_row cause[] = {
-    OTHER("NAME", .what = ""),
-    OTHER("TYPE", .what = ""),
-    OTHER("GROUP", .what = ""),
-    OTHER("AT", .what = ""),
-    OTHER("SENSOR", .what = ""),
-    OTHER("BETWEEN", .what = ""),
-    OTHER("SHAPE", .what = ""),
-    OTHER("MOUNT", .what = ""),
+    OPTION("NAME"), OPTION("TYPE"), OPTION("GROUP"), OPTION("AT"), OPTION("SENSOR"), OPTION("BETWEEN"),
+    OPTION("SHAPE"), OPTION("MOUNT"),
     OTHER("SUSPECT", .words = deck_answers),
     LAST};
 
@@ -184,9 +208,8 @@ static const struct deck_row cause[] = {
 static const char *const losses[] = {"HYSTERETIC", "VISCOUS", NULL}, *const whirls[] = {"FORWARD", "BACKWARD", NULL};
 const char *const deck_axes[] = {"XY", "LOAD", NULL};
 
-const struct deck_row deck_pedestal_rows[] = {
-    OTHER("BEARING", .what = ""),
-    OTHER("FILE", .what = ""),
+static const struct deck_row pedestal[] = {
+    OPTION("BEARING"), OPTION("FILE"),
     {ABOVE_0(struct pedestal_line, m[0], "mass mx [kg]")},
     {ABOVE_0(struct pedestal_line, m[1], "mass my [kg]")},
     {ABOVE_0(struct pedestal_line, k[0], "stiffness kx [N/m]"), OPTIONAL},
@@ -196,7 +219,7 @@ const struct deck_row deck_pedestal_rows[] = {
     LAST};
 static const struct deck_row loss[] = {
     {.option = "TYPE", WORD(struct loss, viscous, losses)},
-    OTHER("TEST", .what = ""),
+    OPTION("TEST"),
     {.kind = ROW_GROUP, IN(struct loss, group), .what = "group"},
     {FROM_0(struct loss, value, "loss factor"), OPTIONAL},
     {FROM_0(struct loss, std, "standard deviation of the loss"), OPTIONAL},
@@ -234,9 +257,15 @@ static const struct deck_row unknown[] = {
     {ABOVE_0(struct machine_unknown, bounds.upper, "upper bound")},
     {ABOVE_0(struct machine_unknown, bounds.start, "start")},
     LAST};
-static const struct deck_row running[] = {OTHER("WITHOUT", .what = ""), LAST},
-    bearing[] = {OTHER("NAME", .what = ""), OTHER("FILE", .what = ""), OTHER("STD", .what = "(0)"), OTHER("LIKE", .what = ""), OTHER("AXES", .words = deck_axes), LAST},
-    operation[] = {OTHER("MARGIN", .what = "(0)"), OTHER("LINE", .what = "[Hz]"), OTHER("POLES", .what = ""), LAST};
+static const struct deck_row running[] = {OPTION("WITHOUT"), LAST},
+    bearing[] = {OPTION("NAME"), OPTION("FILE"), OTHER("STD", .what = "(0)"), OPTION("LIKE"), OTHER("AXES", .words = deck_axes), LAST};
+static const struct deck_row operation[] = {
+    OTHER("MARGIN", .what = "(0)"),
+    {.option = "LINE", ABOVE_0(struct machine, line_hz, "[Hz]"), OPTIONAL},
+    OPTION("POLES"),
+    {ABOVE_0(struct machine, low, "lowest speed [rpm]"), .factor = RPM},
+    {ABOVE_0(struct machine, high, "highest speed [rpm]"), .factor = RPM},
+    LAST};
 
 #define BY_CODE    .size = 0
 #define COMMON     BY_CODE, .states = CARD_COMMON
@@ -256,48 +285,48 @@ const struct deck_card deck_card_table[] = {
     {"UNITS", CARD_MODEL, 0, deck_units, NULL, deck_units_rows, COMMON, .instead = "options such as LENGTH=MM"},
     {"MATERIAL", CARD_MODEL, 1, deck_material, NULL, material, BY_CODE, .instead = "*ELASTIC and *DENSITY behind it"},
     {"ELASTIC", CARD_MODEL, 1, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
-    {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
+    {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", density, BY_CODE},
     {"SHAFT", CARD_MODEL, 2, deck_sections,
-     "length, outer diameter [m] [, inner diameter [, elements [, outer diameter that carries stiffness]]]", group, BY_CODE},
-    {"BEAM", CARD_MODEL, 2, deck_sections, "length, height in the bending plane, width [m] [, elements]", group, BY_CODE},
+     "length, outer diameter [m] [, inner diameter [, elements [, outer diameter that carries stiffness]]]", shaft, BY_CODE},
+    {"BEAM", CARD_MODEL, 2, deck_sections, "length, height in the bending plane, width [m] [, elements]", beam, BY_CODE},
     {"LAYER", CARD_MODEL, 3, deck_layer, "outer diameter, inner diameter [m]", layer, BY_CODE},
-    {"PERFORATION", CARD_MODEL, 4, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
+    {"PERFORATION", CARD_MODEL, 4, deck_perforation, "number, hole diameter [m], pitch radius [m]", perforation, BY_CODE},
     {"TIEROD", CARD_MODEL, 4, NULL, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
-     deck_tierod_rows, LIST(tierod, tierod), .check = deck_check_tierod, .places = TIEROD_PLACES, .single = 1},
-    {"BARS", CARD_MODEL, 4, NULL, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, LIST(bars, bars),
+     tierod, LIST(tierod, tierod), .check = deck_check_tierod, .places = TIEROD_PLACES, .single = 1},
+    {"BARS", CARD_MODEL, 4, NULL, "number, diameter [m], pitch radius [m], elements", bars, LIST(bars, bars),
      .check = deck_check_bars, .places = BARS_PLACES, .single = 1},
-    {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
+    {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", preload, BY_CODE},
     {"DISK", CARD_MODEL, 4, NULL, DISK_LINES, disk, LIST(disk, disk),
      .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad] [, torsional stiffness [N.m/rad] [, axial stiffness [N/m]]]]", spring,
      LIST(spring, spring)},
-    {"CLAMP", CARD_MODEL, 4, deck_clamp, NULL, deck_clamp_rows, BY_CODE, .instead = "AT=start or AT=end on the card"},
-    {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES, .instead = "LENGTH=length [m] on the card", .once = 1},
-    {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", table, REPLACES},
+    {"CLAMP", CARD_MODEL, 4, deck_clamp, NULL, clamp, BY_CODE, .instead = "AT=start or AT=end on the card"},
+    {"SLING", CARD_MODEL, 4, deck_sling, NULL, sling, REPLACES, .instead = "LENGTH=length [m] on the card", .once = 1},
+    {"SENSORS", CARD_MEASURED, 4, NULL, "sensor id, position", sensors, LIST(sensor, sensor), .states = CARD_REPLACES, .check = deck_check_sensor, .places = SENSOR_PLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,
      "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", modes, OF_STATE, .once = 1},
-    {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
+    {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", shape, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, OF_STATE},
-    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, deck_measured_rows, OF_STATE, .once = 1},
-    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES, .instead = "options on the card", .once = 1},
-    {"WEIGHT", CARD_MEASURED, 6, deck_weight, "mass, standard deviation [kg]", deck_weight_rows, OF_STATE, .once = 1},
-    {"CENTRE", CARD_MEASURED, 6, deck_weight, "position of the centre of mass, standard deviation [m]", deck_centre_rows, OF_STATE, .once = 1},
+    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE, .once = 1},
+    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, noise, REPLACES, .instead = "options on the card", .once = 1},
+    {"WEIGHT", CARD_MEASURED, 6, deck_weight, "mass, standard deviation [kg]", weight, OF_STATE, .once = 1},
+    {"CENTRE", CARD_MEASURED, 6, deck_weight, "position of the centre of mass, standard deviation [m]", centre, OF_STATE, .once = 1},
     {"CAUSE", CARD_CAUSE, 7, deck_cause, "parameter, value", cause, BY_CODE},
-    {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, IDENTIFY_LINES, nothing, BY_CODE},
-    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON, .instead = "options on the card", .once = 1},
-    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES, .once = 1},
+    {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, IDENTIFY_LINES, identify, BY_CODE},
+    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, fit, COMMON, .instead = "options on the card", .once = 1},
+    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", frf, REPLACES, .once = 1},
     {"STATE", CARD_STATES, 8, deck_choose_modes, NULL, state, BY_CODE, .instead = "the cards of the state behind it"},
     {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
     {"RUNNING", CARD_RUNNING, 9, deck_running, "names of supports and masses that were left at the test", running, OF_MACHINE},
     {"BEARING", CARD_RUNNING, 9, deck_bearing, "position, k [N/m], c [N.s/m]; or kxx, kyy, cxx, cyy; or kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy; with FILE: position", bearing, OF_MACHINE},
-    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]; with FILE: mx, my", deck_pedestal_rows, OF_MACHINE},
+    {"PEDESTAL", CARD_RUNNING, 10, deck_pedestal, "mx, my [kg], kx, ky [N/m] [, cx, cy [N.s/m]]; with FILE: mx, my", pedestal, OF_MACHINE},
     {"LOSS", CARD_RUNNING, 10, NULL, "group, loss factor [, standard deviation]; VISCOUS: group, loss [s] [, standard deviation]; with TEST: group", loss, MACHINE(loss, loss), .check = deck_check_loss},
     {"PULL", CARD_RUNNING, 10, NULL, "stiffness of the magnetic pull, without its sign [N/m]", pull, MACHINE(pull, pull), .single = 1},
     {"CHANGE", CARD_RUNNING, 10, NULL, "parameter, factor [, standard deviation of its logarithm]", change, MACHINE(change, change), .check = deck_check_change},
     {"UNBALANCE", CARD_RUNNING, 10, NULL, "position, unbalance [kg.m] [, phase [deg]]; with G: position, fraction of the permitted unbalance [, phase [deg]]", unbalance, MACHINE(unbalance, unbalance)},
     {"PROBE", CARD_RUNNING, 10, NULL, "position [, angle from x [deg]]", probe, MACHINE(probe, probe), .single = 1},
-    {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE},
+    {"OPERATION", CARD_RUNNING, 10, deck_operation, "lowest, highest speed [rpm]", operation, OF_MACHINE, .once = 1},
     {"RUNUP", CARD_RUNNING, 10, NULL, "number, critical speed, standard deviation [rpm] [, BACKWARD]", runup, MACHINE(runup_reading, runup), .check = deck_check_runup, .once = 1},
     {.name = NULL}};
 
@@ -318,6 +347,11 @@ static const struct deck_card *find(const struct deck_card *kind, const char *na
 const struct deck_card *deck_card_find(const char *name)
 {
     return find(deck_card_table, name);
+}
+
+const struct deck_row *deck_rows(const char *card)
+{
+    return deck_card_find(card)->row;
 }
 
 const struct deck_card *deck_card_of_machine(const char *name)

@@ -17,13 +17,12 @@
 
 void deck_check_options(struct deck_reader *reader, const struct card *card, const struct deck_row *rows)
 {
-    int is_cause = !strcmp(card->name, "CAUSE") || !strcmp(card->name, "HIDE"); /* which states one */
     char list[256] = "";
     for (const struct deck_row *row = rows; !deck_row_is_last(row); row++)
         if (row->option)
             (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "", row->option);
     for (int i = 0; i < card->noption; i++) {
-        int known = is_cause && deck_cause_list_item(card, &card->option[i]);
+        int known = 0;
         for (const struct deck_row *row = rows; !deck_row_is_last(row); row++)
             known |= row->option && same_text(row->option, card->option[i].name);
         if (!known)
@@ -418,6 +417,8 @@ void deck_read_cards(struct deck_reader *reader)
             deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
             return; /* every position would be outside */
         }
+        if (phase == 5)
+            deck_sort_sensors(reader);
         if (phase == LAST_PHASE)
             job->measurement.holdout = POOL_ARRAY(reader->pool, int, job->measurement.nmode);
         for (int c = 0; c < reader->text.ncard && !reader->pool->out_of_memory; c++) {

@@ -149,10 +149,6 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
 /* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
 int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text);
 
-/* Whether the piece [begin, end) between two commas goes on with a list, which is the value of the option before it or begins
- * with that: of numbers, or of states. */
-int deck_text_is_next_item(const char *list, const char *begin, const char *end);
-
 /* The option of that name, or NULL. */
 const struct card_option *card_option(const struct card *card, const char *name);
 
@@ -198,10 +194,11 @@ struct deck_reader {
     int *material_complete;           /* [nmaterial] bit 1: elastic constants, bit 2: density */
     struct place *place[DECK_PLACES]; /* where the items of these lists stand, in the order of each list */
     int nplace[DECK_PLACES];
-    long taken;               /* rows of tables, by all cards */
-    int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
-    const char *layout;       /* what a data line of the card at hand holds */
-    double length;            /* of the rotor, once all groups are read */
+    long taken;                 /* rows of tables, by all cards */
+    int nopen, *open_section;   /* sections without elements: the mesh follows from modes and noise */
+    const char *layout;         /* what a data line of the card at hand holds, */
+    const struct deck_row *row; /* and its options and values */
+    double length;              /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     int states_floor; /* *NOISE has a floor */
     int impacts;      /* behind the standard deviations of the file, the fewest; 0: not known. Below 0: so many tests */
@@ -264,7 +261,7 @@ int deck_integer(struct deck_reader *reader, const struct data_line *line, int i
 /* Field i is there and not empty. */
 int deck_has(const struct data_line *line, int i);
 /* No more than `most` fields; otherwise an error that says what a line of this card holds. */
-int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout);
+int deck_count(struct deck_reader *reader, const struct data_line *line, int most);
 /* A number in metres, start, end, group.start or group.end, inside the rotor. */
 int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z);
 /* The same of an option. */
@@ -282,7 +279,9 @@ extern const char *const deck_counts[];  /* ELASTIC, ALL */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
 /* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
  * `most`. */
-int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
+int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most);
+/* The only one that there may be, NULL after an error. */
+const struct data_line *deck_only_line(struct deck_reader *reader, const struct card *card);
 
 /* deck_text_path of an option of this deck. NULL after an error or where memory is out. */
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
@@ -306,11 +305,11 @@ typedef void deck_card_reader(struct deck_reader *reader, const struct card *car
 /* What no row says of an item of a list; it may complete it. 0, or 1 after an error. */
 typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_sections, deck_layer, deck_perforation, deck_preload,
-    deck_clamp, deck_sling, deck_heading, deck_sensors, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise,
-    deck_weight, deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing,
-    deck_pedestal, deck_operation;
-deck_item_check deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change, deck_check_runup,
-    deck_check_unknown;
+    deck_clamp, deck_sling, deck_heading, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise, deck_weight,
+    deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing, deck_pedestal,
+    deck_operation;
+deck_item_check deck_check_sensor, deck_check_tierod, deck_check_bars, deck_check_disk, deck_check_loss, deck_check_change,
+    deck_check_runup, deck_check_unknown;
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
@@ -344,8 +343,8 @@ void deck_read_machine(struct deck_reader *reader, struct states *states);
 void deck_check_names(struct deck_reader *reader, const struct card *card);
 void deck_check_unique(struct deck_reader *reader, int ncard, const struct card *card, int machine);
 
-/* Whether an option is no option but the second group of BETWEEN=left,core. */
-int deck_cause_list_item(const struct card *card, const struct card_option *option);
+/* Where the name of the i-th group, spring, disk or tie rod is, NULL where there is none. */
+const char **deck_name_of(const struct rotor *rotor, enum cause_target kind, int i);
 /* Takes the faults that CAUSE cards state out of the data, in the order of the cards; the noise is known by then. */
 void deck_apply_corrections(struct deck_reader *reader);
 /* Whether "cause.parameter", which is no parameter of the model, has that name from a CAUSE card: of a suspect or a fault of the
@@ -358,6 +357,9 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
 
 /* What a reading may differ from its mode, relative: no accelerometer loads a rotor more, and another mode is not far. */
 #define POINT_FREQUENCY_RANGE 0.05
+
+/* By their positions, in the order of the deck where two have one. */
+void deck_sort_sensors(struct deck_reader *reader);
 
 /* The frequencies of modes that have readings at single sensors, and the noise of all: what a mode, a component or a reading has
  * of its own, with the floors of *NOISE in quadrature; *NOISE itself where there is none. */

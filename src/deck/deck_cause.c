@@ -32,51 +32,43 @@ static const struct {
                  [TARGET_BLOCK] = {"AT", "SHAPE or FREQUENCY"},
                  [TARGET_MODES] = {NULL, "a card without it"}};
 
-/* BETWEEN=left,core: the text behind the comma stands as an option without a value. Where --set has replaced the first group by
- * both, it is still there. */
-static const struct card_option *second_group(const struct card *card)
+const char **deck_name_of(const struct rotor *rotor, enum cause_target kind, int i)
 {
-    for (int i = 0; i + 1 < card->noption; i++) {
-        const struct card_option *option = &card->option[i], *next = option + 1;
-        if (!same_text(option->name, "BETWEEN") || *next->value)
-            continue;
-        return !strchr(option->value, ',') || (option->overridden && !same_text(next->name, "SUSPECT")) ? next : NULL;
+    switch (kind) {
+    case TARGET_GROUP:
+        return i < rotor->ngroup ? &rotor->group[i].name : NULL;
+    case TARGET_SPRING:
+        return i < rotor->nspring ? &rotor->spring[i].name : NULL;
+    case TARGET_DISK:
+        return i < rotor->ndisk ? &rotor->disk[i].name : NULL;
+    case TARGET_TIEROD:
+        return i < rotor->ntierod ? &rotor->tierod[i].name : NULL;
+    default:
+        return NULL;
     }
-    return NULL;
 }
 
-int deck_cause_list_item(const struct card *card, const struct card_option *option)
-{
-    return option == second_group(card);
-}
-
-static int find_group(const struct cause_card *c, const char *name, struct place place, int *group)
-{
-    return (*group = deck_named_group(c->reader, name, place)) < 0;
-}
-
-/* Groups by name; --set gives both of them as one text. */
+/* BETWEEN=left,core: two groups by name. */
 static int read_between(struct cause_card *c, const struct card_option *option)
 {
-    const struct card_option *item = second_group(c->card);
-    const char *comma = strchr(option->value, ',');
-    int left, right;
-    struct place place = option->value_place, second = item && !comma ? item->place : place;
-    if (comma && !option->overridden)
-        second.column += (int)(comma - option->value) + 1;
-    char *first = comma ? pool_format(c->reader->pool, "%.*s", (int)(comma - option->value), option->value) : NULL;
-    if (comma && !first)
-        return 1;
-    const char *behind = comma ? comma + 1 + strspn(comma + 1, " \t") : item ? item->name : NULL;
-    if (!behind)
+    const struct rotor *rotor = &c->reader->job->rotor;
+    const char *comma = strchr(option->value, ','), *second = comma ? comma + 1 + strspn(comma + 1, " \t") : NULL;
+    struct place place = option->value_place;
+    if (!comma)
         return deck_error(c->reader, place, "BETWEEN=%s names one group, expected %s", option->value,
                           target_of[TARGET_INTERFACE].expected);
-    if (find_group(c, first ? first : option->value, place, &left) | find_group(c, behind, second, &right))
+    const char *first = pool_format(c->reader->pool, "%.*s", (int)(comma - option->value), option->value);
+    int left = first ? deck_named_group(c->reader, first, place) : -1;
+    if (!option->overridden) {
+        place = option->end;
+        place.column -= (int)strlen(second);
+    }
+    int right = deck_named_group(c->reader, second, place), last = rotor_axis_groups(rotor) - 1;
+    if (left < 0 || right < 0)
         return 1;
-    int last = rotor_axis_groups(&c->reader->job->rotor) - 1;
     if ((right != left + 1 && left != right + 1) || left > last || right > last)
-        return deck_error(c->reader, place, "groups %s and %s do not meet, expected %s", c->reader->job->rotor.group[left].name,
-                          c->reader->job->rotor.group[right].name, target_of[TARGET_INTERFACE].expected);
+        return deck_error(c->reader, option->value_place, "groups %s and %s do not meet, expected %s", rotor->group[left].name,
+                          rotor->group[right].name, target_of[TARGET_INTERFACE].expected);
     c->effect.target = left < right ? left : right;
     return 0;
 }
@@ -107,22 +99,14 @@ static int read_interface(struct cause_card *c)
 /* A spring, disk or tie rod by name. */
 static int read_named(struct cause_card *c)
 {
-    const struct rotor *rotor = &c->reader->job->rotor;
-    enum cause_target target = c->kind->target;
-    int count = target == TARGET_SPRING ? rotor->nspring : target == TARGET_DISK ? rotor->ndisk : rotor->ntierod;
-    const char *name = deck_option(c->reader, c->card, "AT", target_of[c->kind->target].expected);
-    for (int i = 0; i < count && name; i++) {
-        const char *candidate = target == TARGET_SPRING ? rotor->spring[i].name
-                                : target == TARGET_DISK ? rotor->disk[i].name
-                                                        : rotor->tierod[i].name;
-        if (candidate && same_text(candidate, name)) {
+    const char *expected = target_of[c->kind->target].expected, *name = deck_option(c->reader, c->card, "AT", expected), **own;
+    for (int i = 0; name && (own = deck_name_of(&c->reader->job->rotor, c->kind->target, i)); i++)
+        if (*own && same_text(*own, name)) {
             c->effect.target = i;
             return 0;
         }
-    }
     if (name)
-        deck_error(c->reader, card_option(c->card, "AT")->value_place, "AT=%s is not defined, expected the %s", name,
-                   target_of[c->kind->target].expected);
+        deck_error(c->reader, card_option(c->card, "AT")->value_place, "AT=%s is not defined, expected the %s", name, expected);
     return 1;
 }
 
@@ -256,8 +240,6 @@ static int check_options(const struct cause_card *c)
     int bad = 0;
     for (int i = 0; i < c->card->noption; i++) {
         const struct card_option *option = &c->card->option[i];
-        if (deck_cause_list_item(c->card, option))
-            continue;
         const char *own = target_of[c->kind->target].option;
         for (size_t p = 0; p < sizeof places / sizeof *places; p++)
             if (same_text(option->name, places[p]) && !(own && same_text(own, places[p])) &&
@@ -329,12 +311,11 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
 static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
 {
-    const char *layout = c->reader->layout;
     int bad = 0;
     for (int i = 0; i < c->card->nline; i++) {
         const struct data_line *line = &c->card->line[i];
         int bounds = c->suspect && deck_has(line, 2),
-            p = deck_count(c->reader, line, bounds ? 3 : 2, layout) ? -1 : find_value(c, &line->field[0], count, known);
+            p = deck_count(c->reader, line, bounds ? 3 : 2) ? -1 : find_value(c, &line->field[0], count, known);
         if (p >= 0 && given[p])
             deck_error(c->reader, line->field[0].place, "%s is given twice, expected once", known[p].name);
         if (p < 0 || given[p]) {
@@ -455,7 +436,7 @@ void deck_cause(struct deck_reader *reader, const struct card *card)
     struct cause_card c = {.reader = reader, .card = card, .name = deck_option(reader, card, "NAME", "name")};
     const struct card_option *suspect = card_option(card, "SUSPECT");
     c.kind = find_kind(reader, card);
-    if (suspect && !deck_cause_list_item(card, suspect))
+    if (suspect)
         c.suspect = !*suspect->value ? 1 : deck_option_word(reader, suspect, deck_answers);
     if (!c.kind || c.suspect < 0 || check_options(&c) || read_variant(&c) || read_target(&c) || !c.name)
         return;
@@ -542,4 +523,76 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
             return 1;
     }
     return 0;
+}
+
+/* ------------------------------------------------------------------------------------------------ written */
+
+static void put_target(struct deck_writer *w, const struct cause_kind *kind, int target)
+{
+    const struct rotor *rotor = &w->job->rotor;
+    const char **name = deck_name_of(rotor, kind->target, target);
+    double from, to;
+    if (name) {
+        deck_put_option(w, target_of[kind->target].option, *name);
+    } else if (kind->target == TARGET_SENSOR) {
+        deck_put_option(w, "SENSOR", pool_format(w->pool, "%d", rotor->sensor[target].id));
+    } else if (kind->target == TARGET_INTERFACE && !strchr(rotor->group[target + 1].name, '=')) {
+        deck_put_option(w, "BETWEEN", rotor->group[target].name);
+        deck_put(w, ",%s", rotor->group[target + 1].name);
+    } else if (kind->target == TARGET_INTERFACE) {
+        rotor_group_span(rotor, target, &from, &to);
+        deck_put_option_number(w, "AT", to, "m");
+    }
+}
+
+static void put_value(struct deck_writer *w, const struct effect_parameter_name *parameter, int count, const double *value)
+{
+    deck_put(w, "%s", parameter->name);
+    for (int i = 0; i < count; i++)
+        deck_put_number(w, ", ", value[i], parameter->unit);
+    deck_put(w, "\n");
+}
+
+static void put_head(struct deck_writer *w, const char *name, const struct cause_kind *kind)
+{
+    deck_put_card(w, "CAUSE");
+    deck_put_option(w, "NAME", name);
+    deck_put_option(w, "TYPE", kind ? kind->id : NULL); /* none: refused */
+}
+
+void deck_put_cause(struct deck_writer *w, const struct effect *effect, const int *fixed)
+{
+    const struct cause_kind *kind = catalogue_of(effect);
+    put_head(w, effect->name, kind);
+    if (kind && effect->target >= 0)
+        put_target(w, kind, effect->target);
+    if (kind && kind->variant_option)
+        deck_put_option(w, kind->variant_option, kind->variant[effect->variant]);
+    if (fixed)
+        deck_put_option(w, "SUSPECT", "YES");
+    deck_put(w, "\n");
+    for (int p = 0; p < effect_parameters(effect) && kind; p++)
+        if (!fixed || fixed[p])
+            put_value(w, &effect->kind->parameter[p], 1, &effect->value[p]);
+        else if (p == kind->size && effect->bound[0] < effect->bound[1])
+            put_value(w, &effect->kind->parameter[p], 2, effect->bound);
+}
+
+void deck_put_corrections(struct deck_writer *w, int first)
+{
+    for (int i = first; i < w->job->measurement.ncorrection; i++) {
+        struct correction c = w->job->measurement.correction[i];
+        const struct cause_kind *kind = catalogue_find(c.id);
+        const struct effect_parameter_name *parameter;
+        put_head(w, c.name, kind);
+        if (kind && kind->target == TARGET_BLOCK)
+            deck_put_option(w, "AT", c.block);
+        else if (kind && kind->target != TARGET_NONE)
+            deck_put(w, ", SENSOR=%d", c.sensor[0]);
+        if (kind && kind->target == TARGET_SENSORS)
+            deck_put(w, ",%d", c.sensor[1]);
+        deck_put(w, "\n");
+        for (int p = 0; kind && (parameter = correction_parameter(kind, p)); p++)
+            put_value(w, parameter, 1, correction_value(&c, p));
+    }
 }

@@ -30,11 +30,11 @@ static void compare_segments(struct comparing *c, const struct rotor *a, const s
     for (int s = 0; s < a->nsegment; s++) {
         struct segment p = a->segment[s], q = b->segment[s];
         int same = p.group == q.group && p.rectangular == q.rectangular;
+        const char *card = p.rectangular ? "BEAM" : "SHAFT";
         if (p.elements != q.elements)
             differ(c, DECK_OTHER_ELEMENTS, "SHAFT");
         q.elements = p.elements;
-        require(c, same && deck_is_same(p.rectangular ? deck_beam_rows : deck_shaft_rows, &p, &q),
-                p.rectangular ? "BEAM" : "SHAFT");
+        require(c, same && deck_is_same(deck_rows(card), &p, &q), card);
     }
 }
 
@@ -62,15 +62,17 @@ unsigned deck_compare_rotors(const struct rotor *a, const struct rotor *b, const
         const struct group *p = &a->group[g], *q = &b->group[g];
         require(&c, same_text(p->name, q->name) && p->layer_of == q->layer_of, p->layer_of > 0 ? "LAYER" : "SHAFT");
         require(&c, deck_is_same_material(&p->material, &q->material), "ELASTIC");
-        require(&c, p->holes == q->holes && (!p->holes || deck_is_same(deck_perforation_rows, p, q)), "PERFORATION");
+        require(&c, p->holes == q->holes && (!p->holes || deck_is_same(deck_rows("PERFORATION"), p, q)), "PERFORATION");
         require(&c, deck_is_near(p->preload, q->preload), "PRELOAD");
     }
     if (!(c.bits & DECK_OTHER_MODEL))
         compare_segments(&c, a, b);
     for (int i = 0; i < a->nring && a->nring == b->nring; i++)
-        require(&c, a->ring[i].group == b->ring[i].group && deck_is_same(deck_layer_rows, &a->ring[i], &b->ring[i]), "LAYER");
+        require(&c, a->ring[i].group == b->ring[i].group && deck_is_same(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
     for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        require(&c, !kind->size || kind->states == CARD_OF_MACHINE || deck_is_same_list(kind, a, b), kind->name);
+        require(&c,
+                !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES || deck_is_same_list(kind, a, b),
+                kind->name);
     require(&c, deck_is_near(a->sling, b->sling), "SLING");
     require(&c, a->neffect == b->neffect, "CAUSE");
     for (int i = 0; i < a->neffect; i++)
@@ -177,7 +179,7 @@ static void compare_options(struct comparing *c, const struct job_options *a, co
     if (a->fit.functional != b->fit.functional || a->fit.reduction != b->fit.reduction ||
         a->fit.derivative != b->fit.derivative || a->solid != b->solid)
         differ(c, DECK_OTHER_FIT, "FIT");
-    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && deck_is_same(deck_frf_rows, &a->frf, &b->frf);
+    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && deck_is_same(deck_rows("FRF"), &a->frf, &b->frf);
     require(c, same && !a->frf.file == !b->frf.file, "FRF");
 }
 

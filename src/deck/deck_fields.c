@@ -177,11 +177,12 @@ int deck_integer(struct deck_reader *reader, const struct data_line *line, int i
     return !field || parse_whole(reader, field, what, least, most, value);
 }
 
-int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout)
+int deck_count(struct deck_reader *reader, const struct data_line *line, int most)
 {
     if (line->count <= most)
         return 0;
-    return deck_error(reader, line->field[most].place, "'%s' is one value too many, expected %s", line->field[most].text, layout);
+    return deck_error(reader, line->field[most].place, "'%s' is one value too many, expected %s", line->field[most].text,
+                      reader->layout);
 }
 
 int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length)
@@ -306,13 +307,18 @@ void deck_units(struct deck_reader *reader, const struct card *card)
     }
 }
 
-int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout)
+int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most)
 {
     if (card->nline < least)
-        deck_error(reader, card->place, "*%s has no data line, expected %s", card->name, layout);
+        deck_error(reader, card->place, "*%s has no data line, expected %s", card->name, reader->layout);
     else if (card->nline > most)
-        deck_error(reader, card->line[most].place, "*%s has a data line too many, expected %s", card->name, layout);
+        deck_error(reader, card->line[most].place, "*%s has a data line too many, expected %s", card->name, reader->layout);
     return card->nline < most ? card->nline : most;
+}
+
+const struct data_line *deck_only_line(struct deck_reader *reader, const struct card *card)
+{
+    return deck_lines(reader, card, 1, 1) == 1 ? &card->line[0] : NULL;
 }
 
 int deck_row_is_last(const struct deck_row *row)
@@ -379,10 +385,10 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
     return read_member(reader, &field, option->name, row, member);
 }
 
-int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to)
+int deck_read_options(struct deck_reader *reader, const struct card *card, void *to)
 {
     int bad = 0;
-    for (; !deck_row_is_last(row); row++)
+    for (const struct deck_row *row = reader->row; !deck_row_is_last(row); row++)
         if (row->option && row->kind != ROW_OTHER)
             bad |= read_option(reader, card, row, (char *)to + row->offset);
     return bad;
@@ -399,20 +405,19 @@ static int read_value(struct deck_reader *reader, const struct data_line *line, 
             *(double *)member = *(const double *)(to + row->as);
         return 0;
     }
-    if ((row->kind == ROW_NUMBER || row->kind == ROW_WHOLE) && !value_at(reader, line, i, row->what))
+    if ((i || row->kind == ROW_NUMBER || row->kind == ROW_WHOLE) && !value_at(reader, line, i, row->what))
         return 1;
     return read_member(reader, &line->field[i], row->what, row, member);
 }
 
-int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
-                     void *to)
+int deck_read_values(struct deck_reader *reader, const struct data_line *line, void *to)
 {
     int count = 0, bad = 0, i = 0;
-    for (const struct deck_row *r = row; !deck_row_is_last(r); r++)
-        count += !r->option;
-    if (deck_count(reader, line, count, layout))
+    for (const struct deck_row *row = reader->row; !deck_row_is_last(row); row++)
+        count += !row->option;
+    if (deck_count(reader, line, count))
         return 1;
-    for (; !deck_row_is_last(row); row++)
+    for (const struct deck_row *row = reader->row; !deck_row_is_last(row); row++)
         if (!row->option)
             bad |= read_value(reader, line, i++, row, to);
     return bad;
@@ -425,15 +430,15 @@ static void read_list(struct deck_reader *reader, const struct card *card, const
          *item = pool_get(reader->pool, 2, kind->size), *of_card = item + kind->size;
     if (!item)
         return;
-    int bad = deck_read_options(reader, card, kind->row, of_card),
-        most = kind->single || card_option(card, "NAME") ? 1 : DECK_MOST_LINES;
-    for (int i = 0, lines = deck_lines(reader, card, 1, most, kind->lines); i < lines; i++) {
+    int bad = deck_read_options(reader, card, of_card),
+        most = kind->single || (kind->row->kind == ROW_NAME && card_option(card, "NAME")) ? 1 : DECK_MOST_LINES;
+    for (int i = 0, lines = deck_lines(reader, card, 1, most); i < lines; i++) {
         memcpy(item, of_card, kind->size);
-        if (deck_read_values(reader, &card->line[i], kind->row, kind->lines, item) || bad ||
+        if (deck_read_values(reader, &card->line[i], item) || bad ||
             (kind->check && kind->check(reader, card, &card->line[i], item)))
             continue;
         if (kind->places)
-            deck_add_place(reader, kind->places, card->place);
+            deck_add_place(reader, kind->places, kind->single ? card->place : card->line[i].place);
         (void)pool_add(reader->pool, (void **)(owner + kind->list), (int *)(owner + kind->count), kind->size, item);
     }
 }
@@ -472,6 +477,7 @@ void deck_read_card(struct deck_reader *reader, const struct card *card, const s
         return;
     }
     reader->layout = kind->lines;
+    reader->row = kind->row;
     if (kind->read != deck_heading)
         doubt_commas(reader, card);
     if (kind->read)

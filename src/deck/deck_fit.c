@@ -78,11 +78,10 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
     struct job *job = reader->job;
     int common = card - reader->text.card < reader->ncommon;
     reader->identify_card = card;
-    for (int i = 0, count = deck_lines(reader, card, 1, 100, layout); i < count; i++) {
+    for (int i = 0, count = deck_lines(reader, card, 1, 100); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
@@ -100,11 +99,7 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->field[0].place,
                        "%s: there is a thing of that name and it has no such parameter, expected one of %s", bounds.name,
                        known ? known : "");
-        int bad = deck_count(reader, line, 4, layout) || found;
-        bad |= deck_number(reader, line, 1, "lower bound", ANY, &bounds.lower);
-        bad |= deck_number(reader, line, 2, "upper bound", ANY, &bounds.upper);
-        bad |= deck_number(reader, line, 3, "start", ANY, &bounds.start);
-        if (bad)
+        if (deck_read_values(reader, line, &bounds) || found)
             continue;
         double si = deck_in_si(reader, bounds.unit ? bounds.unit : "");
         bounds.lower *= si;
@@ -242,7 +237,7 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     const struct card_option *option;
     reader->fit_card = card;
     job->options.fit.functional = -1;
-    (void)deck_read_options(reader, card, deck_fit_rows, &job->options.fit);
+    (void)deck_read_options(reader, card, &job->options.fit);
     job->options.has_fit = job->options.fit.functional >= 0;
     if ((option = card_option(card, "TIE")))
         reader->tie = deck_option_word(reader, option, ties) == 0;
@@ -315,12 +310,11 @@ static void check_options(struct deck_reader *reader, const struct card *card)
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */
 static void read_pairs(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
     struct frf_request *frf = &reader->job->options.frf;
-    for (int i = 0, count = deck_lines(reader, card, 0, DECK_MOST_LINES, layout); i < count; i++) {
+    for (int i = 0, count = deck_lines(reader, card, 0, DECK_MOST_LINES); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct frf_pair pair;
-        int bad = deck_count(reader, line, 2, layout);
+        int bad = deck_count(reader, line, 2);
         bad |= deck_integer(reader, line, 0, "response sensor id", 1, 1000000000, &pair.response);
         bad |= deck_integer(reader, line, 1, "reference sensor id", 1, 1000000000, &pair.reference);
         for (int f = 0; f < 2 && !bad && !card_option(card, "FILE"); f++)
@@ -340,7 +334,7 @@ void deck_frf(struct deck_reader *reader, const struct card *card)
     *frf = (struct frf_request){.given = 1, .has_quantity = card_option(card, "QUANTITY") != NULL};
     if (file)
         frf->file = measured_file(reader, card, file);
-    if (!deck_read_options(reader, card, deck_frf_rows, frf))
+    if (!deck_read_options(reader, card, frf))
         check_options(reader, card);
     if (frf->flip && !card_option(card, "ORIGIN"))
         frf->origin = reader->length;

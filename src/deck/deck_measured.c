@@ -49,105 +49,76 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
             job->heading[job->nheading++] = card->line[i].text;
 }
 
-void deck_sensors(struct deck_reader *reader, const struct card *card)
+int deck_check_sensor(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
 {
-    const char *layout = reader->layout;
-    struct rotor *rotor = &reader->job->rotor;
-    int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
-    for (int i = 0; i < count; i++) {
-        const struct data_line *line = &card->line[i];
-        struct sensor sensor;
-        if (deck_count(reader, line, 2, layout) || deck_integer(reader, line, 0, "sensor id", 1, 1000000000, &sensor.id))
-            continue;
-        if (!deck_has(line, 1)) {
-            deck_error(reader, line->end, "a value is missing, expected the position of sensor %d", sensor.id);
-            continue;
-        }
-        if (deck_position(reader, &line->field[1], "position", &sensor.position))
-            continue;
-        if (rotor->nsensor == DECK_MOST_LINES) {
-            deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
-            return;
-        }
-        for (int s = 0; s < rotor->nsensor; s++)
-            if (rotor->sensor[s].id == sensor.id)
-                deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor.id);
-        int at = rotor->nsensor; /* kept by increasing position */
-        deck_add_place(reader, SENSOR_PLACES, line->place);
-        if (reader->pool->out_of_memory || POOL_ADD(reader->pool, rotor->sensor, rotor->nsensor, &sensor))
-            return;
-        struct place *place = reader->place[SENSOR_PLACES];
-        for (; at > 0 && rotor->sensor[at - 1].position > sensor.position; at--) {
-            rotor->sensor[at] = rotor->sensor[at - 1];
+    const struct rotor *rotor = &reader->job->rotor;
+    const struct sensor *sensor = item;
+    (void)card;
+    if (rotor->nsensor == DECK_MOST_LINES)
+        return deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
+    for (int s = 0; s < rotor->nsensor; s++)
+        if (rotor->sensor[s].id == sensor->id)
+            deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor->id);
+    return 0;
+}
+
+void deck_sort_sensors(struct deck_reader *reader)
+{
+    struct sensor *sensor = reader->job->rotor.sensor;
+    struct place *place = reader->place[SENSOR_PLACES];
+    for (int i = 1; i < reader->job->rotor.nsensor; i++)
+        for (int at = i; at > 0 && sensor[at - 1].position > sensor[at].position; at--) {
+            const struct sensor other = sensor[at];
+            const struct place there = place[at];
+            sensor[at] = sensor[at - 1];
             place[at] = place[at - 1];
+            sensor[at - 1] = other;
+            place[at - 1] = there;
         }
-        rotor->sensor[at] = sensor;
-        place[at] = line->place;
-    }
 }
 
 void deck_modes(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
-    struct job *job = reader->job;
+    struct job_measurement *m = &reader->job->measurement;
     const struct card_option *type = card_option(card, "TYPE");
     int word = type ? deck_option_word(reader, type, mode_type_words) : MODE_BENDING;
     reader->modes_card = card;
-    job->options.type = word > 0 ? (enum mode_type)word : MODE_BENDING;
-    int count = deck_lines(reader, card, 1, DECK_MOST_MODES, layout);
-    job->measurement.number = POOL_ARRAY(reader->pool, int, card->nline);
-    job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
-    job->measurement.damping = POOL_ARRAY(reader->pool, double, card->nline);
-    job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
-    if (reader->pool->out_of_memory)
-        return;
-    for (int i = 0; i < count; i++) {
+    reader->job->options.type = word > 0 ? (enum mode_type)word : MODE_BENDING;
+    int count = deck_lines(reader, card, 1, DECK_MOST_MODES);
+    m->number = POOL_ARRAY(reader->pool, int, card->nline);
+    m->frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
+    m->damping = POOL_ARRAY(reader->pool, double, card->nline);
+    m->frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
+    for (int i = 0; i < count && !reader->pool->out_of_memory; i++) {
         const struct data_line *line = &card->line[i];
-        int number = 0;
-        double hz = 1, damping = NAN, std = NAN;
-        int bad = deck_count(reader, line, 4, layout) || deck_integer(reader, line, 0, "mode", 1, DECK_MOST_MODES, &number);
-        bad |= deck_number(reader, line, 1, "frequency [Hz]", POSITIVE, &hz);
-        if (deck_has(line, 2))
-            bad |= deck_number(reader, line, 2, "damping ratio", NOT_NEGATIVE, &damping);
-        if (deck_has(line, 3))
-            bad |= deck_number(reader, line, 3, "standard deviation of the frequency [Hz]", POSITIVE, &std);
-        if (isfinite(damping) && damping >= 1)
+        struct mode_line read = {.hz = 1, .damping = NAN, .std = NAN};
+        int bad = deck_read_values(reader, line, &read), k = 0;
+        if (read.damping >= 1)
             deck_error(reader, line->field[2].place, "damping ratio is %s, expected a fraction of critical damping below 1",
                        line->field[2].text);
         if (bad)
             continue;
-        int k = 0;
-        while (k < job->measurement.nmode && number != job->measurement.number[k] &&
-               (number > job->measurement.number[k]) == (hz > job->measurement.frequency_hz[k]) &&
-               hz != job->measurement.frequency_hz[k])
+        while (k < m->nmode && read.number != m->number[k] && (read.number > m->number[k]) == (read.hz > m->frequency_hz[k]) &&
+               read.hz != m->frequency_hz[k])
             k++;
-        if (k < job->measurement.nmode && job->measurement.number[k] == number)
-            deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
-        else if (k < job->measurement.nmode)
+        if (k < m->nmode && m->number[k] == read.number)
+            deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", read.number);
+        else if (k < m->nmode)
             deck_error(reader, line->field[1].place,
-                       "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number", number,
-                       line->field[1].text, job->measurement.number[k], job->measurement.frequency_hz[k]);
-        struct job_measurement *m = &job->measurement;
-        for (k = m->nmode++; k > 0 && m->number[k - 1] > number; k--) { /* kept by rising number */
+                       "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number",
+                       read.number, line->field[1].text, m->number[k], m->frequency_hz[k]);
+        for (k = m->nmode++; k > 0 && m->number[k - 1] > read.number; k--) { /* kept by rising number */
             m->number[k] = m->number[k - 1];
             m->frequency_hz[k] = m->frequency_hz[k - 1];
             m->damping[k] = m->damping[k - 1];
             m->frequency_std[k] = m->frequency_std[k - 1];
         }
-        m->number[k] = number;
-        m->frequency_hz[k] = hz;
-        m->damping[k] = damping;
-        m->frequency_std[k] = std / hz;
+        m->number[k] = read.number;
+        m->frequency_hz[k] = read.hz;
+        m->damping[k] = read.damping;
+        m->frequency_std[k] = read.std / read.hz;
     }
 }
-
-/* Values at sensors of one mode, with their deviations, into value and std [nsensor] of it; NaN where nothing was measured. */
-struct at_sensors {
-    const char *what, *std; /* of a data line, for messages */
-    enum range range;
-    int mode;
-    double *value, *deviation;
-};
 
 /* Values that are not known, NaN; NULL where memory is out. */
 static double *deck_new_values(struct deck_reader *reader, size_t count)
@@ -197,35 +168,33 @@ static int mode_of(struct deck_reader *reader, const struct card *card)
     return -deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
 }
 
-/* How many values are not zero. */
-static int read_at_sensors(struct deck_reader *reader, const struct card *card, const struct at_sensors *to)
+/* Values at sensors of mode `of` with their deviations into value and std [nsensor * nmode], NaN where nothing was measured. How
+ * many are not zero. */
+static int read_at_sensors(struct deck_reader *reader, const struct card *card, int of, double *value, double *std)
 {
-    const char *layout = reader->layout, *mode = card_option(card, "MODE")->value;
+    const char *mode = card_option(card, "MODE")->value;
     const struct job *job = reader->job;
-    ptrdiff_t first = (ptrdiff_t)to->mode * job->rotor.nsensor;
-    int any = 0, points = to->value == job->measurement.point_frequency_hz;
-    for (int i = 0, count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout); i < count; i++) {
+    ptrdiff_t first = (ptrdiff_t)of * job->rotor.nsensor;
+    int any = 0, points = value == job->measurement.point_frequency_hz;
+    for (int i = 0, count = deck_lines(reader, card, 1, DECK_MOST_LINES); i < count; i++) {
         const struct data_line *line = &card->line[i];
-        int id;
-        double value, std = NAN;
-        if (deck_count(reader, line, 3, layout) || deck_integer(reader, line, 0, "sensor id", 1, 1000000000, &id) ||
-            deck_number(reader, line, 1, to->what, to->range, &value) ||
-            (deck_has(line, 2) && deck_number(reader, line, 2, to->std, POSITIVE, &std)))
+        struct point_line read = {.std = NAN};
+        if (deck_read_values(reader, line, &read))
             continue;
-        int sensor = sensor_find(job, id);
+        int sensor = sensor_find(job, read.id);
         if (sensor < 0) {
-            deck_error(reader, line->field[0].place, "sensor %d is not among *SENSORS, expected one that is", id);
+            deck_error(reader, line->field[0].place, "sensor %d is not among *SENSORS, expected one that is", read.id);
             continue;
         }
-        if (isfinite(to->value[first + sensor]))
-            deck_error(reader, line->field[0].place, "sensor %d is given twice for mode %s, expected once", id, mode);
-        if (points && deck_point_is_far(job, to->mode, value))
+        if (isfinite(value[first + sensor]))
+            deck_error(reader, line->field[0].place, "sensor %d is given twice for mode %s, expected once", read.id, mode);
+        if (points && deck_point_is_far(job, of, read.value))
             deck_error(reader, line->field[1].place,
                        "%s Hz at sensor %d is more than 5 %% from mode %s, expected a frequency near its %.6g Hz",
-                       line->field[1].text, id, mode, job->measurement.frequency_hz[to->mode]);
-        to->value[first + sensor] = value;
-        to->deviation[first + sensor] = std;
-        any += value != 0;
+                       line->field[1].text, read.id, mode, job->measurement.frequency_hz[of]);
+        value[first + sensor] = read.value;
+        std[first + sensor] = read.std;
+        any += read.value != 0;
     }
     return any;
 }
@@ -233,16 +202,14 @@ static int read_at_sensors(struct deck_reader *reader, const struct card *card, 
 void deck_shape(struct deck_reader *reader, const struct card *card)
 {
     struct job_measurement *m = &reader->job->measurement;
-    struct at_sensors to = {.what = "value", .std = "standard deviation", .range = ANY, .mode = mode_of(reader, card)};
-    if (to.mode < 0)
+    int mode = mode_of(reader, card);
+    if (mode < 0)
         return;
     if (!m->shape) {
         m->shape_std = deck_new_values(reader, components(reader->job));
         m->shape = m->shape_std ? deck_new_values(reader, components(reader->job)) : NULL;
     }
-    to.value = m->shape;
-    to.deviation = m->shape_std;
-    if (to.value && !read_at_sensors(reader, card, &to) && card->nline)
+    if (m->shape && !read_at_sensors(reader, card, mode, m->shape, m->shape_std) && card->nline)
         deck_error(reader, card->place, "the shape of mode %s is zero everywhere, expected at least one component that is not",
                    card_option(card, "MODE")->value);
 }
@@ -251,46 +218,33 @@ void deck_frequencies(struct deck_reader *reader, const struct card *card)
 {
     struct job_measurement *m = &reader->job->measurement;
     const struct card_option *mean = card_option(card, "MEAN");
-    struct at_sensors to = {
-        .what = "frequency [Hz]", .std = "standard deviation [Hz]", .range = POSITIVE, .mode = mode_of(reader, card)};
-    if (to.mode < 0)
+    int mode = mode_of(reader, card);
+    if (mode < 0)
         return;
     reader->frequencies_card = card;
     int take = mean ? deck_option_word(reader, mean, deck_answers) : 1;
     if (deck_new_points(reader))
         return;
-    reader->mean_kept[to.mode] |= !take;
-    to.value = m->point_frequency_hz;
-    to.deviation = m->point_frequency_std;
-    (void)read_at_sensors(reader, card, &to);
+    reader->mean_kept[mode] |= !take;
+    (void)read_at_sensors(reader, card, mode, m->point_frequency_hz, m->point_frequency_std);
 }
 
 /* *WEIGHT or *CENTRE */
 void deck_weight(struct deck_reader *reader, const struct card *card)
 {
-    struct weighed read = {0}, *to = &reader->job->measurement.weighed;
-    int centre = strcmp(card->name, "CENTRE") == 0;
     if (reader->job->options.type != MODE_BENDING) {
         deck_error(reader, card->place,
                    "*%s stands beside modes of torsion or along the axis, expected it where bending was measured", card->name);
         return;
     }
-    if (deck_lines(reader, card, 1, 1, reader->layout) != 1 ||
-        deck_read_values(reader, &card->line[0], centre ? deck_centre_rows : deck_weight_rows, reader->layout, &read))
-        return;
-    if (centre) {
-        to->centre = read.centre;
-        to->centre_std = read.centre_std;
-    } else {
-        to->mass = read.mass;
-        to->mass_std = read.mass_std;
-    }
-    reader->weighed_card = card;
+    const struct data_line *line = deck_only_line(reader, card);
+    if (line && !deck_read_values(reader, line, &reader->job->measurement.weighed))
+        reader->weighed_card = card;
 }
 
 void deck_noise(struct deck_reader *reader, const struct card *card)
 {
-    (void)deck_read_options(reader, card, deck_noise_rows, reader);
+    (void)deck_read_options(reader, card, reader);
     reader->states_floor = card_option(card, "FLOOR_FREQUENCY") || card_option(card, "FLOOR_SHAPE");
     if (!card->noption)
         deck_error(
@@ -747,7 +701,7 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
         return;
     }
     const char *file = deck_option(reader, card, "FILE", "path of a universal file");
-    if (deck_read_options(reader, card, deck_measured_rows, &import.at) || !file)
+    if (deck_read_options(reader, card, &import.at) || !file)
         return;
     if (isnan(import.at.origin))
         import.at.origin = import.at.flip ? reader->length : 0;

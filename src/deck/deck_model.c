@@ -66,21 +66,21 @@ static void check_stack(struct deck_reader *reader, const struct data_line *line
 
 void deck_elastic(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL};
     static const char *const layouts[] = {"E [Pa], nu", "E [Pa], G [Pa], nu",
                                           "E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]"};
     static const struct deck_row *const rows[] = {deck_elastic_rows, deck_shear_rows, deck_laminated_rows};
     const struct card_option *option = card_option(card, "TYPE");
-    int type = option ? deck_option_word(reader, option, types) : 0;
-    const char *layout = layouts[type = type < 0 ? 0 : type];
+    int type = option ? deck_option_word(reader, option, reader->row->words) : 0;
+    reader->layout = layouts[type = type < 0 ? 0 : type];
+    reader->row = rows[type];
     struct material *material = current_material(reader, card, 1);
-    if (!material || deck_lines(reader, card, 1, 1, layout) != 1)
+    const struct data_line *line = material ? deck_only_line(reader, card) : NULL;
+    if (!line)
         return;
-    const struct data_line *line = &card->line[0];
     material->isotropic = type == 0;
     material->laminated = type == 2;
     material->stacking = 1;
-    int last = type ? 2 : 1, bad = deck_read_values(reader, line, rows[type], layout, material);
+    int last = type ? 2 : 1, bad = deck_read_values(reader, line, material);
     if (!bad && material->laminated)
         check_stack(reader, line, material);
     else if (!bad && !(material->nu > -1 && material->nu <= 0.5))
@@ -90,10 +90,10 @@ void deck_elastic(struct deck_reader *reader, const struct card *card)
 
 void deck_density(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
     struct material *material = current_material(reader, card, 2);
-    if (material && deck_lines(reader, card, 1, 1, layout) == 1)
-        (void)deck_read_values(reader, &card->line[0], deck_density_rows, layout, material);
+    const struct data_line *line = material ? deck_only_line(reader, card) : NULL;
+    if (line)
+        (void)deck_read_values(reader, line, material);
 }
 
 /* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
@@ -131,12 +131,12 @@ static void check_diameters(struct deck_reader *reader, const struct data_line *
 void deck_sections(struct deck_reader *reader, const struct card *card)
 {
     struct rotor *rotor = &reader->job->rotor;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, reader->layout),
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES),
         rectangular = !strcmp(card->name, "BEAM");
     for (int i = 0; i < count && group >= 0; i++) {
         struct segment s = {
             .group = group, .rectangular = rectangular, .length = 1e6}; /* of an error: every position is inside */
-        int bad = deck_read_values(reader, &card->line[i], rectangular ? deck_beam_rows : deck_shaft_rows, reader->layout, &s);
+        int bad = deck_read_values(reader, &card->line[i], &s);
         if (!bad && !rectangular)
             check_diameters(reader, &card->line[i], &s);
         if (!s.elements)
@@ -214,12 +214,11 @@ static void add_ring(struct deck_reader *reader, const struct ring *ring)
 
 void deck_layer(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
     int host = host_of(reader, card), group = add_group(reader, card), sections = 0, section = 0;
     for (int s = 0; s < rotor->nsegment; s++)
         sections += rotor->segment[s].group == host;
-    int count = deck_lines(reader, card, 1, host < 0 ? DECK_MOST_LINES : sections, layout);
+    int count = deck_lines(reader, card, 1, host < 0 ? DECK_MOST_LINES : sections);
     if (group >= 0)
         rotor->group[group].layer_of = host < 0 ? 0 : host;
     if (host >= 0 && count > 1 && count < sections)
@@ -233,7 +232,7 @@ void deck_layer(struct deck_reader *reader, const struct card *card)
                 continue;
             const struct data_line *line = &card->line[count > 1 ? section : 0];
             section++;
-            if (deck_read_values(reader, line, deck_layer_rows, layout, &ring)) {
+            if (deck_read_values(reader, line, &ring)) {
                 if (count == 1)
                     return;
                 continue;
@@ -271,9 +270,9 @@ static int check_holes(struct deck_reader *reader, const struct data_line *line,
 
 void deck_perforation(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = reader->layout;
     struct group *group = named_group(reader, card);
-    if (!group || deck_lines(reader, card, 1, 1, layout) != 1)
+    const struct data_line *line = group ? deck_only_line(reader, card) : NULL;
+    if (!line)
         return;
     if (group->holes)
         deck_error(reader, card->place, "group %s is perforated twice, expected one *PERFORATION a group", group->name);
@@ -283,8 +282,7 @@ void deck_perforation(struct deck_reader *reader, const struct card *card)
             deck_error(reader, card->place, "group %s is a *BEAM, expected a round *SHAFT", group->name);
             return;
         }
-    const struct data_line *line = &card->line[0];
-    int bad = deck_read_values(reader, line, deck_perforation_rows, layout, group);
+    int bad = deck_read_values(reader, line, group);
     for (int s = 0; s < reader->job->rotor.nsegment && !bad; s++) {
         const struct segment *segment = &reader->job->rotor.segment[s];
         if (&reader->job->rotor.group[segment->group] == group)
@@ -307,10 +305,8 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
                    reader->job->rotor.group[group->layer_of].name);
         return;
     }
-    if (!group || deck_lines(reader, card, 1, 1, "axial force [N], tension positive") != 1 ||
-        deck_count(reader, &card->line[0], 1, "axial force [N], tension positive"))
-        return;
-    if (!deck_number(reader, &card->line[0], 0, "axial force [N]", ANY, &force))
+    const struct data_line *line = group ? deck_only_line(reader, card) : NULL;
+    if (line && !deck_count(reader, line, 1) && !deck_number(reader, line, 0, "axial force [N]", ANY, &force))
         group->preload += force;
 }
 
@@ -404,7 +400,7 @@ void deck_clamp(struct deck_reader *reader, const struct card *card)
         deck_error(reader, card->place, "*CLAMP has no AT, expected AT=start, AT=end or another position");
         return;
     }
-    if (deck_read_options(reader, card, deck_clamp_rows, &spring))
+    if (deck_read_options(reader, card, &spring))
         return;
     for (int s = 0; s < rotor->nsegment; s++) {
         struct section section;
@@ -418,5 +414,5 @@ void deck_clamp(struct deck_reader *reader, const struct card *card)
 
 void deck_sling(struct deck_reader *reader, const struct card *card)
 {
-    (void)deck_read_options(reader, card, deck_sling_rows, &reader->job->rotor);
+    (void)deck_read_options(reader, card, &reader->job->rotor);
 }

@@ -61,7 +61,8 @@ struct deck_row {
     {                                                                                                                            \
         .option = (O), .kind = ROW_OTHER, __VA_ARGS__                                                                            \
     }
-#define OPTIONAL .bits = ROW_MAY_LACK
+#define OPTION(O) OTHER(O, .what = "")
+#define OPTIONAL  .bits = ROW_MAY_LACK
 #define LAST                                                                                                                     \
     {                                                                                                                            \
         .option = NULL, .what = NULL                                                                                             \
@@ -94,11 +95,8 @@ struct deck_card {
     const char *instead;      /* of a card without data lines, what is expected in their place */
 };
 
-/* Rows of cards that have code of their own. */
-extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_density_rows[],
-    deck_shaft_rows[], deck_beam_rows[], deck_layer_rows[], deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[],
-    deck_clamp_rows[], deck_sling_rows[], deck_units_rows[], deck_noise_rows[], deck_weight_rows[], deck_centre_rows[],
-    deck_frf_rows[], deck_fit_rows[], deck_pedestal_rows[], deck_measured_rows[];
+/* Values of *ELASTIC by its TYPE; *UNITS. */
+extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_laminated_rows[], deck_units_rows[];
 
 /* Of *MEASURED: where the nodes of the file lie on the rotor, z = origin + scale * coordinate, with flip the other way. */
 struct measured_nodes {
@@ -113,21 +111,31 @@ struct pedestal_line {
     double m[2], k[2], c[2]; /* kg, N/m, N.s/m in x and y */
 };
 
+struct mode_line { /* of *MODES */
+    int number;
+    double hz, damping, std;
+};
+
+struct point_line { /* of *SHAPE and *FREQUENCIES */
+    int id;
+    double value, std;
+};
+
 /* The cards there are, ended by one without a name; that of a name, NULL where there is none. Behind *RUNNING some names of cards
  * of the rotor at rest mean the same of the machine. */
 extern const struct deck_card deck_card_table[];
 const struct deck_card *deck_card_find(const char *name);
 const struct deck_card *deck_card_of_machine(const char *name);
+const struct deck_row *deck_rows(const char *card);
 
 int deck_row_is_last(const struct deck_row *row);
 
-/* Takes the options of a card, or the values of a data line, that are rows other than ROW_OTHER into the struct `to`. 0, or 1
- * after an error. */
-int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to);
+/* Takes the options of a card, or the values of a data line, that are rows of the reader other than ROW_OTHER into the struct
+ * `to`. 0, or 1 after an error. */
+int deck_read_options(struct deck_reader *reader, const struct card *card, void *to);
+int deck_read_values(struct deck_reader *reader, const struct data_line *line, void *to);
 /* Errors at options that have no row. */
 void deck_check_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row);
-int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
-                     void *to);
 
 /* A card by what its row of the table says: by its code, or a struct for each data line, one where it has a name. */
 void deck_read_card(struct deck_reader *reader, const struct card *card, const struct deck_card *kind);

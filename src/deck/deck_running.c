@@ -288,9 +288,9 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
     const struct card_option *name = card_option(card, "NAME"), *file = card_option(card, "FILE"),
                              *like = card_option(card, "LIKE");
     struct bearing b = {.name = name ? name->value : NULL, .like = machine->nbearing, .unknown = {-1, -1}};
-    if (deck_lines(reader, card, 1, 1, reader->layout) != 1)
+    const struct data_line *line = deck_only_line(reader, card);
+    if (!line)
         return;
-    const struct data_line *line = &card->line[0];
     int bad = bearing_std(reader, card, &b) | deck_position(reader, &line->field[0], "position", &b.z);
     if (like) {
         int of = named_bearing(reader, like);
@@ -304,8 +304,8 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
                              like->value);
     }
     if (file) {
-        bad |= deck_count(reader, line, 1, "position alone beside FILE") ||
-               read_coefficients(reader, card, file, &of_bearing, &b.film);
+        reader->layout = "position alone beside FILE";
+        bad |= deck_count(reader, line, 1) || read_coefficients(reader, card, file, &of_bearing, &b.film);
     } else {
         bad |= room_of_table(reader, &b.film, 1) || bearing_values(reader, line, 1, &b.film);
     }
@@ -337,13 +337,13 @@ void deck_pedestal(struct deck_reader *reader, const struct card *card)
     const struct card_option *option = card_option(card, "BEARING"), *file = card_option(card, "FILE");
     struct pedestal_line value = {{0}, {0}, {0}};
     int of = deck_option(reader, card, "BEARING", "name of a *BEARING") ? named_bearing(reader, option) : -1;
-    if (of < 0 || deck_lines(reader, card, 1, 1, reader->layout) != 1)
+    const struct data_line *line = of < 0 ? NULL : deck_only_line(reader, card);
+    if (!line)
         return;
-    const struct data_line *line = &card->line[0];
     struct bearing *b = &reader->machine->bearing[of];
     if (b->pedestal.count)
         deck_error(reader, option->value_place, "the pedestal of %s is given twice, expected once", option->value);
-    if (deck_read_values(reader, line, deck_pedestal_rows, reader->layout, &value))
+    if (deck_read_values(reader, line, &value))
         return;
     if (file ? line->count != 2 : line->count < 4) {
         deck_error(reader, line->place, "the pedestal has %d values, expected %s", line->count,
@@ -392,8 +392,11 @@ int deck_check_loss(struct deck_reader *reader, const struct card *card, const s
 {
     struct loss *loss = item;
     loss->from_test = card_option(card, "TEST") != NULL;
+    if (loss->from_test && line->count > 1)
+        return deck_error(reader, line->field[1].place, "'%s' is one value too many, expected group alone with TEST",
+                          line->field[1].text);
     if (loss->from_test)
-        return deck_count(reader, line, 1, "group alone with TEST") || loss_from_test(reader, line->place, loss);
+        return loss_from_test(reader, line->place, loss);
     return deck_has(line, 1) ? 0 : deck_number(reader, line, 1, "loss", NOT_NEGATIVE, &loss->value);
 }
 
@@ -416,42 +419,31 @@ int deck_check_change(struct deck_reader *reader, const struct card *card, const
 
 void deck_operation(struct deck_reader *reader, const struct card *card)
 {
-    struct machine *machine = reader->machine;
-    const struct card_option *margin = card_option(card, "MARGIN");
-    if (machine->has_operation)
-        deck_error(reader, card->place, "*OPERATION is given twice, expected one running range");
-    if (deck_lines(reader, card, 1, 1, reader->layout) != 1 || deck_count(reader, &card->line[0], 2, reader->layout) ||
-        deck_number(reader, &card->line[0], 0, "lowest speed [rpm]", POSITIVE, &machine->low) ||
-        deck_number(reader, &card->line[0], 1, "highest speed [rpm]", POSITIVE, &machine->high))
+    struct machine *m = reader->machine;
+    const struct card_option *margin = card_option(card, "MARGIN"), *poles = card_option(card, "POLES");
+    const struct data_line *line = deck_only_line(reader, card);
+    int bad = deck_read_options(reader, card, m);
+    if (!line || deck_read_values(reader, line, m) || bad)
         return;
-    if (machine->high < machine->low)
-        deck_error(reader, card->line[0].field[1].place,
+    m->has_operation = 1;
+    if (m->high < m->low)
+        deck_error(reader, line->field[1].place,
                    "the running range goes from %g down to %g rpm, expected the lowest speed "
                    "first",
-                   machine->low, machine->high);
-    machine->api617 = margin && same_text(margin->value, "API617");
+                   m->low / RPM, m->high / RPM);
+    m->api617 = margin && same_text(margin->value, "API617");
     reader->margin_place = margin ? margin->value_place : card->place;
-    if (margin && !machine->api617 && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &machine->margin) &&
-        machine->margin >= 1)
+    if (margin && !m->api617 && !deck_option_number(reader, margin, "", NOT_NEGATIVE, &m->margin) && m->margin >= 1)
         deck_error(reader, margin->value_place, "MARGIN=%s is %g %% of the speed, expected a share below 1", margin->value,
-                   100 * machine->margin);
-    machine->low *= RPM;
-    machine->high *= RPM;
-    machine->has_operation = 1;
-    const struct card_option *line = card_option(card, "LINE"), *poles = card_option(card, "POLES");
-    if (line && deck_option_number(reader, line, "Hz", POSITIVE, &machine->line_hz))
-        return;
-    if (poles && (deck_option_number(reader, poles, "", POSITIVE, &machine->poles) || fmod(machine->poles, 2) != 0 ||
-                  machine->poles > MOST_POLES)) {
+                   100 * m->margin);
+    if (poles && (deck_option_number(reader, poles, "", POSITIVE, &m->poles) || fmod(m->poles, 2) != 0 || m->poles > MOST_POLES))
         deck_error(reader, poles->value_place, "POLES=%s is no number of poles, expected an even one up to %d", poles->value,
                    MOST_POLES);
-        return;
-    }
-    if (machine->line_hz > 0 && machine->poles > 0 && machine->high > 1.001 * 4 * PI * machine->line_hz / machine->poles)
-        deck_note(reader, card->line[0].field[1].place,
+    else if (m->line_hz > 0 && m->poles > 0 && m->high > 1.001 * 4 * PI * m->line_hz / m->poles)
+        deck_note(reader, line->field[1].place,
                   "the running range ends above %g rpm, the speed of the field of %g poles at %g Hz: without LINE the line "
                   "frequency follows the speed",
-                  120 * machine->line_hz / machine->poles, machine->poles, machine->line_hz);
+                  120 * m->line_hz / m->poles, m->poles, m->line_hz);
 }
 
 int deck_check_runup(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)

@@ -311,7 +311,7 @@ static void set_length(struct deck_reader *reader, const struct data_line *line)
         deck_error(reader, line->field[0].place, "%s is no length, expected that of a *SHAFT or *BEAM", name);
         return;
     }
-    if (deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "length [m]", POSITIVE, &length))
+    if (deck_count(reader, line, 2) || deck_number(reader, line, 1, "length [m]", POSITIVE, &length))
         return;
     rotor_group_span(rotor, group, &from, &to);
     for (int s = 0; s < rotor->nsegment; s++)
@@ -353,13 +353,14 @@ static int check_value(struct deck_reader *reader, const struct data_line *line,
 static void set_parameter(struct deck_reader *reader, const struct data_line *line)
 {
     struct job *job = reader->job;
-    const char *name = line->field[0].text, *unit = NULL;
+    const char *unit = NULL;
     struct parameter parameter;
     double value;
     int found = deck_find_parameter(reader, &line->field[0], &parameter, &unit);
-    if (found && found != 3 && (found == 2 || !deck_cause_explains(reader, name, line->field[0].place)))
-        deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length", name);
-    if (found || deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "value", ANY, &value))
+    if (found && found != 3 && (found == 2 || !deck_cause_explains(reader, line->field[0].text, line->field[0].place)))
+        deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length",
+                   line->field[0].text);
+    if (found || deck_count(reader, line, 2) || deck_number(reader, line, 1, "value", ANY, &value))
         return;
     double si = deck_in_si(reader, unit ? unit : "");
     value *= si;
@@ -371,14 +372,14 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
             continue;
         if (job->unknowns.parameter[p].nalso != parameter.nalso)
             deck_error(reader, line->field[0].place, "%s has a value in common with the unknown %s, expected *SET of that name",
-                       name, job->unknowns.bounds[p].name);
+                       line->field[0].text, job->unknowns.bounds[p].name);
         deck_drop_unknown(reader, p--);
     }
 }
 
 void deck_set(struct deck_reader *reader, const struct card *card)
 {
-    for (int i = 0, count = deck_lines(reader, card, 1, 100, reader->layout); i < count; i++)
+    for (int i = 0, count = deck_lines(reader, card, 1, 100); i < count; i++)
         if (!is_length(card->line[i].field[0].text))
             set_parameter(reader, &card->line[i]);
 }

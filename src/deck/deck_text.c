@@ -91,12 +91,15 @@ static int begins_number(const char *text, const char *end)
     return text < end && isdigit((unsigned char)*text);
 }
 
-int deck_text_is_next_item(const char *list, const char *begin, const char *end)
+/* Whether the piece [begin, end) between two commas goes on with a list, which is the value of the option before it or begins
+ * with that: of numbers, of states, or the second group of BETWEEN=left,core, which may have the name of an option. */
+static int is_next_item(const struct card_option *option, const char *begin, const char *end)
 {
+    const char *list = option->value;
+    int is_name = !memchr(begin, '=', (size_t)(end - begin)), between = same_text(option->name, "BETWEEN") && !strchr(list, ',');
     int runup = !strncasecmp(list, "RUNUP", 5); /* which comes first in a HOLDOUT */
     int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && (runup || !strncasecmp(list, "STATE:", 6));
-    return state || (!memchr(begin, '=', (size_t)(end - begin)) && begins_number(begin, end) &&
-                     (runup || begins_number(list, list + strlen(list))));
+    return state || (is_name && (between || (begins_number(begin, end) && (runup || begins_number(list, list + strlen(list))))));
 }
 
 /* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2 or HOLDOUT=STATE:a, the next item of the
@@ -111,7 +114,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
                *value = equals ? equals + 1 : end;
     struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
     card->end = at(reader, line_begin, end, line);
-    if (list && deck_text_is_next_item(list->value, begin, end)) {
+    if (list && is_next_item(list, begin, end)) {
         const char *longer = pool_format(reader->pool, "%s,%.*s", list->value, (int)(end - begin), begin);
         list->value = longer ? longer : list->value;
         list->end = card->end;

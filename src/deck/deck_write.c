@@ -64,10 +64,7 @@ static double inside_physical(const struct rotor *rotor, const struct effect *ef
 static int name_target(struct pool *pool, struct rotor *rotor, const struct effect *effect)
 {
     const struct cause_kind *kind = catalogue_of(effect);
-    const char **name = !kind || effect->target < 0     ? NULL
-                        : kind->target == TARGET_SPRING ? &rotor->spring[effect->target].name
-                        : kind->target == TARGET_DISK   ? &rotor->disk[effect->target].name
-                                                        : NULL;
+    const char **name = kind && effect->target >= 0 ? deck_name_of(rotor, kind->target, effect->target) : NULL;
     if (name && !*name)
         *name = scan_free_name(pool, rotor, kind->target == TARGET_SPRING ? "spring" : "disk");
     return name && !*name ? ROTID_ERROR_MEMORY : ROTID_OK;
@@ -399,7 +396,7 @@ static void put_sections(struct deck_writer *lines, const struct rotor *rotor, i
 {
     const struct segment *segment;
     for (int i = 0; (segment = segment_of(rotor, group, i)); i++)
-        deck_put_values(lines, segment->rectangular ? deck_beam_rows : deck_shaft_rows, segment);
+        deck_put_values(lines, deck_rows(segment->rectangular ? "BEAM" : "SHAFT"), segment);
 }
 
 /* The sections of a table become lines: a table is not ours to change. first ... last: its groups, a card each; `named`: the card
@@ -534,12 +531,11 @@ static void edit_data(struct writing *w, int s)
 
 /* ------------------------------------------------------------------------------------------------ names */
 
-/* The name of spring or disk i, NULL beyond the last one. */
-static const char *name_of_part(const struct rotor *rotor, int is_spring, int i)
+/* The name of spring or disk i, NULL where it has none. */
+static const char *name_of_part(const struct rotor *rotor, const char *card, int i)
 {
-    if (i < 0 || i >= (is_spring ? rotor->nspring : rotor->ndisk))
-        return NULL;
-    return is_spring ? rotor->spring[i].name : rotor->disk[i].name;
+    const char **name = deck_name_of(rotor, !strcmp(card, "SPRING") ? TARGET_SPRING : TARGET_DISK, i);
+    return name ? *name : NULL;
 }
 
 /* A line of a list of springs or disks whose item has got a name stands under a card of its own, and so does what follows. */
@@ -548,18 +544,18 @@ static void split_list(struct deck_line_edit *edit, void *context)
     const struct in_part *in = context;
     const struct rotor *meant = &in->w->meant.state[in->s].job.rotor, *given = &in->w->given->state[in->s].job.rotor;
     const char *card = in->part->card->name;
-    int is_spring = !strcmp(card, "SPRING"), at = in->first + edit->number;
-    const char *name = name_of_part(given, is_spring, at) ? NULL : name_of_part(meant, is_spring, at);
+    int at = in->first + edit->number;
+    const char *name = name_of_part(given, card, at) ? NULL : name_of_part(meant, card, at);
     if (edit->number && name)
         edit->before = pool_format(in->w->pool, "*%s, NAME=%s\n", card, name);
-    else if (edit->number && name_of_part(meant, is_spring, at - 1))
+    else if (edit->number && name_of_part(meant, card, at - 1))
         edit->before = pool_format(in->w->pool, "*%s\n", card);
 }
 
 /* Names of springs or disks on which a new cause acts. */
 static void edit_names(struct writing *w, int s, const char *card)
 {
-    int next = 0, is_spring = !strcmp(card, "SPRING");
+    int next = 0;
     const struct rotor *meant = &w->meant.state[s].job.rotor, *given = &w->given->state[s].job.rotor;
     for (int own = 0; own < 2; own++)
         for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
@@ -568,8 +564,8 @@ static void edit_names(struct writing *w, int s, const char *card)
             if (!is_card(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
                 continue;
             for (int k = next; k < next + lines; k++)
-                any |= name_of_part(meant, is_spring, k) && !name_of_part(given, is_spring, k);
-            const char *first = name_of_part(meant, is_spring, next);
+                any |= name_of_part(meant, card, k) && !name_of_part(given, card, k);
+            const char *first = name_of_part(meant, card, next);
             next += lines;
             if (any)
                 deck_edit_lines(&w->edit, i, split_list, &in);

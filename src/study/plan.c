@@ -108,7 +108,7 @@ static int read_sensors(struct plan_reader *reader, const struct data_line *line
 {
     struct deck_reader *fields = &reader->fields;
     int every = same_text(line->field[0].text, "EVERY"), all = same_text(line->field[0].text, "ALL");
-    int bad = deck_count(fields, line, every ? 2 : 1, reader->fields.layout);
+    int bad = deck_count(fields, line, every ? 2 : 1);
     if (every)
         bad |= deck_integer(fields, line, 1, "each one so far on", 1, DECK_MOST_LINES, &item->every);
     else if (!all)
@@ -122,7 +122,7 @@ static int read_sensors(struct plan_reader *reader, const struct data_line *line
 static int read_noise(struct plan_reader *reader, const struct data_line *line, struct plan_item *item)
 {
     struct deck_reader *fields = &reader->fields;
-    int bad = deck_count(fields, line, 2, reader->fields.layout);
+    int bad = deck_count(fields, line, 2);
     bad |= deck_number(fields, line, 0, "noise of the frequencies", NOT_NEGATIVE, &item->frequency);
     item->shape = NAN;
     if (deck_has(line, 1))
@@ -136,10 +136,10 @@ static int read_noise(struct plan_reader *reader, const struct data_line *line, 
 static void read_truth(struct plan_reader *reader, const struct card *card)
 {
     struct plan *plan = reader->plan;
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, reader->fields.layout); i < count; i++) {
+    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct plan_truth truth = {.name = line->field[0].text, .place = line->place};
-        int bad = deck_count(&reader->fields, line, 3, reader->fields.layout);
+        int bad = deck_count(&reader->fields, line, 3);
         bad |= deck_number(&reader->fields, line, 1, "value", ANY, &truth.lower);
         truth.upper = truth.lower;
         if (deck_has(line, 2))
@@ -175,9 +175,6 @@ static const char *label_of(struct plan_reader *reader, const struct card *card)
         const struct card_option *option = card_option(card, parts[p]);
         if (option)
             label = pool_format(reader->fields.pool, "%s%s%s", label, *label ? " " : "", option->value);
-        for (int i = 0; i < card->noption && option && label; i++)
-            if (!strcmp(parts[p], "BETWEEN") && deck_cause_list_item(card, &card->option[i]))
-                label = pool_format(reader->fields.pool, "%s,%s", label, card->option[i].name);
     }
     return label;
 }
@@ -187,19 +184,14 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
 {
     struct pool *pool = reader->fields.pool;
     struct card *cause = POOL_NEW(pool, struct card);
-    int named = card_option(card, "NAME") != NULL;
     if (!cause)
         return NULL;
-    *cause = (struct card){.name = "CAUSE", .place = card->place, .noption = card->noption + !named, .nline = card->nline};
-    cause->option = POOL_ARRAY(pool, struct card_option, cause->noption);
+    *cause = *card;
+    cause->name = "CAUSE";
     cause->line = POOL_COPY(pool, card->line, card->nline, 0);
-    if (!cause->option || !cause->line)
+    const struct card_option hidden = {.name = "NAME", .value = "hidden", .place = card->place, .value_place = card->place};
+    if (!cause->line || (!card_option(card, "NAME") && deck_text_add_option(pool, cause, hidden)))
         return NULL;
-    /* in front: behind BETWEEN=left, the name of the second group may stand last */
-    if (!named)
-        cause->option[0] =
-            (struct card_option){.name = "NAME", .value = "hidden", .place = card->place, .value_place = card->place};
-    memcpy(cause->option + !named, card->option, (size_t)card->noption * sizeof *card->option);
     for (int i = 0; i < card->nline; i++) {
         struct data_line *line = &cause->line[i];
         if (line->count <= 2)
@@ -226,7 +218,7 @@ static void read_hide(struct plan_reader *reader, const struct card *card)
         if (none)
             deck_error(&reader->fields, card->line[i].place, "TYPE=NONE hides nothing, expected a card without data lines");
         else
-            (void)deck_count(&reader->fields, &card->line[i], 3, "parameter, value [, upper value]");
+            (void)deck_count(&reader->fields, &card->line[i], 3);
     }
     for (int end = 0; end < 2 && !none; end++)
         hide.end[end] = cause_card(reader, card, end);
@@ -280,7 +272,7 @@ static const struct plan_card {
     {"NOISE", no_rows, "relative standard deviation of the frequencies [, of the shapes]", NULL, AXIS_NOISE, "noise of ",
      read_noise},
     {"STARTS", starts_rows, NULL, read_starts, 0, NULL, NULL},
-    {"HIDE", hide_rows, "", read_hide, 0, NULL, NULL},
+    {"HIDE", hide_rows, "parameter, value [, upper value]", read_hide, 0, NULL, NULL},
 };
 
 #define CARDS (sizeof table / sizeof *table)
@@ -288,7 +280,7 @@ static const struct plan_card {
 /* An entry of an axis a line. */
 static void read_items(struct plan_reader *reader, const struct card *card, const struct plan_card *kind)
 {
-    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES, kind->lines); i < count; i++) {
+    for (int i = 0, count = deck_lines(&reader->fields, card, 1, DECK_MOST_LINES); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct plan_item item = {.name = line->text, .place = line->place};
         int bad = kind->read_line && kind->read_line(reader, line, &item);
@@ -321,7 +313,8 @@ static void read_card(struct plan_reader *reader, int c)
     if (card->nline && !kind->lines)
         deck_error(&reader->fields, card->line[0].place, "*%s has no data lines, expected options on the card", card->name);
     reader->fields.layout = kind->lines;
-    (void)deck_read_options(&reader->fields, card, kind->row, reader->plan);
+    reader->fields.row = kind->row;
+    (void)deck_read_options(&reader->fields, card, reader->plan);
     if (kind->read)
         kind->read(reader, card);
     else if (kind->what)
