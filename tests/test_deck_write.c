@@ -598,7 +598,7 @@ POOL_TEST(a_list_behind_the_run_up_is_one_option)
     assert_status(deck_edit_open_flat(&e, &test_pool, "bar.inp", "*FIT, HOLDOUT=RUNUP, 1, STATE:free, MODES=2,3\n"), ROTID_OK);
     assert_string_equal(deck_edit_option(&e.part[0], "HOLDOUT"), "RUNUP,1,STATE:free");
     deck_edit_set(&e, 0, "HOLDOUT", "RUNUP");
-    deck_edit_text(&e, &w, NULL, 0);
+    deck_edit_text(&e, &w);
     assert_string_equal(w.text, "*FIT, HOLDOUT=RUNUP, MODES=2,3\n");
 }
 

@@ -461,12 +461,11 @@ int deck_is_of_bearing(const struct deck_reader *reader, const char *name);
 /* A card with all lines up to the next one, comments among them. */
 struct deck_part {
     const char *text, *file; /* file: that it stands in */
-    size_t length;
-    struct card read;             /* its first card, whose places count from its text; without a name where there is none */
-    const struct deck_card *card; /* NULL: not known, and what stands before the first card */
-    int include, inside;          /* an *INCLUDE; behind it the parts of its file, so many */
-    int state;                    /* which *STATE it stands behind, from 0; -1: none; DECK_BEHIND_STATES */
-    int changed;
+    size_t length, end;      /* end: where the comments and empty lines begin with which it ends */
+    struct card read;        /* its first card, whose places count from its text; "" where there is none */
+    int include, inside;     /* an *INCLUDE; behind it the parts of its file, so many */
+    int state;               /* which *STATE it stands behind, from 0; -1: none; DECK_BEHIND_STATES */
+    int changed, left_out;
 };
 
 struct deck_edit {
@@ -482,6 +481,8 @@ int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_ori
 /* The same of a text whose included files are left alone. */
 int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path, const char *text);
 
+/* Whether a part is this card. */
+int deck_edit_is(const struct deck_part *part, const char *card);
 /* The value of an option of a part, NULL: the card has none of that name. */
 const char *deck_edit_option(const struct deck_part *part, const char *name);
 /* Gives the option that value in place of its own, or behind the others; NULL: takes it out. */
@@ -502,10 +503,12 @@ void deck_edit_clear(struct deck_edit *e, int part);
 void deck_edit_append(struct deck_edit *e, int part, const char *text);
 /* Puts text before part `at`, in front of the comments that introduce it. */
 void deck_edit_insert(struct deck_edit *e, int at, const char *text);
+/* A card alone. Returns `at`. */
+int deck_edit_new(struct deck_edit *e, int at, const char *card);
 
-/* The text of all parts, or of those that have a bit of `which` (NULL: all) in `mask`. A file that is included stays one where
- * none of its cards has changed and all are wanted, else its cards stand in its place. Relative paths become absolute. */
-void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask);
+/* The text of all parts but those that are left out. A file that is included stays one where none of its cards has changed or is
+ * left out, else its cards stand in its place. Relative paths become absolute. */
+void deck_edit_text(struct deck_edit *e, struct deck_writer *w);
 /* One part alone: its card (1), its comments (2), both (3). */
 void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck_part *part, int with);
 

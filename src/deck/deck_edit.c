@@ -27,15 +27,6 @@ static int begins_card(const char *line, const char *stop)
 
 /* ------------------------------------------------------------------------------------------------ parts */
 
-/* Reads the text of a part, which is new: its card as any deck is read. */
-static void read_part(struct deck_edit *e, struct deck_part *part)
-{
-    struct deck_text text;
-    deck_text_read_piece(e->pool, part->length, part->text, &text);
-    e->status = e->pool->out_of_memory ? ROTID_ERROR_MEMORY : e->status;
-    part->read = text.ncard ? text.card[0] : (struct card){.name = ""};
-}
-
 /* Where a place of the card lies in its text. */
 static const char *text_at(const struct deck_part *part, struct place place)
 {
@@ -45,18 +36,36 @@ static const char *text_at(const struct deck_part *part, struct place place)
     return line + place.column - 1;
 }
 
+/* Reads the text of a part, which is new: its card as any deck is read, and where its last one ends. */
+static void read_part(struct deck_edit *e, struct deck_part *part)
+{
+    static const struct card none = {.name = "", .place = {"", 1, 1}, .end = {"", 1, 1}};
+    struct deck_text text;
+    deck_text_read_piece(e->pool, part->length, part->text, &text);
+    const struct card *last = text.ncard ? &text.card[text.ncard - 1] : &none;
+    int line = last->nline ? last->line[last->nline - 1].place.line : last->end.line;
+    part->read = text.ncard ? text.card[0] : none;
+    part->end = text.ncard ? (size_t)(text_at(part, (struct place){.line = line + 1, .column = 1}) - part->text) : 0;
+    e->status = e->pool->out_of_memory ? ROTID_ERROR_MEMORY : e->status;
+}
+
 const char *deck_edit_option(const struct deck_part *part, const char *name)
 {
     const struct card_option *option = card_option(&part->read, name);
     return option ? option->value : NULL;
 }
 
-static struct deck_part *add_part(struct deck_edit *e)
+int deck_edit_is(const struct deck_part *part, const char *card)
 {
-    static const struct deck_part none;
-    int failed = POOL_ADD(e->pool, e->part, e->npart, &none);
+    return !strcmp(part->read.name, card);
+}
+
+/* Adds the part as the last one. */
+static int add_part(struct deck_edit *e, const struct deck_part *part)
+{
+    int failed = POOL_ADD(e->pool, e->part, e->npart, part);
     e->status = failed ? ROTID_ERROR_MEMORY : e->status;
-    return failed ? NULL : &e->part[e->npart - 1];
+    return failed;
 }
 
 /* A path as an option of a part names it, as the reader saw it. */
@@ -81,27 +90,21 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
 {
     const char *stop = text + strlen(text);
     for (const char *end = text; *text && !e->status; text = end) {
-        struct deck_part *part = add_part(e);
-        if (!part)
-            return;
         do
             end += line_length(end, stop);
         while (*end && !begins_card(end, stop));
-        *part = (struct deck_part){.text = text, .file = file, .length = (size_t)(end - text)};
-        read_part(e, part);
-        const char *name = part->read.name;
-        part->card = deck_card_find(name);
-        part->state = !strcmp(name, "STATE") ? e->nstate++ : e->nstate - 1;
-        e->running |= !strcmp(name, "RUNNING");
-        if (e->running)
-            part->state = DECK_BEHIND_STATES;
-        if (strcmp(name, "INCLUDE") != 0)
+        struct deck_part part = {.text = text, .file = file, .length = (size_t)(end - text)};
+        read_part(e, &part);
+        part.include = deck_edit_is(&part, "INCLUDE");
+        e->nstate += deck_edit_is(&part, "STATE");
+        e->running |= deck_edit_is(&part, "RUNNING");
+        part.state = e->running ? DECK_BEHIND_STATES : e->nstate - 1;
+        int at = e->npart;
+        if (add_part(e, &part))
+            return;
+        if (!part.include || depth < 0)
             continue;
-        part->include = 1;
-        if (depth < 0)
-            continue;
-        int at = e->npart - 1;
-        const char *value = deck_edit_option(part, "FILE"), *path = value ? path_from(e, file, value) : NULL,
+        const char *value = deck_edit_option(&part, "FILE"), *path = value ? path_from(e, file, value) : NULL,
                    *inside = depth < DECK_MOST_INCLUDES ? text_of(e, path) : NULL;
         if (inside)
             gather(e, inside, path, depth + 1);
@@ -145,10 +148,12 @@ static const char *around(struct deck_edit *e, const struct deck_part *p, const 
 
 void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *value)
 {
+    struct deck_writer w = {.pool = e->pool};
+    if (e->status)
+        return;
     const struct deck_part *p = &e->part[part];
     const struct card_option *option = card_option(&p->read, name);
     const char *from = text_at(p, option ? option->value_place : p->read.end), *to = option ? text_at(p, option->end) : from;
-    struct deck_writer w = {.pool = e->pool};
     if (!option && value)
         value = pool_format(e->pool, ", %s=%s", name, value);
     else if (option && !value)
@@ -212,49 +217,45 @@ void deck_edit_clear(struct deck_edit *e, int part)
     struct deck_writer w = {.pool = e->pool};
     put_lines(&w, e->part[part].text, e->part[part].length, 2);
     replace(e, part, &w);
-    e->part[part].card = NULL;
-}
-
-/* Where the comments and empty lines begin with which a part ends. */
-static size_t behind_last_line(const struct deck_part *part)
-{
-    const struct card *card = &part->read;
-    int last = card->nline ? card->line[card->nline - 1].place.line : card->end.line;
-    return (size_t)(text_at(part, (struct place){.line = last + 1, .column = 1}) - part->text);
 }
 
 void deck_edit_append(struct deck_edit *e, int part, const char *text)
 {
     const struct deck_part *p = &e->part[part];
-    size_t behind = behind_last_line(p);
     struct deck_writer w = {.pool = e->pool};
-    deck_put(&w, "%.*s%s%.*s", (int)behind, p->text, text ? text : "", (int)(p->length - behind), p->text + behind);
+    deck_put(&w, "%.*s%s%.*s", (int)p->end, p->text, text ? text : "", (int)(p->length - p->end), p->text + p->end);
     replace(e, part, &w);
 }
 
 void deck_edit_insert(struct deck_edit *e, int at, const char *text)
 {
-    if (!text || !*text || !add_part(e))
+    int last = e->npart;
+    struct deck_part *before, part = {.text = text, .length = text ? strlen(text) : 0, .file = e->origin->path, .changed = 1};
+    if (!part.length || add_part(e, &part))
         return;
-    int last = e->npart - 1;
+    before = at ? &e->part[at - 1] : NULL;
+    part.state = before ? before->state : -1;
+    read_part(e, &part);
     memmove(e->part + at + 1, e->part + at, (size_t)(last - at) * sizeof *e->part);
+    e->part[at] = part;
     for (int i = 0; i < at; i++)
         if (e->part[i].include && i + e->part[i].inside >= at) {
             e->part[i].inside++;
             e->part[i].changed = 1;
         }
-    struct deck_part *before = at ? &e->part[at - 1] : NULL, *part = &e->part[at];
-    *part = (struct deck_part){.text = text, .length = strlen(text), .file = e->origin->path, .changed = 1};
-    part->state = before ? before->state : -1;
-    read_part(e, part);
-    if (!before || at == last || before->file != part[1].file || !(before->card || before->include))
+    if (!before || at == last || before->file != e->part[at + 1].file || !*before->read.name)
         return;
-    size_t behind = behind_last_line(before);
     struct deck_writer w = {.pool = e->pool};
-    deck_put(&w, "%s%.*s", text, (int)(before->length - behind), before->text + behind);
-    before->length = behind;
+    deck_put(&w, "%s%.*s", text, (int)(before->length - before->end), before->text + before->end);
+    before->length = before->end;
     before->changed = 1;
     replace(e, at, &w);
+}
+
+int deck_edit_new(struct deck_edit *e, int at, const char *card)
+{
+    deck_edit_insert(e, at, pool_format(e->pool, "*%s\n", card));
+    return at;
 }
 
 /* ------------------------------------------------------------------------------------------------ overrides */
@@ -271,20 +272,18 @@ static void apply(struct deck_edit *e, const struct override *o)
         return;
     }
     for (int i = 0; i < e->npart; i++)
-        if (e->part[i].card && same_text(e->part[i].card->name, o->card)) {
+        if (same_text(e->part[i].read.name, o->card)) {
             deck_edit_set(e, i, o->option, value);
             found = 1;
         }
-    const struct deck_card *card = deck_card_find(o->card);
+    const struct deck_card *card = deck_card_table;
     int at = 0;
     while (at < e->npart && e->part[at].state < 0)
         at++;
-    for (const struct deck_card *k = deck_card_table; k->name && !card; k++)
-        card = same_text(k->name, o->card) ? k : NULL;
-    if (found || !card)
-        return;
-    deck_edit_insert(e, at, pool_format(e->pool, "*%s, %s=%s\n", card->name, o->option, value));
-    e->part[at].card = card;
+    while (card->name && !same_text(card->name, o->card))
+        card++;
+    if (card->name && !found)
+        deck_edit_set(e, deck_edit_new(e, at, card->name), o->option, value);
 }
 
 static int open_to(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin, int depth)
@@ -341,39 +340,39 @@ void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck
         put_lines(w, text, count, with);
 }
 
-/* Whether the parts of an included file are as they were, and all of them or none are wanted. */
-static int is_whole(const struct deck_edit *e, int at, const unsigned *which, unsigned mask)
+/* Whether the parts of an included file are as they were, and all of them are wanted. */
+static int is_whole(const struct deck_edit *e, int at)
 {
     int whole = !e->part[at].changed;
     for (int i = at + 1; i <= at + e->part[at].inside; i++)
-        whole &= !e->part[i].changed && (!which || e->part[i].include || (which[i] & mask) != 0);
+        whole &= !e->part[i].changed && (e->part[i].include || !e->part[i].left_out);
     return whole;
 }
 
 /* Parts [from, to). */
-static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int to, const unsigned *which, unsigned mask)
+static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int to)
 {
-    for (int i = from; i < to && !e->status; i += 1 + (e->part[i].include ? e->part[i].inside : 0)) {
+    for (int i = from; i < to && !e->status; i += 1 + e->part[i].inside) {
         const struct deck_part *part = &e->part[i];
-        int behind = i + 1 + part->inside, any = !which;
-        const char *file = part->include ? deck_edit_option(part, "FILE") : NULL;
-        for (int k = part->include ? i + 1 : i; k < behind && which; k++)
-            any |= !e->part[k].include && (which[k] & mask) != 0;
+        int behind = i + 1 + part->inside, any = !part->left_out && !part->inside;
+        for (int k = i + 1; k < behind; k++)
+            any |= !e->part[k].include && !e->part[k].left_out;
         if (!any)
             continue;
-        if (!part->include || is_whole(e, i, which, mask)) {
+        if (!part->include || is_whole(e, i)) {
             deck_edit_put(e, w, part, 3);
             continue;
         }
-        deck_put(w, "** the cards of %s, which is not included as some of them change or stand elsewhere\n", file ? file : "");
-        put_parts(e, w, i + 1, behind, which, mask);
-        if (!which || mask & 1)
+        deck_put(w, "** the cards of %s, which is not included as some of them change or stand elsewhere\n",
+                 deck_edit_option(part, "FILE"));
+        put_parts(e, w, i + 1, behind);
+        if (!part->left_out)
             deck_edit_put(e, w, part, 2);
     }
 }
 
-void deck_edit_text(struct deck_edit *e, struct deck_writer *w, const unsigned *which, unsigned mask)
+void deck_edit_text(struct deck_edit *e, struct deck_writer *w)
 {
-    put_parts(e, w, 0, e->npart, which, mask);
+    put_parts(e, w, 0, e->npart);
     e->status = e->status ? e->status : w->status;
 }

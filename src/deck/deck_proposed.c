@@ -152,7 +152,7 @@ enum { COMMON = 1, MEASURED = 2, RUNNING = 4 };
 
 static int is_called(const struct deck_part *part, const char *name)
 {
-    const char *own = part->card && !strcmp(part->card->name, "STATE") ? deck_edit_option(part, "NAME") : NULL;
+    const char *own = deck_edit_is(part, "STATE") ? deck_edit_option(part, "NAME") : NULL;
     return own && same_text(own, name);
 }
 
@@ -162,11 +162,11 @@ static void put_cards_of(struct deck_edit *e, struct deck_writer *w, const char 
     int inside = 0;
     for (int i = 0; i < e->npart; i++) {
         const struct deck_part *part = &e->part[i];
-        const char *card = part->card ? part->card->name : "";
-        if (!strcmp(card, "STATE"))
+        const struct deck_card *card = deck_card_find(part->read.name);
+        if (deck_edit_is(part, "STATE"))
             inside = is_called(part, name);
-        else if (inside && part->card && part->card->states != CARD_OF_STATE && strcmp(card, "NOISE") != 0 &&
-                 strcmp(card, "SENSORS") != 0)
+        else if (inside && card && card->states != CARD_OF_STATE && !deck_edit_is(part, "NOISE") &&
+                 !deck_edit_is(part, "SENSORS"))
             deck_edit_put(e, w, part, 1);
     }
 }
@@ -190,16 +190,26 @@ static const char *take_modes(struct deck_edit *e, const char *option)
     const char *list = NULL;
     for (int i = 0; i < e->npart && !e->status; i++) {
         const struct deck_part *part = &e->part[i];
-        const char *value = part->card && !strcmp(part->card->name, "FIT") ? deck_edit_option(part, option) : NULL;
+        const char *value = deck_edit_is(part, "FIT") ? deck_edit_option(part, option) : NULL;
         if (!value || !isdigit((unsigned char)*value))
             continue;
         list = value;
         deck_edit_set(e, i, option, NULL);
     }
     for (int i = 0; i < e->npart && list && !e->status; i++)
-        if (e->part[i].card && !strcmp(e->part[i].card->name, "STATE") && !deck_edit_option(&e->part[i], option))
+        if (deck_edit_is(&e->part[i], "STATE") && !deck_edit_option(&e->part[i], option))
             deck_edit_set(e, i, option, list);
     return list;
+}
+
+static void put_parts(struct deck_edit *e, struct deck_writer *w, unsigned wanted)
+{
+    for (int i = 0; i < e->npart; i++) {
+        const struct deck_card *kind = deck_card_find(e->part[i].read.name);
+        int running = e->part[i].state == DECK_BEHIND_STATES, measured = kind && kind->states == CARD_OF_STATE;
+        e->part[i].left_out = !(wanted & (running ? RUNNING : measured ? MEASURED : COMMON));
+    }
+    deck_edit_text(e, w);
 }
 
 int deck_add_state(struct pool *pool, const struct deck_origin *origin, const char *home, const char *state, char **text)
@@ -209,30 +219,23 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
     struct deck_writer w = {.pool = pool};
     *text = NULL;
     int status = deck_edit_open(&e, pool, origin);
-    unsigned *which = POOL_ARRAY(pool, unsigned, e.npart);
     const char *card = strstr(state, begin), *name = card ? card + sizeof begin - 1 : "", *rest = name + strcspn(name, "\n");
     name = pool_format(pool, "%.*s", (int)(rest - name), name);
     name = name ? free_name(&e, name) : NULL;
     const char *modes = status ? NULL : take_modes(&e, "MODES"), *holdout = status ? NULL : take_modes(&e, "HOLDOUT");
-    if (status || !card || !name || !which)
+    if (status || !card || !name)
         return status ? status : card ? ROTID_ERROR_MEMORY : ROTID_ERROR_ARGUMENT;
-    for (int i = 0; i < e.npart; i++)
-        which[i] = e.part[i].state == DECK_BEHIND_STATES                       ? RUNNING
-                   : e.part[i].card && e.part[i].card->states == CARD_OF_STATE ? MEASURED
-                                                                               : COMMON;
-    if (e.nstate) {
-        deck_edit_text(&e, &w, which, COMMON | MEASURED);
-    } else {
-        deck_edit_text(&e, &w, which, COMMON);
+    put_parts(&e, &w, e.nstate ? COMMON | MEASURED : COMMON);
+    if (!e.nstate) {
         deck_put(&w, "*STATE, NAME=measured%s%s%s%s\n", modes ? ", MODES=" : "", modes ? modes : "", holdout ? ", HOLDOUT=" : "",
                  holdout ? holdout : "");
-        deck_edit_text(&e, &w, which, MEASURED);
+        put_parts(&e, &w, MEASURED);
     }
     deck_put(&w, "%.*s%s%s\n", (int)(card - state), state, begin, name);
     if (e.nstate && home)
         put_cards_of(&e, &w, home);
     deck_put(&w, "%s", rest + (*rest == '\n'));
-    deck_edit_text(&e, &w, which, RUNNING);
+    put_parts(&e, &w, RUNNING);
     status = e.status ? e.status : w.status;
     *text = status ? NULL : w.text;
     return status;

@@ -11,7 +11,7 @@
 
 /* Which column of a table holds what: by the names in its first row, or, where that begins with a number, by their order. */
 
-#define TABLE_MOST_VALUES 8
+#define TABLE_MOST_VALUES 8 /* with keys */
 
 struct csv_column {
     const char *names; /* in lower case, separated by bars; the first is that of messages */
@@ -23,8 +23,8 @@ struct csv_column {
 struct table_kind {
     const char *card;
     int by_mode; /* it has a card for each mode: the table may hold a value for each mode and sensor */
-    struct csv_column value[TABLE_MOST_VALUES]; /* of a data line, in its order; ended by one without names */
-    struct csv_column key[3];                   /* what else a row says; ended by one without names */
+    int nkey;    /* the first columns say what a row is of; the others are the values of a data line, in its order */
+    struct csv_column column[TABLE_MOST_VALUES + 1]; /* ended by one without names */
 };
 
 /* A column called "mode 3", "3", "sensor 7", "mode 3 std". */
@@ -34,45 +34,37 @@ struct table_numbered {
 };
 
 struct table_columns {
-    int header;                   /* the first row names the columns */
-    int value[TABLE_MOST_VALUES]; /* index of a column, -1: there is none */
-    int key[3];
-    double in_si[TABLE_MOST_VALUES]; /* of a unit in the header, 0: none there */
+    int header;                          /* the first row names the columns */
+    int at[TABLE_MOST_VALUES + 1];       /* index of a column, -1: there is none */
+    double in_si[TABLE_MOST_VALUES + 1]; /* of a unit in the header, 0: none there */
 };
-
-#define NOTHING                                                                                                                  \
-    {                                                                                                                            \
-        NULL, NULL, 0                                                                                                            \
-    }
 
 /* clang-format off */
 static const struct table_kind table_kinds[] = { /* ended by one without card */
-    {"MODES", 0,
+    {"MODES", 0, 0,
      {{"mode|mode number|number|no", NULL, 0},
       {"frequency|f|freq|natural frequency|eigenfrequency", "Hz", 0},
       {"damping|damping ratio|zeta", "1", 1},
-      {"std|standard deviation|frequency std|std frequency|sigma", "Hz", 1}, NOTHING}, {NOTHING}},
-    {"SENSORS", 0,
-     {{"sensor|sensor id|point|node|id", NULL, 0}, {"position|z", "m", 0}, NOTHING}, {NOTHING}},
-    {"SHAPE", 1,
-     {{"sensor|sensor id|point|node|id", NULL, 0}, {"value|component|shape", NULL, 0},
-      {"std|standard deviation|sigma", NULL, 1}, NOTHING},
-     {{"mode|mode number|number|no", NULL, 0}, NOTHING}},
-    {"FREQUENCIES", 1,
-     {{"sensor|sensor id|point|node|id", NULL, 0}, {"frequency|f|freq|value", "Hz", 0},
-      {"std|standard deviation|sigma|frequency std", "Hz", 1}, NOTHING},
-     {{"mode|mode number|number|no", NULL, 0}, NOTHING}},
-    {"SHAFT", 0,
-     {{"length|l", "m", 0},
+      {"std|standard deviation|frequency std|std frequency|sigma", "Hz", 1}}},
+    {"SENSORS", 0, 0, {{"sensor|sensor id|point|node|id", NULL, 0}, {"position|z", "m", 0}}},
+    {"SHAPE", 1, 1,
+     {{"mode|mode number|number|no", NULL, 0},
+      {"sensor|sensor id|point|node|id", NULL, 0}, {"value|component|shape", NULL, 0}, {"std|standard deviation|sigma", NULL, 1}}},
+    {"FREQUENCIES", 1, 1,
+     {{"mode|mode number|number|no", NULL, 0},
+      {"sensor|sensor id|point|node|id", NULL, 0}, {"frequency|f|freq|value", "Hz", 0},
+      {"std|standard deviation|sigma|frequency std", "Hz", 1}}},
+    {"SHAFT", 0, 2,
+     {{"group|name|section", NULL, 1}, {"material", NULL, 1},
+      {"length|l", "m", 0},
       {"outer diameter|outer|od|diameter|d", "m", 0},
       {"inner diameter|inner|id|bore|bore diameter", "m", 1},
       {"elements|number of elements", NULL, 1},
-      {"stiffness diameter|stiff outer diameter|stiffness outer diameter", "m", 1}, NOTHING},
-     {{"group|name|section", NULL, 1}, {"material", NULL, 1}, NOTHING}},
-    {"BEAM", 0,
-     {{"length|l", "m", 0}, {"height|h", "m", 0}, {"width|b|w", "m", 0}, {"elements|number of elements", NULL, 1}, NOTHING},
-     {{"group|name|section", NULL, 1}, {"material", NULL, 1}, NOTHING}},
-    {NULL, 0, {NOTHING}, {NOTHING}}};
+      {"stiffness diameter|stiff outer diameter|stiffness outer diameter", "m", 1}}},
+    {"BEAM", 0, 2,
+     {{"group|name|section", NULL, 1}, {"material", NULL, 1},
+      {"length|l", "m", 0}, {"height|h", "m", 0}, {"width|b|w", "m", 0}, {"elements|number of elements", NULL, 1}}},
+    {.card = NULL}};
 /* clang-format on */
 
 static const struct table_kind *table_kind_of(const char *card)
@@ -169,14 +161,10 @@ static int is_known(const char *name)
     static const struct csv_column written = {"condensed|reduction|mesh|measured|error|nco|x|y", NULL, 0};
     char unit[TABLE_CELL_LENGTH];
     struct table_numbered numbered;
-    for (const struct table_kind *kind = table_kinds; kind->card; kind++) {
-        for (const struct csv_column *c = kind->value; c->names; c++)
+    for (const struct table_kind *kind = table_kinds; kind->card; kind++)
+        for (const struct csv_column *c = kind->column; c->names; c++)
             if (table_names(name, c, unit))
                 return 1;
-        for (const struct csv_column *c = kind->key; c->names; c++)
-            if (table_names(name, c, unit))
-                return 1;
-    }
     return table_names(name, &written, unit) || table_numbers(name, &numbered);
 }
 
@@ -207,10 +195,8 @@ static int find_column(struct deck_reader *reader, const struct data_line *heade
 static void list_names(const struct table_kind *kind, int length, char *list)
 {
     *list = 0;
-    for (const struct csv_column *c = kind->key; c->names; c++)
-        (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%.*s, ", (int)strcspn(c->names, "|"), c->names);
-    for (const struct csv_column *c = kind->value; c->names; c++)
-        (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%s%.*s", c == kind->value ? "" : ", ",
+    for (const struct csv_column *c = kind->column; c->names; c++)
+        (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%s%.*s", *list ? ", " : "",
                        (int)strcspn(c->names, "|"), c->names);
 }
 
@@ -223,19 +209,15 @@ static int table_find_columns(struct deck_reader *reader, const struct table_tex
     char list[256];
     *columns = (struct table_columns){.header = table_has_header(table)};
     list_names(kind, sizeof list, list);
-    for (int k = 0; kind->key[k].names; k++) {
-        double none; /* no key has a unit */
-        columns->key[k] = columns->header ? find_column(reader, header, &kind->key[k], &none) : -1;
-        if (columns->key[k] == -2)
+    for (int k = 0; kind->column[k].names; k++) {
+        const struct csv_column *c = &kind->column[k];
+        int value = k - kind->nkey, *at = &columns->at[k];
+        *at = columns->header ? find_column(reader, header, c, &columns->in_si[k]) : value < 0 ? -1 : value;
+        if (*at == -2)
             return 1;
-    }
-    for (int v = 0; kind->value[v].names; v++) {
-        columns->value[v] = columns->header ? find_column(reader, header, &kind->value[v], &columns->in_si[v]) : v;
-        if (columns->value[v] == -2)
-            return 1;
-        if (values && columns->value[v] < 0 && !kind->value[v].may_lack)
+        if (values && *at < 0 && value >= 0 && !c->may_lack)
             return deck_error(reader, header->place, "the first row names no column '%.*s', expected names such as %s",
-                              (int)strcspn(kind->value[v].names, "|"), kind->value[v].names, list);
+                              (int)strcspn(c->names, "|"), c->names, list);
     }
     char unread[256] = "";
     int first = -1;
@@ -356,10 +338,10 @@ static int may_take(struct taking *t)
 /* The values of a row in the order of a data line. */
 static int values_of(const struct taking *t, const struct data_line *row, struct field *field)
 {
-    int count = 0, filled = 0;
-    for (; t->kind->value[count].names; count++) {
-        field[count] = cell_of(row, t->columns.value[count]);
-        field[count].in_si = t->columns.in_si[count];
+    int count = 0, filled = 0, first = t->kind->nkey;
+    for (; t->kind->column[first + count].names; count++) {
+        field[count] = cell_of(row, t->columns.at[first + count]);
+        field[count].in_si = t->columns.in_si[first + count];
         filled = *field[count].text ? count + 1 : filled;
     }
     for (int i = count; i < row->count && !t->columns.header; i++) /* without names all of them are values */
@@ -407,17 +389,17 @@ static void take_sections(struct taking *t)
     struct deck_reader *reader = t->reader;
     const struct card_option *named = card_option(t->card, "NAME");
     const char *group = NULL, *material = NULL;
-    if (t->columns.key[0] < 0 && t->columns.key[1] < 0) {
+    if (t->columns.at[0] < 0 && t->columns.at[1] < 0) {
         take_rows(t);
         return;
     }
-    if (named && t->columns.key[0] >= 0) {
+    if (named && t->columns.at[0] >= 0) {
         deck_error(reader, named->place, "*%s has a NAME and its table a column of groups, expected one of them", t->card->name);
         return;
     }
     for (int r = 1; r < t->table->nrow && !reader->pool->out_of_memory && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
-        struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]),
+        struct field name = cell_of(row, t->columns.at[0]), of = cell_of(row, t->columns.at[1]),
                      field[TABLE_MOST_VALUES] = {{.text = ""}};
         int count = values_of(t, row, field), is_new = !group || (*name.text && !same_text(name.text, group));
         if (is_new && named)
@@ -494,7 +476,7 @@ static const double *modes_of_rows(struct taking *t)
         return table->number;
     table->number = POOL_ARRAY(t->reader->pool, double, table->nrow);
     for (int r = 1; r < table->nrow && table->number; r++) {
-        const char *text = cell_of(&table->row[r], t->columns.key[0]).text;
+        const char *text = cell_of(&table->row[r], t->columns.at[0]).text;
         table->number[r] = table_is_number(text) ? strtod(text, NULL) : (double)NAN;
     }
     return table->number;
@@ -505,14 +487,14 @@ static void take_triples(struct taking *t)
 {
     const struct card_option *asked = card_option(t->card, "MODE");
     struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
-    const double *number = t->columns.key[0] >= 0 && !isnan(t->asked) ? modes_of_rows(t) : NULL;
+    const double *number = t->columns.at[0] >= 0 && !isnan(t->asked) ? modes_of_rows(t) : NULL;
     for (int r = 1; r < t->table->nrow && !t->reader->pool->out_of_memory && !t->table->bad; r++) {
         if (number && !isnan(number[r]) && number[r] != t->asked)
             continue;
         if (!may_take(t))
             return;
         const struct data_line *row = &t->table->row[r];
-        struct field field[TABLE_MOST_VALUES], mode = t->columns.key[0] >= 0 ? cell_of(row, t->columns.key[0]) : only;
+        struct field field[TABLE_MOST_VALUES], mode = t->columns.at[0] >= 0 ? cell_of(row, t->columns.at[0]) : only;
         int count = values_of(t, row, field);
         if (count > 1)
             take_value(t, row, &mode, &field[0], &field[1], &field[2]);
@@ -524,7 +506,7 @@ static void take_column(struct taking *t, int of_rows, int of_modes, int column,
 {
     struct deck_reader *reader = t->reader;
     const struct field *name = &t->table->row[0].field[column];
-    const struct csv_column plain = {"", t->kind->value[1].si, 0};
+    const struct csv_column plain = {"", t->kind->column[2].si, 0};
     char unit[TABLE_CELL_LENGTH];
     double in_si = 0;
     (void)table_names(name->text, &plain, unit);
@@ -567,7 +549,7 @@ static void take_matrix(struct taking *t, int of_rows, int of_modes)
 static void take_shapes(struct taking *t)
 {
     const struct table_columns *c = &t->columns;
-    const int *sensor = &c->value[0], *value = &c->value[1], *mode = &c->key[0];
+    const int *mode = &c->at[0], *sensor = &c->at[1], *value = &c->at[2];
     struct deck_reader *reader = t->reader;
     if (!c->header && card_option(t->card, "MODE"))
         take_rows(t);
@@ -599,7 +581,7 @@ static void take_table(struct deck_reader *reader, const struct card *card, cons
         return;
     if (kind->by_mode)
         take_shapes(&t);
-    else if (kind->key[0].names)
+    else if (kind->nkey)
         take_sections(&t);
     else
         take_rows(&t);

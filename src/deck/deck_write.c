@@ -162,17 +162,12 @@ static int is_in(const struct writing *w, const struct deck_part *part, int s)
     return part->state == -1 || part->state == w->of[s];
 }
 
-static int is_card(const struct deck_part *part, const char *name)
-{
-    return part->card && !strcmp(part->card->name, name);
-}
-
 static void find_states(struct writing *w)
 {
     for (int s = 0; s < w->meant.nstate; s++) {
         w->of[s] = -1;
         for (int i = 0; i < w->edit.npart && w->meant.state[s].name; i++) {
-            const char *name = is_card(&w->edit.part[i], "STATE") ? deck_edit_option(&w->edit.part[i], "NAME") : NULL;
+            const char *name = deck_edit_is(&w->edit.part[i], "STATE") ? deck_edit_option(&w->edit.part[i], "NAME") : NULL;
             if (name && same_text(name, w->meant.state[s].name))
                 w->of[s] = w->edit.part[i].state;
         }
@@ -257,7 +252,7 @@ static void edit_unknown(struct deck_line_edit *edit, void *context)
 /* A suspect that was named: it stands among the causes of the model, which come last. */
 static int is_named_suspect(struct writing *w, const struct deck_part *part)
 {
-    const char *name = is_card(part, "CAUSE") ? deck_edit_option(part, "NAME") : NULL;
+    const char *name = deck_edit_is(part, "CAUSE") ? deck_edit_option(part, "NAME") : NULL;
     for (int s = 0; s < w->given->nstate && name; s++) {
         int was = 0, is = 0;
         for (int i = 0; i < w->given->state[s].job.unknowns.nsuspect; i++)
@@ -274,7 +269,7 @@ static void edit_searched(struct writing *w)
 {
     for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
         struct in_part in = {.w = w, .part = &w->edit.part[i]};
-        if (is_card(in.part, "IDENTIFY"))
+        if (deck_edit_is(in.part, "IDENTIFY"))
             deck_edit_lines(&w->edit, i, edit_unknown, &in);
         else if (is_named_suspect(w, in.part))
             deck_edit_clear(&w->edit, i);
@@ -286,27 +281,22 @@ static void edit_searched(struct writing *w)
 static int find_card(const struct writing *w, const char *name, int state)
 {
     for (int i = 0; i < w->edit.npart; i++)
-        if (is_card(&w->edit.part[i], name) && w->edit.part[i].state == state)
+        if (deck_edit_is(&w->edit.part[i], name) && w->edit.part[i].state == state)
             return i;
     return -1;
 }
 
-/* *FIT, which is made where there is none. */
-static int fit_card(struct writing *w)
+/* The card, which is made where there is none. */
+static int card_at(struct writing *w, const char *name, int state)
 {
-    int at = find_card(w, "FIT", -1);
-    if (at < 0 && !w->edit.status) {
-        at = end_of(w, -1);
-        deck_edit_insert(&w->edit, at, "*FIT\n");
-        w->edit.part[at].card = deck_card_find("FIT");
-    }
-    return at;
+    int at = find_card(w, name, state);
+    return at >= 0 || w->edit.status ? at : deck_edit_new(&w->edit, end_of(w, state), name);
 }
 
 static void edit_fit(struct writing *w)
 {
     const struct job_options *options = &w->meant.state->job.options;
-    int at = fit_card(w);
+    int at = card_at(w, "FIT", -1);
     if (w->edit.status)
         return;
     if (options->fit.functional >= 0)
@@ -343,7 +333,7 @@ static int is_held_out(const struct job *job)
 /* The modes that are held out: on *FIT, of states on the card of each, *FIT has those that are held out as a whole. */
 static void edit_holdout(struct writing *w)
 {
-    int fit = fit_card(w);
+    int fit = card_at(w, "FIT", -1);
     struct deck_writer whole = {.pool = w->pool};
     for (int s = 0; s < w->meant.nstate && !w->edit.status; s++) {
         struct deck_writer modes = writer_of(w, s);
@@ -405,7 +395,7 @@ static void write_sections(struct writing *w, int at, int s, int first, int last
 {
     const struct rotor *rotor = &w->meant.state[s].job.rotor;
     struct deck_writer lines = writer_of(w, s);
-    const char *card = is_card(&w->edit.part[at], "BEAM") ? "BEAM" : "SHAFT";
+    const char *card = deck_edit_is(&w->edit.part[at], "BEAM") ? "BEAM" : "SHAFT";
     for (int g = first; g <= last; g++) {
         if (g > first)
             deck_put(&lines, "*%s, NAME=%s, MATERIAL=%s\n", card, rotor->group[g].name, rotor->group[g].material.name);
@@ -426,7 +416,7 @@ static int last_unnamed(struct writing *w, const struct rotor *rotor, int first)
     int last = first;
     for (; last < rotor_axis_groups(rotor); last++)
         for (int i = 0; i < w->edit.npart; i++)
-            if ((is_card(&w->edit.part[i], "SHAFT") || is_card(&w->edit.part[i], "BEAM")) &&
+            if ((deck_edit_is(&w->edit.part[i], "SHAFT") || deck_edit_is(&w->edit.part[i], "BEAM")) &&
                 group_of(rotor, deck_edit_option(&w->edit.part[i], "NAME")) == last)
                 return last - 1;
     return last - 1;
@@ -437,7 +427,7 @@ static void edit_elements(struct writing *w)
     for (int i = 0, before = -1; i < w->edit.npart && !w->edit.status; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
-        if (!is_card(part, "SHAFT") && !is_card(part, "BEAM"))
+        if (!deck_edit_is(part, "SHAFT") && !deck_edit_is(part, "BEAM"))
             continue;
         while (in.s < w->meant.nstate && !is_in(w, part, in.s))
             in.s++;
@@ -480,18 +470,13 @@ static void edit_noise(struct writing *w, int s)
 {
     double frequency, shape;
     deck_noise_of_all(&w->meant.state[s].job, &frequency, &shape);
-    int state = w->meant.nstate > 1 && shares_noise(w) ? -1 : w->of[s], at = find_card(w, "NOISE", state);
     char text[DECK_NUMBER_LENGTH];
     if (!isfinite(frequency) && !isfinite(shape))
         return;
-    if (at < 0) {
-        at = end_of(w, state);
-        deck_edit_insert(&w->edit, at, "*NOISE\n");
-        w->edit.part[at].card = deck_card_find("NOISE");
-    }
-    if (isfinite(frequency) && !w->edit.status)
+    int at = card_at(w, "NOISE", w->meant.nstate > 1 && shares_noise(w) ? -1 : w->of[s]);
+    if (isfinite(frequency))
         deck_edit_set(&w->edit, at, "FREQUENCY", deck_number_text(frequency, text));
-    if (isfinite(shape) && !w->edit.status)
+    if (isfinite(shape))
         deck_edit_set(&w->edit, at, "SHAPE", deck_number_text(shape, text));
 }
 
@@ -500,13 +485,13 @@ static void edit_data(struct writing *w, int s)
     static const char *const names[] = {"MODES", "SHAPE", "FREQUENCIES", "MEASURED", "NOISE", "SENSORS"};
     int first = -1, sensors = (w->todo[s] & DECK_OTHER_SENSORS) != 0, stated = 0, file = 0;
     for (int i = 0; i < w->edit.npart; i++) {
-        stated |= is_card(&w->edit.part[i], "SENSORS") && is_in(w, &w->edit.part[i], s);
-        file |= is_card(&w->edit.part[i], "MEASURED") && is_in(w, &w->edit.part[i], s);
+        stated |= deck_edit_is(&w->edit.part[i], "SENSORS") && is_in(w, &w->edit.part[i], s);
+        file |= deck_edit_is(&w->edit.part[i], "MEASURED") && is_in(w, &w->edit.part[i], s);
     }
     sensors |= file && !stated;
     for (int i = w->edit.npart - 1; i >= 0; i--)
         for (int k = 0; k < 5 + sensors; k++)
-            if (is_card(&w->edit.part[i], names[k]) && w->edit.part[i].state == w->of[s]) {
+            if (deck_edit_is(&w->edit.part[i], names[k]) && w->edit.part[i].state == w->of[s]) {
                 deck_edit_clear(&w->edit, i);
                 first = i;
             }
@@ -543,7 +528,7 @@ static void split_list(struct deck_line_edit *edit, void *context)
 {
     const struct in_part *in = context;
     const struct rotor *meant = &in->w->meant.state[in->s].job.rotor, *given = &in->w->given->state[in->s].job.rotor;
-    const char *card = in->part->card->name;
+    const char *card = in->part->read.name;
     int at = in->first + edit->number;
     const char *name = name_of_part(given, card, at) ? NULL : name_of_part(meant, card, at);
     if (edit->number && name)
@@ -561,7 +546,7 @@ static void edit_names(struct writing *w, int s, const char *card)
         for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
             struct in_part in = {.w = w, .part = &w->edit.part[i], .s = s, .first = next};
             int lines = in.part->read.nline, any = 0;
-            if (!is_card(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
+            if (!deck_edit_is(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
                 continue;
             for (int k = next; k < next + lines; k++)
                 any |= name_of_part(meant, card, k) && !name_of_part(given, card, k);
@@ -610,7 +595,7 @@ static void add_heading(struct writing *w)
     } else if (at >= 0) {
         deck_edit_append(&w->edit, at, lines.text);
     } else {
-        while (first < w->edit.npart && !w->edit.part[first].card && !w->edit.part[first].include)
+        while (first < w->edit.npart && !*w->edit.part[first].read.name)
             first++;
         deck_edit_insert(&w->edit, first, pool_format(w->pool, "*HEADING\n%s", lines.text));
     }
@@ -677,7 +662,7 @@ static int compose(struct writing *w, char **text)
     if (any & DECK_OTHER_HOLDOUT)
         edit_holdout(w);
     add_heading(w);
-    deck_edit_text(&w->edit, &out, NULL, 0);
+    deck_edit_text(&w->edit, &out);
     if (!w->edit.status)
         finish(w, w->given->state->job.origin->file[w->given->state->job.origin->nfile - 1].text, &out);
     *text = out.text;
