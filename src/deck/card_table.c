@@ -106,12 +106,12 @@ static const struct deck_row centre[] = {
     {ABOVE_0(struct weighed, centre_std, "standard deviation of it [m]")},
     LAST};
 static const struct deck_row fit[] = {
-    {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functional_words), OPTIONAL, .standard = -1},
-    {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
+    {.option = "FUNCTIONAL", WORD(struct job_options, fit.functional, functional_words), OPTIONAL, .standard = -1},
+    {.option = "REDUCTION", WORD(struct job_options, fit.reduction, reduction_words), OPTIONAL},
     OPTION("MODES"), OPTION("HOLDOUT"), OPTION("STATE"),
-    {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivative_words), OPTIONAL},
+    {.option = "DERIVATIVE", WORD(struct job_options, fit.derivative, derivative_words), OPTIONAL},
     OTHER("TIE", .words = ties, .standard = -1),
-    OTHER("MODEL", .words = discretisations),
+    {.option = "MODEL", WORD(struct job_options, solid, discretisations)},
     LAST};
 static const struct deck_row frf[] = {
     OPTION("FILE"),

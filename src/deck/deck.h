@@ -286,8 +286,8 @@ const struct data_line *deck_only_line(struct deck_reader *reader, const struct 
 /* deck_text_path of an option of this deck. NULL after an error or where memory is out. */
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
 
-/* Index of a material, -1 where there is none of that name. */
-int deck_find_material(const struct deck_reader *reader, const char *name);
+/* Index of the material of that name, -1 after an error. */
+int deck_named_material(struct deck_reader *reader, const char *name, struct place place);
 
 /* Index of the first `count` groups that is called so [length], -1 where there is none. */
 int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length);
@@ -322,11 +322,16 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
 
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);
-/* Whether HOLDOUT=RUNUP, ... holds out the measured critical speeds; *rest goes on behind that. */
-int deck_whole_runup(const char **rest);
-/* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
- * where the value is a list of modes. */
-const char *deck_whole_state(struct deck_reader *reader, const char **rest);
+/* What HOLDOUT=RUNUP, STATE:a, ... or HOLDOUT=RUNUP, 1-4 holds out: the measured critical speeds, states, a list of modes. The
+ * option may be NULL. */
+struct deck_holdout {
+    int runup, nstate;
+    const char **state, *modes;
+};
+void deck_read_holdout(struct pool *pool, const struct card_option *option, struct deck_holdout *holdout);
+
+/* Where a parameter can lie. */
+void deck_range_of(const struct rotor *rotor, const struct parameter *parameter, double *lower, double *upper);
 
 /* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
  * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
@@ -419,9 +424,12 @@ void deck_put_option(struct deck_writer *w, const char *name, const char *value)
 void deck_put_option_number(struct deck_writer *w, const char *name, double value, const char *what);
 
 /* Cards of w->job. *MODES, *SHAPE, *FREQUENCIES and, where all modes have one noise, *NOISE, as they were read; with_sensors:
- * *SENSORS before. The faults of the data from `first` on; a cause or suspect (fixed: which of its parameters are given); the
- * line of unknown p in *IDENTIFY under this name; HOLDOUT= of the modes that are held out, "" where none is. */
+ * *SENSORS before; the two alone (NaN: without). The faults of the data from `first` on; a cause or suspect (fixed: which of its
+ * parameters are given); the line of unknown p in *IDENTIFY under this name; HOLDOUT= of the modes that are held out, "" where
+ * none is. */
 void deck_put_measured(struct deck_writer *w, int with_sensors);
+void deck_put_sensors(struct deck_writer *w, int count, const struct sensor *sensor);
+void deck_put_noise(struct deck_writer *w, double frequency, double shape);
 void deck_put_corrections(struct deck_writer *w, int first);
 void deck_put_cause(struct deck_writer *w, const struct effect *effect, const int *fixed);
 void deck_put_unknown(struct deck_writer *w, int p, const char *name);

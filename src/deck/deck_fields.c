@@ -243,10 +243,12 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
     return 0;
 }
 
+/* The value of an option as a field. */
+#define FIELD_OF(option) ((struct field){(option)->value, (option)->value_place, 0})
+
 int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z)
 {
-    const struct field field = {option->value, option->value_place, 0};
-    return deck_position(reader, &field, what, z);
+    return deck_position(reader, &FIELD_OF(option), what, z);
 }
 
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected)
@@ -267,8 +269,7 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
                        double *value)
 {
-    const struct field field = {option->value, option->value_place, 0};
-    int bad = parse_number(reader, &field, option->name, range, value);
+    int bad = parse_number(reader, &FIELD_OF(option), option->name, range, value);
     if (!bad)
         *value *= deck_in_si(reader, unit);
     return bad;
@@ -291,8 +292,7 @@ static int parse_word(struct deck_reader *reader, const struct field *field, con
 
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
 {
-    const struct field field = {option->value, option->value_place, 0};
-    return parse_word(reader, &field, option->name, "=", words);
+    return parse_word(reader, &FIELD_OF(option), option->name, "=", words);
 }
 
 void deck_units(struct deck_reader *reader, const struct card *card)
@@ -330,9 +330,9 @@ int deck_row_is_last(const struct deck_row *row)
 
 static int read_material(struct deck_reader *reader, const struct field *field, struct material *material)
 {
-    int index = deck_find_material(reader, field->text);
+    int index = deck_named_material(reader, field->text, field->place);
     if (index < 0)
-        return deck_error(reader, field->place, "material %s is not defined, expected the name of a *MATERIAL", field->text);
+        return 1;
     if (reader->material[index].laminated)
         return deck_error(reader, field->place,
                           "material %s is a stack of sheets across the axis, expected one that rods are made of", field->text);
@@ -381,8 +381,7 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
         return 0;
     if (!option || (is_text && !may_lack && !*option->value))
         return !deck_option(reader, card, row->option, row->kind == ROW_GROUP ? group_name : row->what);
-    const struct field field = {option->value, option->value_place, 0};
-    return read_member(reader, &field, option->name, row, member);
+    return read_member(reader, &FIELD_OF(option), option->name, row, member);
 }
 
 int deck_read_options(struct deck_reader *reader, const struct card *card, void *to)

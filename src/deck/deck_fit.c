@@ -9,19 +9,26 @@
 #include <strings.h>
 #include <unistd.h>
 
-/* Below zero is physical for some parameters of causes: each states its own range. */
-static void check_effect_bounds(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,
-                                rotid_parameter *bounds)
+void deck_range_of(const struct rotor *rotor, const struct parameter *parameter, double *lower, double *upper)
 {
-    const struct rotor *rotor = &reader->job->rotor;
-    const struct effect *effect = &rotor->effect[parameter->index];
-    const struct cause_kind *cause = catalogue_of(effect);
+    const struct effect *effect = parameter->kind == PARAMETER_EFFECT ? &rotor->effect[parameter->index] : NULL;
+    const struct cause_kind *cause = effect ? catalogue_of(effect) : NULL;
+    *lower = parameter->kind == PARAMETER_TENSION ? -INFINITY : parameter->kind == PARAMETER_NU ? -1 : 0;
+    *upper = parameter->kind == PARAMETER_NU ? 0.5 : INFINITY;
+    if (cause)
+        cause_reach(cause, rotor, effect, parameter->component, lower, upper);
+}
+
+static void check_range(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,
+                        rotid_parameter *bounds)
+{
     double lower, upper, si = deck_in_si(reader, bounds->unit ? bounds->unit : "");
-    if (!cause)
-        return;
-    cause_reach(cause, rotor, effect, parameter->component, &lower, &upper);
+    deck_range_of(&reader->job->rotor, parameter, &lower, &upper);
     int is_low = !deck_clip(lower, upper, &bounds->lower);
-    if (is_low || !deck_clip(lower, upper, &bounds->upper))
+    if (is_low && lower == 0 && isinf(upper))
+        deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds->name,
+                   line->field[1].text);
+    else if (is_low || !deck_clip(lower, upper, &bounds->upper))
         deck_error(reader, line->field[is_low ? 1 : 2].place, "the bounds of %s are %s and %s, expected them inside %.6g to %.6g",
                    bounds->name, line->field[1].text, line->field[2].text, lower / si, upper / si);
 }
@@ -119,14 +126,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         else if (bounds.start == 0)
             deck_error(reader, line->field[3].place,
                        "the start of %s is zero, expected another value: it is the scale of the parameter", bounds.name);
-        else if (parameter.kind == PARAMETER_EFFECT)
-            check_effect_bounds(reader, line, &parameter, &bounds);
-        else if (bounds.lower < 0 && parameter.kind != PARAMETER_TENSION && parameter.kind != PARAMETER_NU)
-            deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds.name,
-                       line->field[1].text);
-        else if (parameter.kind == PARAMETER_NU && (bounds.lower < -1 || bounds.upper > 0.5))
-            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5",
-                       bounds.name, line->field[1].text, line->field[2].text);
+        else
+            check_range(reader, line, &parameter, &bounds);
         for (int p = 0; p < job->unknowns.nparameter; p++)
             if (parameters_overlap(&job->unknowns.parameter[p], &parameter)) {
                 if (!common && p < reader->ncommon_unknown) /* the state has one of its own in place of the common one */
@@ -177,32 +178,22 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
     return missing;
 }
 
-int deck_whole_runup(const char **rest)
+void deck_read_holdout(struct pool *pool, const struct card_option *option, struct deck_holdout *h)
 {
-    static const char word[] = "RUNUP";
-    const char *begin = *rest + strspn(*rest, " "), *end = begin + strlen(word);
-    if (strncasecmp(begin, word, strlen(word)) != 0)
-        return 0;
-    end += strspn(end, " ");
-    if (*end && *end != ',')
-        return 0;
-    *rest = end + (*end == ',');
-    return 1;
-}
-
-const char *deck_whole_state(struct deck_reader *reader, const char **rest)
-{
-    static const char head[] = "STATE:";
-    const char *begin = *rest + strspn(*rest, " ");
-    if (strncasecmp(begin, head, strlen(head)) != 0)
-        return NULL;
-    begin += strlen(head);
-    begin += strspn(begin, " ");
-    size_t length = strcspn(begin, ",");
-    *rest = begin + length + (begin[length] == ',');
-    while (length && begin[length - 1] == ' ')
-        length--;
-    return pool_format(reader->pool, "%.*s", (int)length, begin);
+    *h = (struct deck_holdout){.modes = option ? option->value : ""};
+    for (const char *next = h->modes; *next; h->modes = next) {
+        const char *begin = next + strspn(next, " "), *comma = begin + strcspn(begin, ","), *end = comma;
+        while (end > begin && end[-1] == ' ')
+            end--;
+        int is_runup = next == option->value && end - begin == 5 && !strncasecmp(begin, "RUNUP", 5);
+        if (!is_runup && strncasecmp(begin, "STATE:", 6) != 0)
+            return;
+        const char *state = is_runup ? NULL : begin + 6 + strspn(begin + 6, " ");
+        if (state && (state = pool_format(pool, "%.*s", end > state ? (int)(end - state) : 0, state)))
+            (void)POOL_ADD(pool, h->state, h->nstate, &state);
+        h->runup |= is_runup;
+        next = comma + (*comma == ',');
+    }
 }
 
 void deck_choose_modes(struct deck_reader *reader, const struct card *card)
@@ -212,14 +203,15 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
     int *fitted = POOL_ARRAY(reader->pool, int, job->measurement.nmode), left = 0;
     if (!fitted)
         return;
-    const char *rest = holdout ? holdout->value : "", *state;
+    struct deck_holdout held;
     int bad = modes && mark_modes(reader, modes, fitted);
-    (void)deck_whole_runup(&rest);
-    while ((state = deck_whole_state(reader, &rest)))
-        reader->held_out |= reader->state && !reader->alone && same_text(state, reader->state);
-    if (holdout && (*rest || rest == holdout->value)) /* not of states, or not to its end */
-        bad |= mark_modes(reader, &(struct card_option){.name = "HOLDOUT", .value = rest, .value_place = holdout->value_place},
-                          job->measurement.holdout);
+    deck_read_holdout(reader->pool, holdout, &held);
+    for (int i = 0; i < held.nstate; i++)
+        reader->held_out |= reader->state && !reader->alone && same_text(held.state[i], reader->state);
+    if (holdout && (*held.modes || (!held.runup && !held.nstate)))
+        bad |=
+            mark_modes(reader, &(struct card_option){.name = "HOLDOUT", .value = held.modes, .value_place = holdout->value_place},
+                       job->measurement.holdout);
     for (int k = 0; k < job->measurement.nmode; k++) {
         job->measurement.holdout[k] |= modes && !fitted[k];
         left += !job->measurement.holdout[k];
@@ -232,17 +224,15 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
 
 void deck_fit(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const ties[] = {"E:G", NULL}, *const models[] = {"BEAM", "SOLID", NULL};
+    static const char *const ties[] = {"E:G", NULL};
     struct job *job = reader->job;
     const struct card_option *option;
     reader->fit_card = card;
     job->options.fit.functional = -1;
-    (void)deck_read_options(reader, card, &job->options.fit);
+    (void)deck_read_options(reader, card, &job->options);
     job->options.has_fit = job->options.fit.functional >= 0;
     if ((option = card_option(card, "TIE")))
         reader->tie = deck_option_word(reader, option, ties) == 0;
-    if ((option = card_option(card, "MODEL")))
-        job->options.solid = deck_option_word(reader, option, models) == 1;
     if (job->options.solid)
         deck_causes_of_solid(reader);
     option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */

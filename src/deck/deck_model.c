@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-int deck_find_material(const struct deck_reader *reader, const char *name)
+static int find_material(const struct deck_reader *reader, const char *name)
 {
     for (int i = 0; i < reader->nmaterial; i++)
         if (same_text(reader->material[i].name, name))
@@ -12,10 +12,16 @@ int deck_find_material(const struct deck_reader *reader, const char *name)
     return -1;
 }
 
+int deck_named_material(struct deck_reader *reader, const char *name, struct place place)
+{
+    int index = find_material(reader, name);
+    return index >= 0 ? index : -deck_error(reader, place, "material %s is not defined, expected the name of a *MATERIAL", name);
+}
+
 void deck_material(struct deck_reader *reader, const struct card *card)
 {
     const char *name = deck_option(reader, card, "NAME", "name");
-    if (name && deck_find_material(reader, name) >= 0)
+    if (name && find_material(reader, name) >= 0)
         deck_error(reader, card_option(card, "NAME")->value_place, "material %s is defined twice, expected a new name", name);
     int count = reader->nmaterial, incomplete = 0;
     deck_add_place(reader, MATERIAL_PLACES, card->place);
@@ -102,14 +108,11 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     struct rotor *rotor = &reader->job->rotor;
     const char *name = deck_option(reader, card, "NAME", "name"),
                *of = deck_option(reader, card, "MATERIAL", "name of a material");
-    int material = of ? deck_find_material(reader, of) : -1;
-    if (of && material < 0)
-        deck_error(reader, card_option(card, "MATERIAL")->value_place,
-                   "material %s is not defined, expected the name of a *MATERIAL", of);
+    struct group group = {.name = name ? name : "", .layer_of = -1};
+    int material = of ? deck_named_material(reader, of, card_option(card, "MATERIAL")->value_place) : -1;
     if (name && deck_find_group(reader, rotor->ngroup, name, strlen(name)) >= 0)
         return -deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one",
                            name);
-    struct group group = {.name = name ? name : "", .layer_of = -1};
     if (material >= 0)
         group.material = reader->material[material];
     deck_add_place(reader, GROUP_PLACES, card->place);
@@ -155,9 +158,7 @@ static int host_of(struct deck_reader *reader, const struct card *card)
     const struct rotor *rotor = &reader->job->rotor;
     const struct card_option *option = card_option(card, "GROUP");
     const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT");
-    int host = name ? rotor_axis_groups(rotor) - 1 : -1;
-    while (host >= 0 && !same_text(rotor->group[host].name, name))
-        host--;
+    int host = name ? deck_find_group(reader, rotor_axis_groups(rotor), name, strlen(name)) : -1;
     if (name && host < 0)
         deck_error(reader, option->value_place, "group %s is not defined, expected the name of a *SHAFT", name);
     for (int s = 0; s < rotor->nsegment && host >= 0; s++)
@@ -218,33 +219,31 @@ void deck_layer(struct deck_reader *reader, const struct card *card)
     int host = host_of(reader, card), group = add_group(reader, card), sections = 0, section = 0;
     for (int s = 0; s < rotor->nsegment; s++)
         sections += rotor->segment[s].group == host;
-    int count = deck_lines(reader, card, 1, host < 0 ? DECK_MOST_LINES : sections);
+    int count = deck_lines(reader, card, 1, host < 0 ? DECK_MOST_LINES : sections), bad = host < 0 || group < 0 || !count;
     if (group >= 0)
         rotor->group[group].layer_of = host < 0 ? 0 : host;
     if (host >= 0 && count > 1 && count < sections)
-        deck_error(reader, card->place,
-                   "*LAYER has %d data lines and group %s has %d sections, expected one line for all or one for each", count,
-                   rotor->group[host].name, sections);
-    else
-        for (int s = 0; s < rotor->nsegment && count && group >= 0 && host >= 0; s++) {
-            struct ring ring = {.group = group, .segment = s};
-            if (rotor->segment[s].group != host)
-                continue;
-            const struct data_line *line = &card->line[count > 1 ? section : 0];
-            section++;
-            if (deck_read_values(reader, line, &ring)) {
-                if (count == 1)
-                    return;
-                continue;
-            }
-            if (ring.inner >= ring.outer)
-                deck_error(reader, line->field[1].place,
-                           "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", ring.inner,
-                           ring.outer);
-            else
-                lay_ring(reader, line, rotor->group[group].name, section, &ring);
-            add_ring(reader, &ring);
+        bad = deck_error(reader, card->place,
+                         "*LAYER has %d data lines and group %s has %d sections, expected one line for all or one for each",
+                         count, rotor->group[host].name, sections);
+    for (int s = 0; s < rotor->nsegment && !bad; s++) {
+        struct ring ring = {.group = group, .segment = s};
+        if (rotor->segment[s].group != host)
+            continue;
+        const struct data_line *line = &card->line[count > 1 ? section : 0];
+        section++;
+        if (deck_read_values(reader, line, &ring)) {
+            bad = count == 1; /* it would be said of each section */
+            continue;
         }
+        if (ring.inner >= ring.outer)
+            deck_error(reader, line->field[1].place,
+                       "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", ring.inner,
+                       ring.outer);
+        else
+            lay_ring(reader, line, rotor->group[group].name, section, &ring);
+        add_ring(reader, &ring);
+    }
 }
 
 /* Cards of the parts that are attached to the shaft: rods, bars, holes, forces, disks, springs, the sling. */
@@ -259,40 +258,35 @@ static struct group *named_group(struct deck_reader *reader, const struct card *
 static int check_holes(struct deck_reader *reader, const struct data_line *line, const struct group *group, double outer,
                        double inner)
 {
-    int bad = 2 * group->hole_pitch + group->hole_diameter > outer || 2 * group->hole_pitch - group->hole_diameter < inner;
-    if (bad)
-        deck_error(reader, line->field[2].place,
-                   "holes of %.9g m on a radius of %.9g m do not lie within the section, expected them between %.6g and %.6g m "
-                   "of diameter",
-                   group->hole_diameter, group->hole_pitch, inner, outer);
-    return bad;
+    if (2 * group->hole_pitch + group->hole_diameter <= outer && 2 * group->hole_pitch - group->hole_diameter >= inner)
+        return 0;
+    return deck_error(
+        reader, line->field[2].place,
+        "holes of %.9g m on a radius of %.9g m do not lie within the section, expected them between %.6g and %.6g m "
+        "of diameter",
+        group->hole_diameter, group->hole_pitch, inner, outer);
 }
 
 void deck_perforation(struct deck_reader *reader, const struct card *card)
 {
+    const struct rotor *rotor = &reader->job->rotor;
     struct group *group = named_group(reader, card);
     const struct data_line *line = group ? deck_only_line(reader, card) : NULL;
     if (!line)
         return;
     if (group->holes)
         deck_error(reader, card->place, "group %s is perforated twice, expected one *PERFORATION a group", group->name);
-    for (int s = 0; s < reader->job->rotor.nsegment; s++)
-        if (&reader->job->rotor.group[reader->job->rotor.segment[s].group] == group &&
-            reader->job->rotor.segment[s].rectangular) {
-            deck_error(reader, card->place, "group %s is a *BEAM, expected a round *SHAFT", group->name);
-            return;
-        }
     int bad = deck_read_values(reader, line, group);
-    for (int s = 0; s < reader->job->rotor.nsegment && !bad; s++) {
-        const struct segment *segment = &reader->job->rotor.segment[s];
-        if (&reader->job->rotor.group[segment->group] == group)
-            bad = check_holes(reader, line, group, segment->outer, segment->inner);
+    for (int s = 0; s < rotor->nsegment && !bad; s++) {
+        const struct segment *segment = &rotor->segment[s];
+        if (&rotor->group[segment->group] == group)
+            bad = segment->rectangular
+                      ? deck_error(reader, card->place, "group %s is a *BEAM, expected a round *SHAFT", group->name)
+                      : check_holes(reader, line, group, segment->outer, segment->inner);
     }
-    for (int i = 0; i < reader->job->rotor.nring && !bad; i++) {
-        const struct ring *ring = &reader->job->rotor.ring[i];
-        if (&reader->job->rotor.group[ring->group] == group)
-            bad = check_holes(reader, line, group, ring->outer, ring->inner);
-    }
+    for (int i = 0; i < rotor->nring && !bad; i++)
+        if (&rotor->group[rotor->ring[i].group] == group)
+            bad = check_holes(reader, line, group, rotor->ring[i].outer, rotor->ring[i].inner);
 }
 
 void deck_preload(struct deck_reader *reader, const struct card *card)

@@ -166,17 +166,27 @@ static double uniform(ptrdiff_t count, const double *there, const double *std)
     return value;
 }
 
-static void write_sensors(struct deck_writer *w, const struct job_raw *data)
+void deck_put_sensors(struct deck_writer *w, int count, const struct sensor *sensor)
 {
-    for (int s = 0; s < data->nsensor; s++) {
+    for (int s = 0; s < count; s++) {
         if (s % DECK_MOST_LINES == 0)
             deck_put(w, "*SENSORS\n");
-        if (data->sensor[s].id < 1 || data->sensor[s].id > 1000000000)
+        if (sensor[s].id < 1 || sensor[s].id > 1000000000)
             refuse_writing(w);
-        deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", data->sensor[s].position, "m");
+        deck_put(w, "%d", sensor[s].id);
+        deck_put_number(w, ", ", sensor[s].position, "m");
         deck_put(w, "\n");
     }
+}
+
+void deck_put_noise(struct deck_writer *w, double frequency, double shape)
+{
+    deck_put_card(w, "NOISE");
+    if (isfinite(frequency))
+        deck_put_option_number(w, "FREQUENCY", frequency, "");
+    if (isfinite(shape))
+        deck_put_option_number(w, "SHAPE", shape, "");
+    deck_put(w, "\n");
 }
 
 /* A deviation in Hz that gives the relative one back by division, or the nearest there is. */
@@ -253,16 +263,10 @@ void deck_put_measured(struct deck_writer *w, int with_sensors)
     double frequency, shape;
     deck_noise_of_all(w->job, &frequency, &shape);
     if (with_sensors)
-        write_sensors(w, &data);
+        deck_put_sensors(w, data.nsensor, data.sensor);
     write_modes(w, &data, !isfinite(frequency));
-    if (isfinite(frequency) || isfinite(shape)) {
-        deck_put_card(w, "NOISE");
-        if (isfinite(frequency))
-            deck_put_option_number(w, "FREQUENCY", frequency, "");
-        if (isfinite(shape))
-            deck_put_option_number(w, "SHAPE", shape, "");
-        deck_put(w, "\n");
-    }
+    if (isfinite(frequency) || isfinite(shape))
+        deck_put_noise(w, frequency, shape);
     for (int k = 0; k < nmode && data.shape; k++)
         write_at_sensors(w, &data, k, "SHAPE", data.shape, isfinite(shape) ? NULL : data.shape_std, "");
     for (int k = 0; k < nmode && data.point_frequency_hz; k++)

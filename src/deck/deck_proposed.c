@@ -108,13 +108,8 @@ static void put_sensors(struct deck_writer *w, const struct test *test)
     struct job planned;
     int status = planned_sensors(w->pool, w->job, test->nsensor, test->sensor, &planned);
     w->status = w->status ? w->status : status;
-    for (int s = 0; s < test->nsensor && !w->status; s++) {
-        if (s % DECK_MOST_LINES == 0)
-            deck_put(w, "*SENSORS\n");
-        deck_put(w, "%d", planned.rotor.sensor[s].id);
-        deck_put_number(w, ", ", planned.rotor.sensor[s].position, "m");
-        deck_put(w, "\n");
-    }
+    if (!w->status)
+        deck_put_sensors(w, test->nsensor, planned.rotor.sensor);
     if (test->nsensor)
         deck_put(w, "** the shapes, once for each mode; or all of it as *MEASURED, FILE=\n** *SHAPE, MODE=%d\n", test->number[0]);
     for (int s = 0; s < test->nsensor && !w->status; s++)
@@ -129,11 +124,8 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
     *text = NULL;
     deck_put(&w, "** proposed by rotid suggest: %s\n*STATE, NAME=%s\n", what ? what : "", test_id(test->kind));
     put_change(&w, test);
-    deck_put_card(&w, "NOISE");
-    deck_put_option_number(&w, "FREQUENCY", test->frequency_std, "");
-    if (test->nsensor)
-        deck_put_option_number(&w, "SHAPE", test->shape_std, "");
-    deck_put(&w, "\n** the frequencies that are measured%s; expected are\n** *MODES\n",
+    deck_put_noise(&w, test->frequency_std, test->nsensor ? test->shape_std : NAN);
+    deck_put(&w, "** the frequencies that are measured%s; expected are\n** *MODES\n",
              hertz != 1 ? ", in the unit of this deck" : " [Hz]");
     for (int k = 0; k < test->modes; k++) {
         deck_put(&w, "** %d, ", test->number[k]);

@@ -540,14 +540,15 @@ static void scale_unbalances(struct deck_reader *reader, const struct place runn
         }
 }
 
-/* Whether a *FIT holds out the run-up; its place. */
-static const struct card_option *held_runup(const struct deck_text *text)
+/* HOLDOUT=RUNUP of a *FIT. */
+static const struct card_option *held_runup(struct deck_reader *reader)
 {
-    for (int c = 0; c < text->ncard; c++) {
-        const struct card_option *holdout = is(&text->card[c], "FIT") ? card_option(&text->card[c], "HOLDOUT") : NULL;
-        const char *rest = holdout ? holdout->value : NULL;
-        if (rest && deck_whole_runup(&rest))
-            return holdout;
+    for (int c = 0; c < reader->text.ncard; c++) {
+        const struct card *card = &reader->text.card[c];
+        struct deck_holdout held;
+        deck_read_holdout(reader->pool, card_option(card, "HOLDOUT"), &held);
+        if (is(card, "FIT") && held.runup)
+            return card_option(card, "HOLDOUT");
     }
     return NULL;
 }
@@ -557,7 +558,7 @@ static void check_runup(struct deck_reader *reader, const struct place running)
 {
     struct machine *machine = reader->machine;
     const struct job *job = reader->job;
-    const struct card_option *held = held_runup(&reader->text);
+    const struct card_option *held = held_runup(reader);
     machine->runup_held = held != NULL;
     if (held && !machine->nrunup)
         deck_error(reader, held->value_place, "HOLDOUT=RUNUP, but the machine has no *RUNUP, expected measured critical speeds");
@@ -594,8 +595,8 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                               .text = reader->text,
                               .job = job,
                               .length = rotor_length(&job->rotor)};
-    if (!reader->nrunning && held_runup(&reader->text))
-        deck_error(reader, held_runup(&reader->text)->value_place,
+    if (!reader->nrunning && held_runup(reader))
+        deck_error(reader, held_runup(reader)->value_place,
                    "HOLDOUT=RUNUP, but the deck has no machine, expected *RUNNING with *RUNUP");
     if (!reader->nrunning)
         return;

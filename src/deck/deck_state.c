@@ -64,14 +64,14 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
     for (int c = 0; c < text->ncard; c++) {
         const struct card_option *option = card_option(&text->card[c], "STATE"),
                                  *holdout = card_option(&text->card[c], "HOLDOUT");
-        const char *rest = holdout ? holdout->value : "", *held;
+        struct deck_holdout held;
         if (strcmp(text->card[c].name, "FIT") != 0)
             continue;
         if (option)
             check_option(reader, d, option, option->value);
-        (void)deck_whole_runup(&rest);
-        while (holdout && (held = deck_whole_state(reader, &rest)))
-            check_option(reader, d, holdout, held);
+        deck_read_holdout(reader->pool, holdout, &held);
+        for (int i = 0; i < held.nstate; i++)
+            check_option(reader, d, holdout, held.state[i]);
         d->chosen = option ? option->value : d->chosen;
     }
 }
@@ -333,15 +333,8 @@ void deck_set_lengths(struct deck_reader *reader)
 static int check_value(struct deck_reader *reader, const struct data_line *line, struct parameter parameter, double *value,
                        double si)
 {
-    const struct rotor *rotor = &reader->job->rotor;
-    double lower = parameter.kind == PARAMETER_TENSION ? -INFINITY : parameter.kind == PARAMETER_NU ? -1 : 0, upper = INFINITY;
-    if (parameter.kind == PARAMETER_NU)
-        upper = 0.5;
-    if (parameter.kind == PARAMETER_EFFECT) {
-        const struct cause_kind *cause = catalogue_of(&rotor->effect[parameter.index]);
-        if (cause)
-            cause_reach(cause, rotor, &rotor->effect[parameter.index], parameter.component, &lower, &upper);
-    }
+    double lower, upper;
+    deck_range_of(&reader->job->rotor, &parameter, &lower, &upper);
     int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */
     if (deck_clip(lower, upper, value) && (*value > lower || !above))
         return 0;

@@ -499,11 +499,8 @@ static void edit_data(struct writing *w, int s)
     int noise = find_card(w, "NOISE", -1);
     double std = w->meant.state[s].job.measurement.nmode ? w->meant.state[s].job.measurement.frequency_std[0] : NAN;
     deck_put_measured(&cards, sensors);
-    if (w->of[s] >= 0 && noise >= 0 && isfinite(std) && (!cards.text || !strstr(cards.text, "*NOISE"))) {
-        deck_put_card(&cards, "NOISE"); /* in place of a common one, whose floor would add to the deviations of the modes */
-        deck_put_option_number(&cards, "FREQUENCY", std, "");
-        deck_put(&cards, "\n");
-    }
+    if (w->of[s] >= 0 && noise >= 0 && isfinite(std) && (!cards.text || !strstr(cards.text, "*NOISE")))
+        deck_put_noise(&cards, std, NAN); /* in place of a common one, whose floor would add to the deviations of the modes */
     if (first < 0)
         insert(w, w->of[s], &cards);
     else if (!cards.status && cards.length) {
