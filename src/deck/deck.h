@@ -350,6 +350,8 @@ void deck_check_unique(struct deck_reader *reader, int ncard, const struct card 
 
 /* Where the name of the i-th group, spring, disk or tie rod is, NULL where there is none. */
 const char **deck_name_of(const struct rotor *rotor, enum cause_target kind, int i);
+/* Whether a deviation [count] is known. */
+int deck_knows_any(ptrdiff_t count, const double *std);
 /* Takes the faults that CAUSE cards state out of the data, in the order of the cards; the noise is known by then. */
 void deck_apply_corrections(struct deck_reader *reader);
 /* Whether "cause.parameter", which is no parameter of the model, has that name from a CAUSE card: of a suspect or a fault of the

@@ -459,7 +459,7 @@ static void follow_sensors(struct deck_reader *reader, const struct job_raw *raw
     reader->place[SENSOR_PLACES] = place;
 }
 
-static int knows_any(ptrdiff_t count, const double *std)
+int deck_knows_any(ptrdiff_t count, const double *std)
 {
     for (ptrdiff_t i = 0; i < count; i++)
         if (isfinite(std[i]))
@@ -479,8 +479,8 @@ void deck_apply_corrections(struct deck_reader *reader)
         int shape = correction->block && same_text(correction->block, "SHAPE");
         if (correction->block &&
             !(shape ? job->measurement.shape &&
-                          knows_any((ptrdiff_t)job->rotor.nsensor * job->measurement.nmode, job->measurement.shape_std)
-                    : knows_any(job->measurement.nmode, job->measurement.frequency_std))) {
+                          deck_knows_any((ptrdiff_t)job->rotor.nsensor * job->measurement.nmode, job->measurement.shape_std)
+                    : deck_knows_any(job->measurement.nmode, job->measurement.frequency_std))) {
             deck_error(reader, reader->place[CORRECTION_PLACES][i], "the noise of AT=%s is not stated, expected *NOISE, %s=value",
                        correction->block, correction->block);
             continue;

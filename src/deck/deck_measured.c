@@ -77,6 +77,26 @@ void deck_sort_sensors(struct deck_reader *reader)
         }
 }
 
+/* Values that are not known, NaN; NULL where memory is out. */
+static double *deck_new_values(struct deck_reader *reader, size_t count)
+{
+    double *value = POOL_ARRAY(reader->pool, double, count);
+    for (size_t i = 0; i < count && value; i++)
+        value[i] = NAN;
+    return value;
+}
+
+/* Room for modes without shapes. 0, or 1 where memory is out. */
+static int new_modes(struct deck_reader *reader, int count)
+{
+    struct job_measurement *m = &reader->job->measurement;
+    m->number = POOL_ARRAY(reader->pool, int, count);
+    m->frequency_hz = POOL_ARRAY(reader->pool, double, count);
+    m->damping = deck_new_values(reader, (size_t)count);
+    m->frequency_std = deck_new_values(reader, (size_t)count);
+    return reader->pool->out_of_memory;
+}
+
 void deck_modes(struct deck_reader *reader, const struct card *card)
 {
     struct job_measurement *m = &reader->job->measurement;
@@ -84,12 +104,8 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
     int word = type ? deck_option_word(reader, type, mode_type_words) : MODE_BENDING;
     reader->modes_card = card;
     reader->job->options.type = word > 0 ? (enum mode_type)word : MODE_BENDING;
-    int count = deck_lines(reader, card, 1, DECK_MOST_MODES);
-    m->number = POOL_ARRAY(reader->pool, int, card->nline);
-    m->frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
-    m->damping = POOL_ARRAY(reader->pool, double, card->nline);
-    m->frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
-    for (int i = 0; i < count && !reader->pool->out_of_memory; i++) {
+    int count = deck_lines(reader, card, 1, DECK_MOST_MODES), failed = new_modes(reader, card->nline);
+    for (int i = 0; i < count && !failed; i++) {
         const struct data_line *line = &card->line[i];
         struct mode_line read = {.hz = 1, .damping = NAN, .std = NAN};
         int bad = deck_read_values(reader, line, &read), k = 0;
@@ -118,15 +134,6 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         m->damping[k] = read.damping;
         m->frequency_std[k] = read.std / read.hz;
     }
-}
-
-/* Values that are not known, NaN; NULL where memory is out. */
-static double *deck_new_values(struct deck_reader *reader, size_t count)
-{
-    double *value = POOL_ARRAY(reader->pool, double, count);
-    for (size_t i = 0; i < count && value; i++)
-        value[i] = NAN;
-    return value;
 }
 
 static size_t components(const struct job *job)
@@ -257,36 +264,34 @@ void deck_noise(struct deck_reader *reader, const struct card *card)
 /* The mode's frequency and deviation from its readings, where they say one. */
 static void average_readings(struct deck_reader *reader, int k)
 {
-    struct job *job = reader->job;
-    int nsensor = job->rotor.nsensor;
-    double *hz = job->measurement.point_frequency_hz + (ptrdiff_t)k * nsensor,
-           *std = job->measurement.point_frequency_std + (ptrdiff_t)k * nsensor;
+    struct job_measurement *m = &reader->job->measurement;
+    int nsensor = reader->job->rotor.nsensor;
+    ptrdiff_t first = (ptrdiff_t)k * nsensor;
+    double *hz = m->point_frequency_hz + first, *std = m->point_frequency_std + first;
     struct point_mean mean;
     for (int s = 0; s < nsensor && reader->noise_frequency > 0; s++)
         if (!isfinite(std[s]))
             std[s] = reader->noise_frequency * hz[s];
-    int status = point_mean(reader->pool, nsensor, hz, std,
-                            job->measurement.shape ? job->measurement.shape + (ptrdiff_t)k * nsensor : NULL, &mean);
-    if (status)
+    if (point_mean(reader->pool, nsensor, hz, std, m->shape ? m->shape + first : NULL, &mean))
         return; /* no reading: the mode keeps its frequency */
     for (int s = 0; s < nsensor; s++)
         if (isfinite(hz[s]) && !isfinite(std[s]))
             std[s] = mean.std_of_others;
     if (reader->mean_kept[k])
         return;
-    job->measurement.frequency_hz[k] = mean.hz;
+    m->frequency_hz[k] = mean.hz;
     if (isfinite(mean.std))
-        job->measurement.frequency_std[k] = mean.std / mean.hz;
+        m->frequency_std[k] = mean.std / mean.hz;
     struct place place = (reader->frequencies_card ? reader->frequencies_card : reader->measured_card)->place;
     if (!mean.regressed)
         deck_note(reader, place,
                   "mode %d has %d frequencies at single sensors, too few to follow the accelerometer along the shape: their mean "
                   "is taken as the frequency with its mass spread over all sensors",
-                  job->measurement.number[k], mean.readings);
+                  m->number[k], mean.readings);
     if (mean.dropped)
         deck_note(reader, place,
                   "mode %d: %d of %d frequencies at single sensors contradict the others and are left out of their mean",
-                  job->measurement.number[k], mean.dropped, mean.readings);
+                  m->number[k], mean.dropped, mean.readings);
 }
 
 /* The standard deviations of one test are of means over its impacts, less than what the next test would show, and a model judged
@@ -309,17 +314,13 @@ static double known_median(struct deck_reader *reader, ptrdiff_t count, const do
 static void take_usual_floor(struct deck_reader *reader)
 {
     const struct job_measurement *m = &reader->job->measurement;
-    ptrdiff_t components = m->shape ? (ptrdiff_t)reader->job->rotor.nsensor * m->nmode : 0;
-    int of_test = 0;
-    for (int k = 0; k < m->nmode; k++)
-        of_test |= isfinite(m->frequency_std[k]);
-    for (ptrdiff_t i = 0; i < components; i++)
-        of_test |= isfinite(m->shape_std[i]);
-    if (!reader->measured_card || reader->states_floor || !of_test)
+    ptrdiff_t count = m->shape ? (ptrdiff_t)components(reader->job) : 0;
+    if (!reader->measured_card || reader->states_floor ||
+        !(deck_knows_any(m->nmode, m->frequency_std) || deck_knows_any(count, m->shape_std)))
         return;
     int tests = reader->impacts < 0; /* their scatter is known: it counts, unless it is less than good tests repeat */
     double root = sqrt(abs(reader->impacts)), hz = known_median(reader, m->nmode, m->frequency_std, root),
-           shape = components ? known_median(reader, components, m->shape_std, root) : 0;
+           shape = known_median(reader, count, m->shape_std, root);
     reader->floor_frequency = tests && hz > USUAL_FLOOR_FREQUENCY ? 0 : fmax(USUAL_FLOOR_FREQUENCY, hz);
     reader->floor_shape = tests && shape > USUAL_FLOOR_SHAPE ? 0 : fmax(USUAL_FLOOR_SHAPE, shape);
     if (!reader->floor_frequency && !reader->floor_shape)
@@ -333,26 +334,27 @@ static void take_usual_floor(struct deck_reader *reader)
               100 * reader->floor_shape, shape > USUAL_FLOOR_SHAPE ? measured : "the least that is taken");
 }
 
+/* Deviations with the floor in quadrature; those that are not known as *NOISE states it, if above 0. */
+static void complete(ptrdiff_t count, double *std, double floor, double noise)
+{
+    for (ptrdiff_t i = 0; i < count; i++)
+        if (isfinite(std[i]))
+            std[i] = hypot(std[i], floor);
+        else if (noise > 0)
+            std[i] = noise;
+}
+
 void deck_complete_noise(struct deck_reader *reader)
 {
-    struct job *job = reader->job;
-    ptrdiff_t components = job->measurement.shape ? (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode : 0;
+    struct job_measurement *m = &reader->job->measurement;
     take_usual_floor(reader);
-    job->measurement.has_noise_floor = reader->floor_shape > 0;
-    job->measurement.stated_frequency_noise = reader->noise_frequency > 0 ? reader->noise_frequency : 0;
-    job->measurement.stated_shape_noise = reader->noise_shape > 0 ? reader->noise_shape : 0;
-    for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz && !reader->pool->out_of_memory; k++)
+    m->has_noise_floor = reader->floor_shape > 0;
+    m->stated_frequency_noise = fmax(reader->noise_frequency, 0);
+    m->stated_shape_noise = fmax(reader->noise_shape, 0);
+    for (int k = 0; k < m->nmode && m->point_frequency_hz && !reader->pool->out_of_memory; k++)
         average_readings(reader, k);
-    for (int k = 0; k < job->measurement.nmode; k++)
-        if (isfinite(job->measurement.frequency_std[k]))
-            job->measurement.frequency_std[k] = hypot(job->measurement.frequency_std[k], reader->floor_frequency);
-        else if (reader->noise_frequency > 0)
-            job->measurement.frequency_std[k] = reader->noise_frequency;
-    for (ptrdiff_t i = 0; i < components; i++)
-        if (isfinite(job->measurement.shape_std[i]))
-            job->measurement.shape_std[i] = hypot(job->measurement.shape_std[i], reader->floor_shape);
-        else if (reader->noise_shape > 0)
-            job->measurement.shape_std[i] = reader->noise_shape;
+    complete(m->nmode, m->frequency_std, reader->floor_frequency, reader->noise_frequency);
+    complete(m->shape ? (ptrdiff_t)components(reader->job) : 0, m->shape_std, reader->floor_shape, reader->noise_shape);
 }
 
 /* MEASURED: sensors, modes and shapes from a universal file. */
@@ -371,12 +373,12 @@ static struct place id_line(const struct extra *extra, int i)
     return (struct place){extra->path, extra->set->line + 2 + i, 1}; /* behind '-1' and the number of the set */
 }
 
-/* What the set is and of which mode. 0; 1 after an error, or where it is none of these. */
+/* What the set is and of which mode, in a form that can be read. 0; 1 after an error, or where it is none of these. */
 static int identify(struct extra *extra, int count, const struct uff_shape *const *chosen)
 {
-    const char *text = extra->set->id[0];
+    const struct uff_shape *set = extra->set;
     int number, matches = 0;
-    extra->kind = (int)uff_extra_of(extra->set, &number);
+    extra->kind = (int)uff_extra_of(set, &number);
     if (extra->kind == UFF_EXTRAS)
         return 1;
     for (int k = 0; k < count; k++)
@@ -385,18 +387,13 @@ static int identify(struct extra *extra, int count, const struct uff_shape *cons
             matches++;
         }
     if (!number || matches != 1)
-        return deck_error(extra->reader, id_line(extra, 0), "'%s' names %s, expected the number of one mode of this file", text,
+        return deck_error(extra->reader, id_line(extra, 0), "'%s' names %s, expected the number of one mode of this file",
+                          set->id[0],
                           !number   ? "no mode"
                           : matches ? "a number that several modes have"
                                     : "a mode that is not there");
     if (extra->seen[extra->kind + UFF_EXTRAS * extra->mode]++)
-        return deck_error(extra->reader, id_line(extra, 0), "'%s' is given twice, expected once", text);
-    return 0;
-}
-
-static int check_form(const struct extra *extra)
-{
-    const struct uff_shape *set = extra->set;
+        return deck_error(extra->reader, id_line(extra, 0), "'%s' is given twice, expected once", set->id[0]);
     if (set->imag)
         return deck_error(extra->reader, id_line(extra, 0), "the values of '%s' are complex, expected real ones", set->id[0]);
     if (extra->component >= set->component_count)
@@ -407,23 +404,22 @@ static int check_form(const struct extra *extra)
 
 static void read_frequency(const struct extra *extra)
 {
-    struct job *job = extra->reader->job;
-    const char *text = extra->set->id[1];
+    struct deck_reader *reader = extra->reader;
+    struct job_measurement *m = &reader->job->measurement;
     double hz;
     if (uff_extra_frequency_std(extra->set, &hz) || !deck_is_usual(hz)) {
-        deck_error(extra->reader, id_line(extra, 1),
-                   "the second line of text is '%s', expected FREQUENCY_HZ value DAMPING value, "
-                   "two standard deviations",
-                   text);
+        deck_error(reader, id_line(extra, 1),
+                   "the second line of text is '%s', expected FREQUENCY_HZ value DAMPING value, two standard deviations",
+                   extra->set->id[1]);
         return;
     }
     int tests, count = uff_extra_count(extra->set, &tests);
-    if (count)
-        extra->reader->impacts = tests                                                      ? -count
-                                 : extra->reader->impacts && extra->reader->impacts < count ? extra->reader->impacts
-                                                                                            : count;
+    if (count && tests)
+        reader->impacts = -count;
+    else if (count && !(reader->impacts && reader->impacts < count))
+        reader->impacts = count;
     if (hz > 0)
-        job->measurement.frequency_std[extra->mode] = hz / job->measurement.frequency_hz[extra->mode];
+        m->frequency_std[extra->mode] = hz / m->frequency_hz[extra->mode];
 }
 
 /* Six digits of a frequency are too few, so the values may count from one that stands in the second line of text. */
@@ -444,36 +440,33 @@ static void read_values(const struct extra *extra)
     static const char *const expected[UFF_EXTRAS] = {"a standard deviation, zero where it is not known",
                                                      "a frequency within 5 % of that of the mode, zero where it is not known",
                                                      "a standard deviation [Hz], zero where it is not known"};
-    struct job *job = extra->reader->job;
+    const struct job *job = extra->reader->job;
+    const struct job_measurement *m = &job->measurement;
     const struct uff_shape *set = extra->set;
     ptrdiff_t first = (ptrdiff_t)extra->mode * job->rotor.nsensor;
-    double *target = extra->kind == UFF_EXTRA_SHAPE_STD ? job->measurement.shape_std
-                     : extra->kind == UFF_EXTRA_POINT   ? job->measurement.point_frequency_hz
-                                                        : job->measurement.point_frequency_std,
-           largest = 0;
+    int of_shape = extra->kind == UFF_EXTRA_SHAPE_STD, of_point = extra->kind == UFF_EXTRA_POINT;
+    double *target = first + (of_shape   ? m->shape_std
+                              : of_point ? m->point_frequency_hz
+                                         : m->point_frequency_std),
+           *shape = m->shape + first, largest = 0, offset = of_point ? read_offset(extra) : 0;
     for (int s = 0; s < job->rotor.nsensor; s++)
-        if (isfinite(job->measurement.shape[first + s]))
-            largest = fmax(largest, fabs(job->measurement.shape[first + s]));
-    double offset = extra->kind == UFF_EXTRA_POINT ? read_offset(extra) : 0;
+        if (isfinite(shape[s]))
+            largest = fmax(largest, fabs(shape[s]));
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);
         double value = set->real[i * set->component_count + extra->component];
         value += value != 0 ? offset : 0; /* the component of a node that was measured in another direction */
-        if (sensor < 0) {
+        if (sensor < 0)
             deck_error(extra->reader, id_line(extra, 0), "'%s' has a value at node %d, expected only nodes that are sensors",
                        set->id[0], set->node[i]);
-            continue;
-        }
-        if (!isfinite(value) || value < 0 || !deck_is_usual(value) ||
-            (value > 0 && extra->kind == UFF_EXTRA_POINT && deck_point_is_far(job, extra->mode, value))) {
+        else if (!isfinite(value) || value < 0 || !deck_is_usual(value) ||
+                 (value > 0 && of_point && deck_point_is_far(job, extra->mode, value)))
             deck_error(extra->reader, id_line(extra, 0), "'%s' has %.6g at node %d, expected %s", set->id[0], value, set->node[i],
                        expected[extra->kind]);
-            continue;
-        }
-        if (value > 0)
-            target[first + sensor] = extra->kind == UFF_EXTRA_SHAPE_STD ? value / largest : value;
-        else if (extra->kind == UFF_EXTRA_SHAPE_STD && uff_extra_is_known(set, i) && job->measurement.shape[first + sensor] == 0)
-            job->measurement.shape[first + sensor] = NAN;
+        else if (value > 0)
+            target[sensor] = of_shape ? value / largest : value;
+        else if (of_shape && uff_extra_is_known(set, i) && shape[sensor] == 0)
+            shape[sensor] = NAN;
     }
 }
 
@@ -484,7 +477,7 @@ void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff
     for (int i = 0; i < file->extra_count && !reader->pool->out_of_memory; i++) {
         extra.set = &file->extra[i];
         extra.component = extra.set->component_count == 1 ? 0 : component;
-        if (identify(&extra, count, chosen) || check_form(&extra))
+        if (identify(&extra, count, chosen))
             continue;
         if (extra.kind != UFF_EXTRA_SHAPE_STD && deck_new_points(reader))
             return;
@@ -643,7 +636,7 @@ static int import_hammer(struct import *import, const struct uff_shape *mode)
     struct job *job = import->reader->job;
     const struct card_option *option = card_option(import->card, "HAMMER");
     char *end;
-    for (int i = 0; mode && i < UFF_ID_LINES && !option; i++)
+    for (int i = 0; i < UFF_ID_LINES && !option; i++)
         if (!strncmp(mode->id[i], line, sizeof line - 1))
             job->measurement.hammer = (int)strtol(mode->id[i] + sizeof line - 1, NULL, 10);
     if (!option)
@@ -660,33 +653,28 @@ static int import_hammer(struct import *import, const struct uff_shape *mode)
 static int import_modes(struct import *import)
 {
     struct deck_reader *reader = import->reader;
-    struct job *job = reader->job;
+    struct job_measurement *m = &reader->job->measurement;
+    ptrdiff_t nsensor = reader->job->rotor.nsensor;
     const struct uff_shape **chosen = POOL_ARRAY(reader->pool, const struct uff_shape *, import->file.shape_count);
-    int count = chosen ? choose_modes(import, chosen) : 0;
+    int count = chosen ? choose_modes(import, chosen) : 0, bad = 0;
     if (chosen && !count)
         return deck_error(reader, in_file(import, 1), "the file has no mode shapes, expected sets 55 of normal or complex modes");
-    size_t components = (size_t)job->rotor.nsensor * (size_t)count;
-    job->measurement.number = POOL_ARRAY(reader->pool, int, import->file.shape_count);
-    job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, count);
-    job->measurement.damping = POOL_ARRAY(reader->pool, double, count);
-    job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, count);
-    job->measurement.shape = deck_new_values(reader, components);
-    job->measurement.shape_std = deck_new_values(reader, components);
-    if (reader->pool->out_of_memory)
+    m->shape = deck_new_values(reader, (size_t)nsensor * (size_t)count);
+    m->shape_std = deck_new_values(reader, (size_t)nsensor * (size_t)count);
+    if (new_modes(reader, import->file.shape_count)) /* room for the numbers of those that are left out */
         return 1;
-    int bad = 0;
-    uff_mode_numbers(&import->file, count, chosen, job->measurement.number);
+    uff_mode_numbers(&import->file, count, chosen, m->number);
     for (int k = 0; k < count; k++) {
-        if (job->measurement.number[k] > DECK_MOST_MODES && !bad++)
-            deck_error(reader, in_file(import, chosen[k]->line), "the number of a mode is %d, expected 1 to %d",
-                       job->measurement.number[k], DECK_MOST_MODES);
-        job->measurement.frequency_hz[k] = uff_mode_frequency(chosen[k]);
-        job->measurement.damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
-        job->measurement.frequency_std[k] = NAN;
-        bad |= import_shape(import, chosen[k], job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor);
+        if (m->number[k] > DECK_MOST_MODES && !bad++)
+            deck_error(reader, in_file(import, chosen[k]->line), "the number of a mode is %d, expected 1 to %d", m->number[k],
+                       DECK_MOST_MODES);
+        m->frequency_hz[k] = uff_mode_frequency(chosen[k]);
+        if (chosen[k]->damping > 0)
+            m->damping[k] = chosen[k]->damping;
+        bad |= import_shape(import, chosen[k], m->shape + k * nsensor);
     }
-    job->measurement.nmode = count;
-    bad |= import_hammer(import, count ? chosen[0] : NULL);
+    m->nmode = count;
+    bad |= import_hammer(import, chosen[0]);
     if (!bad)
         deck_uff_std(reader, import->path, &import->file, count, chosen, import->at.component);
     return bad;
