@@ -44,7 +44,7 @@ complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identi
 complete -c rotid -n '__fish_seen_subcommand_from modes identify uff study' -l csv -x -d 'tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv; study: also .cells.csv, .runs.csv)'
 complete -c rotid -n '__fish_seen_subcommand_from modes' -l compare -d 'the rotor as a beam and as a solid, and the moduli that a beam would find'
 complete -c rotid -n '__fish_seen_subcommand_from modes' -l type -x -a 'stated bending torsion axial' -d 'of the modes, of which *MODES states one by TYPE= (default: stated)'
-complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'these parameters instead of those of *IDENTIFY, at these values or those of the deck'
+complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'these parameters instead of those of *IDENTIFY, at these values (in units of the deck) or those of the deck'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l step -x -d 'relative step of the differences'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l range -x -d 'relative range of the curves'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l points -x -d 'points of a curve'

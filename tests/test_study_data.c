@@ -208,6 +208,21 @@ POOL_TEST(a_shared_truth_is_that_of_every_group)
     }
 }
 
+/* As what is hidden in it is. */
+POOL_TEST(a_truth_is_in_the_units_of_the_deck)
+{
+    (void)bench_write("units.inp",
+                      "*UNITS, LENGTH=MM, MODULUS=GPA, DENSITY=G/CM3, MASS=G\n*MATERIAL, NAME=m\n*ELASTIC\n210, 0.3\n"
+                      "*DENSITY\n7.85\n*SHAFT, NAME=a, MATERIAL=m\n1000, 50, 0, 12\n*DISK, NAME=d\n700, 3000\n"
+                      "*MODES\n1, 1\n2, 2\n3, 3\n*IDENTIFY\na.E, 100, 300, 200\nd.mass, 100, 9000, 2000\n");
+    open_study("*STUDY\n*DECKS\nunits.inp\n*DATA, SOURCE=MODEL, SHAPES=NO\n*TRUTH\na.E, 180\nd.mass, 2500\n*NOISE\n1e-7\n");
+    cJSON *result = bench_result(&study, 0);
+    assert_close(bench_number(result, "parameters", 0, "value"), 1.8e11, 1e-5, 0);
+    assert_close(bench_number(result, "parameters", 1, "value"), 2.5, 1e-5, 0);
+    cJSON_Delete(result);
+    jobs_close(&jobs);
+}
+
 /* Scales read the rotor that the data are of, with its density and the mass that is hidden, within their stated deviations: the
  * weight of the deck is that of another one. */
 POOL_TEST(a_model_is_weighed_as_it_is)

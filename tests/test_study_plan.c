@@ -72,6 +72,8 @@ POOL_TEST(mistakes_that_a_deck_finds_stand_in_the_plan)
     complains(ONE "*VARIANT, NAME=a\nFIT.REDUCTION=GUYAN\n*SENSORS\n11\n", 7, 1,
               "11 sensors are too few to condense deck deck.inp");
     complains(ONE "*DATA, SOURCE=MODEL\n*TRUTH\ncore.X, 1\n", 6, 1, "core.X is no parameter of deck deck.inp");
+    complains(ONE "*DATA, SOURCE=MODEL\n*TRUTH\ncore.nu, 0.3, 0.7\n", 6, 1,
+              "core.nu is 0.7, expected a value above -1 and at most 0.5");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mas\n", 5, 13, "TYPE=added_mas is no cause, expected one of");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1\n", 5, 1, "no value of z [m]");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1, 900\nz, 0.5\n", 6, 12,

@@ -206,8 +206,8 @@ UNIT_TEST(sensitivity_shows_table_1_beside_the_paper)
     (void)line_with("\n0.500 ");
     assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp"), 0);
     (void)line_with("core.E at 6e+10 Pa");
-    static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at ,",
-                                        "--step 0",         "--range 2",     "--points 0"};
+    static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at core.nu=0.7",
+                                        "--at ,",           "--step 0",      "--range 2",     "--points 0"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char arguments[256];
         (void)snprintf(arguments, sizeof arguments, "sensitivity " INPUT "paper_rotor.inp %s", wrong[i]);

@@ -14,7 +14,7 @@ struct selection {
     double *x;
 };
 
-/* "core.E=8e10,core.nu": names with or without a reference value; without, the model's own. */
+/* "core.E=8e10,core.nu": names with or without a reference value in the unit of the deck; without, the model's own. */
 static int select_listed(struct command *command, const struct job *job, struct selection *s)
 {
     const struct rotor *rotor = &job->rotor;
@@ -34,10 +34,15 @@ static int select_listed(struct command *command, const struct job *job, struct 
             material->g = material_shear_modulus(material);
             material->isotropic = 0;
         }
-        s->x[s->n] = equals ? strtod(equals + 1, &end) : *parameter_value(rotor, s->parameter[s->n]);
+        double si = deck_unit_of(&job->units, named->unit ? named->unit : "");
+        s->x[s->n] = equals ? strtod(equals + 1, &end) * si : *parameter_value(rotor, s->parameter[s->n]);
         if ((equals && (end == equals + 1 || *end)) || !isfinite(s->x[s->n]) || s->x[s->n] == 0)
             return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
                                   "%s has no reference value, expected a number that is not zero", item);
+        const char *range = deck_outside_range(&command->pool, rotor, s->parameter[s->n], si, &s->x[s->n]);
+        if (range)
+            return message_refuse(&command->messages, ROTID_ERROR_SYNTAX, "--at", 1, (int)(item - list) + 1,
+                                  "%s is %.6g, expected a value %s", item, s->x[s->n] / si, range);
         s->n++;
     }
     if (list && !s->n)

@@ -46,7 +46,7 @@ const struct option_row option_table[] = {
      .more = "With MODEL=BEAM torsion and axial motion are those of bars; disks have their polar inertia and mass."},
 
     {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
-     .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},
+     .help = "these parameters instead of those of *IDENTIFY, at these values (in units of the deck) or those of the deck"},
     {.name = "step", .commands = "sensitivity", .kind = OPTION_REAL, AT(step), FROM(1e-9, 0.5), .standard = 0.01, .value = "S",
      .help = "relative step of the differences"},
     {.name = "range", .commands = "sensitivity", .kind = OPTION_REAL, AT(range), FROM(1e-6, 0.95), .standard = 0.5, .value = "R",

@@ -320,6 +320,10 @@ void deck_read_cards(struct deck_reader *reader);
 /* parameter_find of a field, also of "left.E=right.E". 3: an error of it has been reported. */
 int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
 
+/* NULL where a parameter may have this value: one of a cause within its own range, others as their cards ask for; one that leaves it
+ * by rounding becomes its end. Else what was expected, in a unit of which one is `si`. */
+const char *deck_outside_range(struct pool *pool, const struct rotor *rotor, struct parameter parameter, double si, double *value);
+
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);
 /* What HOLDOUT=RUNUP, STATE:a, ... or HOLDOUT=RUNUP, 1-4 holds out: the measured critical speeds, states, a list of modes. The

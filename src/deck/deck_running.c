@@ -412,7 +412,17 @@ int deck_check_change(struct deck_reader *reader, const struct card *card, const
              reader->job->rotor.group[change->parameter.index].material.isotropic)
         return deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
                           change->name);
-    return found;
+    if (found)
+        return found;
+    if (!machine_has(reader->machine, &reader->job->rotor, change->parameter))
+        return deck_error(reader, line->field[0].place, "%s is of a part that is left at the test, expected one of the machine",
+                          change->name);
+    double now = *parameter_value(&reader->job->rotor, change->parameter) * change->factor,
+           si = deck_in_si(reader, unit ? unit : "");
+    const char *range = deck_outside_range(reader->pool, &reader->job->rotor, change->parameter, si, &now);
+    return range ? deck_error(reader, line->field[1].place, "%s times %s is %.6g, expected a value %s", change->name,
+                              line->field[1].text, now / si, range)
+                 : 0;
 }
 
 /* ---- operation, run-up */

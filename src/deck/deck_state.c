@@ -329,17 +329,25 @@ void deck_set_lengths(struct deck_reader *reader)
     }
 }
 
-/* Of a parameter of a cause its own range; of the others what their cards ask for. 0, or 1 after an error. */
+const char *deck_outside_range(struct pool *pool, const struct rotor *rotor, struct parameter parameter, double si, double *value)
+{
+    double lower, upper;
+    deck_range_of(rotor, &parameter, &lower, &upper);
+    int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */
+    if (deck_clip(lower, upper, value) && (*value > lower || !above))
+        return NULL;
+    const char *range =
+        pool_format(pool, "%s %.6g%s%.6g", above ? "above" : "from", lower / si, above ? " and at most " : " to ", upper / si);
+    return range ? range : "inside its range";
+}
+
 static int check_value(struct deck_reader *reader, const struct data_line *line, struct parameter parameter, double *value,
                        double si)
 {
-    double lower, upper;
-    deck_range_of(&reader->job->rotor, &parameter, &lower, &upper);
-    int above = parameter.kind <= PARAMETER_TIEROD_E; /* moduli, nu, densities */
-    if (deck_clip(lower, upper, value) && (*value > lower || !above))
-        return 0;
-    return deck_error(reader, line->field[1].place, "%s is %s, expected a value %s %.6g%s%.6g", line->field[0].text,
-                      line->field[1].text, above ? "above" : "from", lower / si, above ? " and at most " : " to ", upper / si);
+    const char *range = deck_outside_range(reader->pool, &reader->job->rotor, parameter, si, value);
+    return range ? deck_error(reader, line->field[1].place, "%s is %s, expected a value %s", line->field[0].text,
+                              line->field[1].text, range)
+                 : 0;
 }
 
 /* An unknown that a later *SET gives a value is known. */

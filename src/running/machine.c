@@ -78,16 +78,18 @@ static int is_gone(const struct machine *machine, const struct rotor *rotor, int
     return machine->without_effect[effect] || (own->kind->at_disk && machine->without_disk[own->target]);
 }
 
+int machine_has(const struct machine *machine, const struct rotor *rotor, struct parameter parameter)
+{
+    int spring = parameter.kind == PARAMETER_SPRING_K || parameter.kind == PARAMETER_SPRING_K_ROT,
+        disk = parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA;
+    int cause = parameter.kind == PARAMETER_EFFECT;
+    return !(spring && machine->without_spring[parameter.index]) && !(disk && machine->without_disk[parameter.index]) &&
+           !(cause && is_gone(machine, rotor, parameter.index));
+}
+
 int machine_has_unknown(const struct machine *machine, const struct job *job, int p)
 {
-    if (p >= job->unknowns.nparameter)
-        return 1;
-    const struct parameter *parameter = &job->unknowns.parameter[p];
-    int spring = parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT,
-        disk = parameter->kind == PARAMETER_DISK_MASS || parameter->kind == PARAMETER_DISK_INERTIA;
-    int cause = parameter->kind == PARAMETER_EFFECT;
-    return !(spring && machine->without_spring[parameter->index]) && !(disk && machine->without_disk[parameter->index]) &&
-           !(cause && is_gone(machine, &job->rotor, parameter->index));
+    return p >= job->unknowns.nparameter || machine_has(machine, &job->rotor, job->unknowns.parameter[p]);
 }
 
 /* A cause that is gone. */

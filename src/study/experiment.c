@@ -244,15 +244,16 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
     return upper > lower ? lower + uniform(study, purpose, replicate, digest_name(name), 0) * (upper - lower) : lower;
 }
 
-static void set(struct rotor *rotor, const char *names, double value)
+/* value: in the unit of the deck */
+static void set(struct job *job, const char *names, double value)
 {
     char name[PARAMETER_NAME];
     for (const char *next = names; next;) {
         struct parameter parameter;
         const char *unit;
         next = parameter_next_name(next, name);
-        if (!parameter_find(rotor, name, &parameter, &unit))
-            parameter_state(rotor, &parameter, value);
+        if (!parameter_find(&job->rotor, name, &parameter, &unit))
+            parameter_state(&job->rotor, &parameter, value * deck_unit_of(&job->units, unit ? unit : ""));
     }
 }
 
@@ -264,7 +265,7 @@ static void draw_values(const struct study *study, long replicate, struct truth 
     for (int p = 0; p < job->unknowns.nparameter; p++)
         parameter_state(&job->rotor, &job->unknowns.parameter[p], job->unknowns.bounds[p].start);
     for (int t = 0; t < plan->ntruth; t++)
-        set(&job->rotor, plan->truth[t].name,
+        set(job, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
     const struct effect_parameter_name *parameter;
     for (int p = 0; (parameter = truth_parameter(truth, p)); p++)

@@ -167,16 +167,23 @@ static void check_sensors(struct checker *c, const char *deck, const struct job 
     }
 }
 
-/* Of a shared one all. */
-static int has_parameters(const struct rotor *rotor, const char *names)
+/* Of a shared one all; with values that they can have. */
+static int has_parameters(struct checker *c, const struct job *job, const struct plan_truth *truth)
 {
     char name[PARAMETER_NAME];
     int lacks = 0;
-    for (const char *next = names; next && !lacks;) {
+    for (const char *next = truth->name; next && !lacks;) {
         struct parameter parameter;
-        const char *unit;
+        const char *unit, *range = NULL;
         next = parameter_next_name(next, name);
-        lacks = parameter_find(rotor, name, &parameter, &unit) != 0;
+        lacks = parameter_find(&job->rotor, name, &parameter, &unit) != 0;
+        for (int end = 0; end < 2 && !lacks && !range; end++) {
+            double si = deck_unit_of(&job->units, unit ? unit : ""), stated = end ? truth->upper : truth->lower,
+                   value = stated * si;
+            range = deck_outside_range(&c->scratch, &job->rotor, parameter, si, &value);
+            if (range)
+                report(c, truth->place, "%s is %.6g, expected a value %s in deck %s", name, stated, range, job->deck);
+        }
     }
     return !lacks;
 }
@@ -188,7 +195,7 @@ static void check_truth(struct checker *c, const char *deck, const struct states
     for (int t = 0; t < plan->ntruth; t++) {
         int found = 0;
         for (int s = 0; s < states->nstate; s++)
-            found |= has_parameters(&states->state[s].job.rotor, plan->truth[t].name);
+            found |= has_parameters(c, &states->state[s].job, &plan->truth[t]);
         if (!found)
             report(c, plan->truth[t].place, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
                    deck);
