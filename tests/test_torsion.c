@@ -505,7 +505,7 @@ POOL_TEST(type_is_written_and_read_back)
     char *text;
     message_open(&notes, &test_pool);
     assert_status(deck_write(&test_pool, &given, &given, &options, &notes, &text), ROTID_OK);
-    assert_status(deck_read_back(&test_pool, given.state->job.deck, text, &notes, &again), ROTID_OK);
+    assert_status(deck_read_back(&test_pool, given.state->job.deck, text, ".", &notes, &again), ROTID_OK);
     assert_int_equal(again.state->job.options.type, MODE_TORSION);
     struct states other = again;
     other.state->job.options.type = MODE_AXIAL;

@@ -243,10 +243,6 @@ double deck_in_si(const struct deck_reader *reader, const char *what);
 /* The factors of all quantities, into the job; and of one of them, of a job whose deck has been read. */
 void deck_keep_units(struct deck_reader *reader);
 double deck_unit_of(const struct job_units *units, const char *what);
-/* Which quantity of *UNITS it is, -1: none; the option that states its unit, the unit that it has inside. */
-int deck_quantity(const char *what, const char **option, const char **si);
-/* The unit in which *value would be from `least` to `most`, nearest to what is typical, and the value in SI then; NULL: none. */
-const char *deck_likely_unit(const char *what, double least, double most, double typical, double *value);
 /* The deck's own unit of it, for messages. */
 const char *deck_unit_name(const struct deck_reader *reader, const char *what);
 /* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
@@ -574,8 +570,9 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *diagnosis, st
  * is no such folder, or ROTID_ERROR_ARGUMENT with an error in the list. */
 int deck_place(struct pool *pool, const char *from, const char *text, const char *to, struct message_list *notes, char **placed);
 
-/* The states of a text of deck_write. */
-int deck_read_back(struct pool *pool, const char *path, const char *text, struct message_list *notes, struct states *states);
+/* The states of a text of deck_write, whose files are those of the directory. */
+int deck_read_back(struct pool *pool, const char *path, const char *text, const char *directory, struct message_list *notes,
+                   struct states *states);
 
 /* ---------------------------------------------------------------------------------------------------------- deck proposed */
 

@@ -81,7 +81,7 @@ int deck_place(struct pool *pool, const char *from, const char *text, const char
     struct states as_written, as_placed;
     struct deck_edit e;
     struct deck_writer out = {.pool = pool};
-    const char *card = "";
+    const char *card = "STATE";
     unsigned bits = 0;
     *placed = (char *)text;
     int status = find_folder(pool, to, &new);
@@ -93,21 +93,15 @@ int deck_place(struct pool *pool, const char *from, const char *text, const char
     for (int i = 0; i < e.npart && !status; i++)
         deck_put(&out, "%.*s", (int)e.part[i].length, e.part[i].text);
     status = status ? status : e.status ? e.status : out.status;
-    struct message_list messages;
-    message_open(&messages, pool);
-    const struct deck_memory memory = {
-        .name = to, .length = out.length, .text = out.text, .directory = *old.path ? old.path : "/"};
     if (!status)
-        status = deck_read_back(pool, to, text, notes, &as_written);
-    if (!status && deck_read_states(pool, to, &memory, 0, NULL, &messages, &as_placed))
-        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_ARGUMENT;
-    for (int s = 0; !status && s < as_written.nstate; s++)
-        bits |= s < as_placed.nstate ? deck_compare(pool, &as_written.state[s].job, &as_placed.state[s].job, &card) : 1;
+        status = deck_read_back(pool, to, text, ".", notes, &as_written);
+    if (!status)
+        status = deck_read_back(pool, to, out.text, *old.path ? old.path : "/", notes, &as_placed);
+    for (int s = 0; !status && s < as_written.nstate && !bits; s++)
+        bits = s < as_placed.nstate ? deck_compare(pool, &as_written.state[s].job, &as_placed.state[s].job, &card) : 1;
     if (!status && bits)
-        status = ROTID_ERROR_ARGUMENT;
-    if (status == ROTID_ERROR_ARGUMENT && !notes->errors)
-        message_add(notes, SEVERITY_ERROR, to, 1, 1, "no deck is written: %s%s would be read as something else there",
-                    *card ? "*" : "its files", card);
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, to, 1, 1,
+                                "no deck is written: *%s would be read as something else there", card);
     if (!status)
         *placed = out.text;
     return status;

@@ -269,70 +269,55 @@ static struct job without_state(struct pool *pool, const struct job *job)
     return own;
 }
 
-/* The stiffness of a support: the start of an unknown, or as the rotor has it. */
-static double stiffness_of(const struct job *job, enum parameter_kind kind, int spring)
+/* Whether the rotor of the test is that of the state that it is made like with what the test changes, support `moved` gone
+ * elsewhere. */
+static int is_changed_rotor(struct pool *pool, const struct job *job, const struct job *like, const struct test *test)
 {
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        if (job->unknowns.parameter[p].kind == kind && job->unknowns.parameter[p].index == spring)
-            return job->unknowns.bounds[p].start;
-    return kind == PARAMETER_SPRING_K ? job->rotor.spring[spring].lateral : job->rotor.spring[spring].rotational;
-}
-
-static void change_spring(struct spring *spring, double factor)
-{
-    spring->lateral *= factor;
-    spring->rotational *= factor;
-}
-
-/* Whether the rotor of the test is that of the state that it is made like with what the test changes, support `moved` (-1: none)
- * gone elsewhere. */
-static int is_changed_rotor(struct pool *pool, const struct job *job, const struct job *like, const rotid_suggested_test *test,
-                            int moved)
-{
-    struct rotor own, expected;
+    int n = like->unknowns.nparameter, last = like->rotor.nspring, moved = test->kind == TEST_MOVED ? test->spring : -1;
+    double *x = POOL_ARRAY(pool, double, 2 * (size_t)n);
+    int *unused = POOL_ARRAY(pool, int, n);
+    struct job expected;
+    struct rotor own;
     const char *card;
-    int mass = isfinite(test->mass_kg), stiff = !strcmp(test->id, test_id(TEST_STIFF)),
-        changes = stiff || !strcmp(test->id, test_id(TEST_FREE)) || moved >= 0, last = like->rotor.nspring;
-    if (deck_copy_rotor(pool, &job->rotor, &own) || deck_copy_rotor(pool, &like->rotor, &expected) ||
-        own.ndisk != expected.ndisk + mass || own.nspring != last + (moved >= 0) || own.nsegment != expected.nsegment)
+    if (!x || !unused || test_apply(pool, test, like, x, &expected, x + n, unused) || deck_copy_rotor(pool, &job->rotor, &own))
         return 0;
-    if (mass) {
-        struct disk *disk = &own.disk[--own.ndisk];
-        if (!deck_is_near(disk->mass, test->mass_kg) || fabs(disk->position - test->z_m) > 1e-9 * rotor_length(&own))
+    expected.rotor.effect = like->rotor.effect;          /* whatever the sensors */
+    for (int p = 0; p < job->unknowns.nparameter; p++) { /* of what changes the value is a start */
+        const struct parameter *parameter = &job->unknowns.parameter[p];
+        if ((parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT) &&
+            (test->kind == TEST_STIFF || test->kind == TEST_FREE || parameter->index == moved || parameter->index == last))
+            *parameter_value(&own, *parameter) = job->unknowns.bounds[p].start;
+    }
+    if (test->kind == TEST_MASS && own.ndisk)
+        own.disk[own.ndisk - 1].name = NULL;
+    if (moved >= 0 && own.nspring == last + 1) { /* the new one in place of that which is hardly there */
+        const struct spring *was = &like->rotor.spring[moved], left = own.spring[moved], new = own.spring[--own.nspring];
+        own.spring[moved] = *was;
+        own.spring[moved].position = new.position;
+        own.spring[moved].lateral = new.lateral;
+        own.spring[moved].rotational = new.rotational;
+        if (!deck_is_near(left.position, was->position) || !deck_is_near(left.lateral, was->lateral * TEST_SOFTER * TEST_SOFTER))
             return 0;
     }
-    for (int s = 0; s < own.nspring && changes; s++) {
-        own.spring[s].lateral = stiffness_of(job, PARAMETER_SPRING_K, s);
-        own.spring[s].rotational = stiffness_of(job, PARAMETER_SPRING_K_ROT, s);
-        if (s < last && moved < 0)
-            change_spring(&expected.spring[s], stiff ? TEST_STIFFER : TEST_SOFTER);
-        else if (s < last && s != moved) /* as it was: of an unknown the value that its card states */
-            own.spring[s] = job->rotor.spring[s];
-    }
-    if (moved >= 0) {
-        const struct spring *was = &like->rotor.spring[moved], *is = &own.spring[--own.nspring];
-        change_spring(&expected.spring[moved], TEST_SOFTER * TEST_SOFTER);
-        if (fabs(is->position - test->z_m) > 1e-9 * rotor_length(&own) || !deck_is_near(is->lateral, was->lateral) ||
-            !deck_is_near(is->rotational, was->rotational))
-            return 0;
-    }
-    return !(deck_compare_rotors(&expected, &own, &card) & ~(unsigned)DECK_OTHER_ELEMENTS); /* the mesh follows from the data */
+    /* the mesh follows from the data */
+    return !(deck_compare_rotors(&expected.rotor, &own, &card) & ~(unsigned)DECK_OTHER_ELEMENTS);
 }
 
-static int is_test(struct pool *pool, const struct job *job, const struct job *like, const rotid_suggested_test *test)
+static int is_test(struct pool *pool, const struct job *job, const struct job *like, const rotid_suggested_test *suggested)
 {
     const struct rotor *rotor = &job->rotor;
-    int found = 0;
-    if (test->nsensors_m && rotor->nsensor != test->nsensors_m)
+    struct test test = {.kind = TEST_AGAIN, .mass = suggested->mass_kg, .z = suggested->z_m};
+    while (test.kind < TEST_MOVED && strcmp(test_id(test.kind), suggested->id) != 0)
+        test.kind++;
+    if (suggested->nsensors_m && rotor->nsensor != suggested->nsensors_m)
         return 0;
-    for (int s = 0; s < test->nsensors_m; s++)
-        if (fabs(rotor->sensor[s].position - test->sensors_m[s]) > 1e-9 * rotor_length(rotor))
+    for (int s = 0; s < suggested->nsensors_m; s++)
+        if (fabs(rotor->sensor[s].position - suggested->sensors_m[s]) > 1e-9 * rotor_length(rotor))
             return 0;
-    if (strcmp(test->id, test_id(TEST_MOVED)) != 0)
-        return is_changed_rotor(pool, job, like, test, -1);
-    for (int s = 0; s < like->rotor.nspring && !found; s++)
-        found = is_changed_rotor(pool, job, like, test, s);
-    return found;
+    for (; test.kind == TEST_MOVED && test.spring < like->rotor.nspring; test.spring++)
+        if (is_changed_rotor(pool, job, like, &test))
+            return 1;
+    return test.kind != TEST_MOVED && is_changed_rotor(pool, job, like, &test);
 }
 
 /* Errors, which go to the list, where the text does not read as the states of the deck and one of the test more. */
@@ -342,7 +327,7 @@ static int read_back(struct pool *pool, const struct states *given, const char *
     const char *from = given->state->job.deck, *filled = filled_in(pool, text), *card;
     const struct job *like = &given->state->job;
     struct states states;
-    int status = filled ? deck_read_back(pool, from, filled, notes, &states) : ROTID_ERROR_MEMORY, before = notes->errors;
+    int status = filled ? deck_read_back(pool, from, filled, ".", notes, &states) : ROTID_ERROR_MEMORY, before = notes->errors;
     if (status)
         return status;
     if (states.nstate != given->nstate + 1)

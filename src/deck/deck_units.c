@@ -83,17 +83,10 @@ const char *deck_unit_name(const struct deck_reader *reader, const char *what)
                                       : quantity[q].si;
 }
 
-int deck_quantity(const char *what, const char **option, const char **si)
+/* The unit in which *value would be from `least` to `most`, nearest to what is typical, and the value in SI then; NULL: none. */
+static const char *likely_unit(int q, double least, double most, double typical, double *value)
 {
-    int q = find(what);
-    *option = q < 0 ? "" : quantity[q].option;
-    *si = q < 0 ? "" : quantity[q].si;
-    return q;
-}
-
-const char *deck_likely_unit(const char *what, double least, double most, double typical, double *value)
-{
-    int q = find(what), best = -1;
+    int best = -1;
     double nearest = INFINITY;
     for (int u = 1; q >= 0 && quantity[q].word[u]; u++) {
         double there = *value * quantity[q].factor[u], apart = fabs(log(there / typical));
@@ -104,4 +97,65 @@ const char *deck_likely_unit(const char *what, double least, double most, double
     }
     *value *= best < 0 ? 1 : quantity[q].factor[best];
     return best < 0 ? NULL : quantity[q].word[best];
+}
+
+/* What rotors, and small structures that are measured in their place, are made of. A share is a number that decks state in
+ * percent by mistake. The first row whose words stand in the description of a value counts. */
+static const struct {
+    const char *what;
+    double least, most, typical;
+    const char *share; /* what a hundredth of it is, NULL: its unit may be another one */
+} usual[] = {
+    {"Young's modulus", 1e6, 1.5e12, 2e11, NULL}, /* from rubber on */
+    {"shear modulus", 1e6, 7e11, 8e10, NULL},
+    {"density", 100, 25e3, 7800, NULL},
+    {"length [m]", 1e-4, 30, 0.3, NULL},
+    {"diameter", 1e-4, 8, 0.2, NULL},
+    {"radius", 1e-4, 4, 0.1, NULL},
+    {"height", 1e-5, 8, 0.05, NULL},
+    {"width [m]", 1e-5, 8, 0.05, NULL},
+    {"mass [kg]", 1e-6, 1e5, 10, NULL},
+    {"frequency [Hz]", 0.05, 1e5, 300, NULL},
+    {"FREQUENCY", 0, 0.05, 0.001, "of the frequency"},
+    {"SHAPE", 0, 0.3, 0.01, "of the largest component"},
+    {"damping ratio", 0, 0.25, 0.005, "of critical damping"},
+};
+
+void deck_check_magnitude(struct deck_reader *reader, struct place place, const char *what, const char *text, double value)
+{
+    size_t i = 0, count = sizeof usual / sizeof *usual;
+    while (i < count && !strstr(what, usual[i].what))
+        i++;
+    if (i == count || strstr(what, "deviation") || /* which says nothing of the unit: any size is usual */
+        value <= 0 || (value >= usual[i].least && value <= usual[i].most) || reader->warned & 1U << i)
+        return;
+    reader->warned |= 1U << i; /* once of a kind */
+    if (usual[i].share) {
+        deck_note(reader, place, "%s is %s, which is %.4g %% %s: expected a share, not percent", what, text, 100 * value,
+                  usual[i].share);
+        return;
+    }
+    double there = value;
+    int q = find(what);
+    const char *option = q < 0 ? "" : quantity[q].option, *si = q < 0 ? "" : quantity[q].si;
+    const char *unit = q >= 0 ? reader->likely[q] : NULL; /* one deck has one unit of lengths: 1000 and 50 are both mm */
+    double in_unit = unit ? value * deck_unit_factor(si, unit) : 0;
+    if (in_unit >= usual[i].least && in_unit <= usual[i].most)
+        there = in_unit;
+    else
+        unit = likely_unit(q, usual[i].least, usual[i].most, usual[i].typical, &there);
+    if (q >= 0)
+        reader->likely[q] = unit;
+    if (q < 0)
+        deck_note(reader, place, "%s is %s, outside of what rotors have (%.3g to %.3g)", what, text, usual[i].least,
+                  usual[i].most);
+    else if (!unit || reader->unit[q])
+        deck_note(reader, place, "%s is %s, %.4g %s, outside of what rotors have (%.3g to %.3g)", what, text, value, si,
+                  usual[i].least, usual[i].most);
+    else
+        deck_note(
+            reader, place,
+            "%s is %s, outside of what rotors have (%.3g to %.3g): should it be in %s, write %.6g, or *UNITS, %s=%s for the "
+            "whole deck",
+            what, text, usual[i].least, usual[i].most, unit, there, option, unit);
 }

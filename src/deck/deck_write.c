@@ -666,11 +666,12 @@ static int compose(struct writing *w, char **text)
     return w->edit.status ? w->edit.status : out.status;
 }
 
-int deck_read_back(struct pool *pool, const char *path, const char *text, struct message_list *notes, struct states *states)
+int deck_read_back(struct pool *pool, const char *path, const char *text, const char *directory, struct message_list *notes,
+                   struct states *states)
 {
     struct message_list messages;
     message_open(&messages, pool);
-    const struct deck_memory memory = {.name = path, .length = strlen(text), .text = text, .directory = "."};
+    const struct deck_memory memory = {.name = path, .length = strlen(text), .text = text, .directory = directory};
     int status = deck_read_states(pool, path, &memory, 0, NULL, &messages, states);
     for (size_t i = 0; i < messages.count && status; i++)
         if (messages.item[i].severity == SEVERITY_ERROR) {
@@ -727,7 +728,7 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
         card = "";
         status = compose(&w, text);
         if (!status)
-            status = *text ? deck_read_back(pool, path, *text, notes, &read) : ROTID_ERROR_MEMORY;
+            status = *text ? deck_read_back(pool, path, *text, ".", notes, &read) : ROTID_ERROR_MEMORY;
         left = status ? 1 : compare(&w, &read, &card);
     }
     if (!status && left)
