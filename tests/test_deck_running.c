@@ -107,7 +107,7 @@ POOL_TEST(cards_that_cannot_be_are_refused_with_their_place)
     says(SHAFT TWO "*LOSS\nx, 1\n", ROTID_ERROR, 16, "group x is not defined");
     says(SHAFT TWO "*LOSS\na, -1\n", ROTID_ERROR, 16, "not below zero");
     says(SHAFT TWO "*PULL, GROUP=a\n-1\n", ROTID_ERROR, 16, "not below zero");
-    says(SHAFT TWO "*CHANGE\na.q, 1\n", ROTID_ERROR, 16, "no parameter");
+    says(SHAFT TWO "*CHANGE\na.q, 1\n", ROTID_ERROR, 16, "no such parameter");
     says(SHAFT TWO "*CHANGE\na.nu, 2\n", ROTID_ERROR, 16, "a.nu times 2 is 0.6, expected a value above -1 and at most 0.5");
     says(SHAFT "*RUNNING, WITHOUT=f\n*CHANGE\nf.k, 2\n", ROTID_ERROR, 12, "f.k is of a part that is left at the test");
     says(SHAFT TWO "*PROBE, NAME=x\n3\n", ROTID_ERROR, 16, "outside the rotor");

@@ -189,7 +189,8 @@ POOL_TEST(what_is_wrong_has_its_place)
                    "state fee is not defined, expected one of free, loaded");
     assert_refused(BAR UNKNOWN "*FIT, STATE=free\n*MODES\n1, 225\n", 17, "state free: the deck has no *STATE, expected none");
     assert_refused(BAR UNKNOWN FREE "*SET\nbar.x, 1\n" LOADED, 22,
-                   "bar.x is no parameter, expected one as for *IDENTIFY, or GROUP.length (state free)");
+                   "bar.x: there is a thing of that name and it has no such parameter, expected one of bar.E, bar.G, bar.nu, "
+                   "bar.rho (state free)");
     assert_refused(BAR UNKNOWN FREE "*SET\nbore.length, 1\n" LOADED, 22,
                    "bore.length is no length, expected that of a *SHAFT or *BEAM (state free)");
     assert_refused(BAR UNKNOWN FREE "*SET\nbar.E, -1\n" LOADED, 22,

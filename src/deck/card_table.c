@@ -349,6 +349,11 @@ const struct deck_card *deck_card_find(const char *name)
     return find(deck_card_table, name);
 }
 
+int deck_stands(const struct card *card, enum card_states where)
+{
+    return card->kind && card->kind->states == where;
+}
+
 const struct deck_row *deck_rows(const char *card)
 {
     return deck_card_find(card)->row;

@@ -33,8 +33,7 @@ void deck_check_options(struct deck_reader *reader, const struct card *card, con
 
 void deck_check_names(struct deck_reader *reader, const struct card *card)
 {
-    const struct deck_card *kind = deck_card_find(card->name);
-    if (!kind) {
+    if (!card->kind) {
         const char *near = text_nearest(card->name, deck_card_table, sizeof *deck_card_table);
         if (strpbrk(card->name, "\t;=")) {
             deck_error(reader, card->place, "card *%s is not known, expected commas between a card and its options", card->name);
@@ -44,7 +43,7 @@ void deck_check_names(struct deck_reader *reader, const struct card *card)
                    near ? "" : "one of docs/deck.md such as ", near ? near : "SHAFT");
         return;
     }
-    deck_check_options(reader, card, kind->row);
+    deck_check_options(reader, card, card->kind->row);
 }
 
 static void check_materials(struct deck_reader *reader)
@@ -59,30 +58,22 @@ static void check_materials(struct deck_reader *reader)
     }
 }
 
-/* The set of names that a card's NAME belongs to. Parameters are addressed by name, so groups, rods, springs, disks and causes
- * share one set, but for two groups, which are compared where they are made; materials and states have their own, and of the
- * machine bearings and probes. NULL: of none. */
-static const char *names_of(const struct card *card, int machine)
+/* Whether the NAMEs of two cards are of one set. Parameters are addressed by name, so groups (phases 2 and 3), rods, springs,
+ * disks and causes share one, but for two groups, which are compared where they are made; materials and states have their own,
+ * and of the machine bearings and probes. */
+static int share_names(const struct deck_card *a, const struct deck_card *b, int machine)
 {
-    static const char *const groups[] = {"SHAFT", "BEAM", "LAYER"}, *const apart[] = {"MATERIAL", "STATE"};
-    const struct deck_card *kind = deck_card_find(card->name);
-    for (int i = 0; i < 3; i++)
-        if (!strcmp(card->name, groups[i]))
-            return "group";
-    for (int i = 0; i < 2; i++)
-        if (!strcmp(card->name, apart[i]))
-            return NULL;
-    return !machine ? "part" : kind && kind->states == CARD_OF_MACHINE ? kind->name : NULL;
+    if (!a || !b || machine)
+        return a && a == b && a->states == CARD_OF_MACHINE;
+    return a->phase > 1 && b->phase > 1 && a->phase < LAST_PHASE && b->phase < LAST_PHASE && (a->phase > 3 || b->phase > 3);
 }
 
 void deck_check_unique(struct deck_reader *reader, int ncard, const struct card *card, int machine)
 {
     for (int c = 0; c < ncard; c++) {
         const struct card_option *option = card_option(&card[c], "NAME"), *other;
-        const char *names = names_of(&card[c], machine), *of;
-        for (int d = 0; d < c && option && names; d++)
-            if ((other = card_option(&card[d], "NAME")) && (of = names_of(&card[d], machine)) &&
-                (machine ? of == names : strcmp(of, "group") != 0 || strcmp(names, "group") != 0) &&
+        for (int d = 0; d < c && option; d++)
+            if (share_names(card[c].kind, card[d].kind, machine) && (other = card_option(&card[d], "NAME")) &&
                 same_text(option->value, other->value))
                 deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
     }
@@ -422,7 +413,7 @@ void deck_read_cards(struct deck_reader *reader)
         if (phase == LAST_PHASE)
             job->measurement.holdout = POOL_ARRAY(reader->pool, int, job->measurement.nmode);
         for (int c = 0; c < reader->text.ncard && !reader->pool->out_of_memory; c++) {
-            const struct deck_card *kind = deck_card_find(reader->text.card[c].name);
+            const struct deck_card *kind = reader->text.card[c].kind;
             if (kind && kind->phase == phase)
                 deck_read_card(reader, &reader->text.card[c], kind);
         }

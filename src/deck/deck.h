@@ -81,8 +81,9 @@ struct card_option {
 };
 
 struct card {
-    const char *name;        /* upper case, without the asterisk */
-    struct place place, end; /* end: just behind its name and options */
+    const char *name;             /* upper case, without the asterisk */
+    const struct deck_card *kind; /* NULL: there is none of that name */
+    struct place place, end;      /* end: just behind its name and options */
     int noption, nline;
     struct card_option *option;
     struct data_line *line;
@@ -313,7 +314,7 @@ void deck_causes_of_solid(struct deck_reader *reader);
 /* The cards of the text into the job, with everything that is checked of them. */
 void deck_read_cards(struct deck_reader *reader);
 
-/* parameter_find of a field, also of "left.E=right.E". 3: an error of it has been reported. */
+/* parameter_find of a field, also of "left.E=right.E". 0, or 1 after an error. */
 int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
 
 /* NULL where a parameter may have this value: one of a cause within its own range, others as their cards ask for; one that leaves it

@@ -42,6 +42,24 @@ void deck_drop_unknown(struct deck_reader *reader, int p)
     reader->ncommon_unknown -= p < reader->ncommon_unknown;
 }
 
+/* Says why there is no such parameter. Returns 1. */
+static int refuse_parameter(struct deck_reader *reader, const struct field *field, int is_thing)
+{
+    const char *known = parameter_list(reader->pool, &reader->job->rotor, field->text);
+    if (!is_thing && deck_is_of_bearing(reader, field->text))
+        return deck_error(
+            reader, field->place,
+            "%.*s is a *BEARING, expected its unknowns in an *IDENTIFY behind *RUNNING, where NAME.k and NAME.c are "
+            "factors",
+            (int)strcspn(field->text, "."), field->text);
+    if (!is_thing && deck_cause_explains(reader, field->text, field->place))
+        return 1;
+    return deck_error(reader, field->place,
+                      is_thing ? "%s: there is a thing of that name and it has no such parameter, expected one of %s"
+                               : "%s is no parameter, expected one of %s",
+                      field->text, known ? known : "");
+}
+
 int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit)
 {
     const struct rotor *rotor = &reader->job->rotor;
@@ -51,36 +69,31 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
     *parameter = (struct parameter){.kind = PARAMETER_E};
     for (const char *c = next; *c; c++)
         count += *c == PARAMETER_SHARED_BY;
-    if (!count)
-        return parameter_find(rotor, next, parameter, unit);
+    if (!count) {
+        int failed = parameter_find(rotor, next, parameter, unit);
+        return failed ? refuse_parameter(reader, field, failed == 2) : 0;
+    }
     also = POOL_ARRAY(reader->pool, int, count);
     for (int i = 0; next && also; i++) {
         struct parameter one;
         next = parameter_next_name(next, name);
-        int found = parameter_find(rotor, name, &one, unit);
-        if (found || one.kind > PARAMETER_RHO || (i && one.kind != parameter->kind)) {
-            deck_error(reader, field->place,
-                       "%s in %s cannot be shared, expected the same one of E, G, nu and rho of several groups", name,
-                       field->text);
-            return 3;
-        }
-        if (i && parameter_is_of_group(parameter, one.index)) {
-            deck_error(reader, field->place, "%s stands twice in %s, expected once", name, field->text);
-            return 3;
-        }
-        if (i && *parameter_value(rotor, one) != *parameter_value(rotor, *parameter)) {
-            deck_error(reader, field->place, "%s is %.9g and %.*s %.9g in the deck, expected the same value of what is shared",
-                       name, *parameter_value(rotor, one), (int)strcspn(field->text, "="), field->text,
-                       *parameter_value(rotor, *parameter));
-            return 3;
-        }
+        if (parameter_find(rotor, name, &one, unit) || one.kind > PARAMETER_RHO || (i && one.kind != parameter->kind))
+            return deck_error(reader, field->place,
+                              "%s in %s cannot be shared, expected the same one of E, G, nu and rho of several groups", name,
+                              field->text);
+        if (i && parameter_is_of_group(parameter, one.index))
+            return deck_error(reader, field->place, "%s stands twice in %s, expected once", name, field->text);
+        if (i && *parameter_value(rotor, one) != *parameter_value(rotor, *parameter))
+            return deck_error(
+                reader, field->place, "%s is %.9g and %.*s %.9g in the deck, expected the same value of what is shared", name,
+                *parameter_value(rotor, one), (int)strcspn(field->text, "="), field->text, *parameter_value(rotor, *parameter));
         if (i)
             also[parameter->nalso++] = one.index;
         else
             *parameter = one;
         parameter->also = also;
     }
-    return also ? 0 : 3;
+    return !also;
 }
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
@@ -92,21 +105,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         const struct data_line *line = &card->line[i];
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
-        int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
-        const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
-        int bearing = found == 1 && deck_is_of_bearing(reader, bounds.name);
-        if (bearing)
-            deck_error(reader, line->field[0].place,
-                       "%.*s is a *BEARING, expected its unknowns in an *IDENTIFY behind *RUNNING, where NAME.k and NAME.c are "
-                       "factors",
-                       (int)strcspn(bounds.name, "."), bounds.name);
-        if (found == 1 && !bearing && !deck_cause_explains(reader, bounds.name, line->field[0].place))
-            deck_error(reader, line->field[0].place, "%s is no parameter, expected one of %s", bounds.name, known ? known : "");
-        if (found == 2)
-            deck_error(reader, line->field[0].place,
-                       "%s: there is a thing of that name and it has no such parameter, expected one of %s", bounds.name,
-                       known ? known : "");
-        if (deck_read_values(reader, line, &bounds) || found)
+        int bad = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
+        if (deck_read_values(reader, line, &bounds) || bad)
             continue;
         double si = deck_in_si(reader, bounds.unit ? bounds.unit : "");
         bounds.lower *= si;

@@ -154,10 +154,9 @@ static void put_cards_of(struct deck_edit *e, struct deck_writer *w, const char 
     int inside = 0;
     for (int i = 0; i < e->npart; i++) {
         const struct deck_part *part = &e->part[i];
-        const struct deck_card *card = deck_card_find(part->read.name);
         if (deck_edit_is(part, "STATE"))
             inside = is_called(part, name);
-        else if (inside && card && card->states != CARD_OF_STATE && !deck_edit_is(part, "NOISE") &&
+        else if (inside && part->read.kind && !deck_stands(&part->read, CARD_OF_STATE) && !deck_edit_is(part, "NOISE") &&
                  !deck_edit_is(part, "SENSORS"))
             deck_edit_put(e, w, part, 1);
     }
@@ -197,8 +196,7 @@ static const char *take_modes(struct deck_edit *e, const char *option)
 static void put_parts(struct deck_edit *e, struct deck_writer *w, unsigned wanted)
 {
     for (int i = 0; i < e->npart; i++) {
-        const struct deck_card *kind = deck_card_find(e->part[i].read.name);
-        int running = e->part[i].state == DECK_BEHIND_STATES, measured = kind && kind->states == CARD_OF_STATE;
+        int running = e->part[i].state == DECK_BEHIND_STATES, measured = deck_stands(&e->part[i].read, CARD_OF_STATE);
         e->part[i].left_out = !(wanted & (running ? RUNNING : measured ? MEASURED : COMMON));
     }
     deck_edit_text(e, w);

@@ -128,6 +128,9 @@ const struct deck_card *deck_card_find(const char *name);
 const struct deck_card *deck_card_of_machine(const char *name);
 const struct deck_row *deck_rows(const char *card);
 
+/* Whether there is such a card and it stands there. */
+int deck_stands(const struct card *card, enum card_states where);
+
 int deck_row_is_last(const struct deck_row *row);
 
 /* Takes the options of a card, or the values of a data line, that are rows of the reader other than ROW_OTHER into the struct

@@ -11,12 +11,6 @@
 #define MOST_SPEEDS  10000 /* of a table of a bearing */
 #define COEFFICIENTS 8     /* kxx, kxy, kyx, kyy, cxx, cxy, cyx, cyy */
 
-static int is_of_machine(const struct card *card)
-{
-    const struct deck_card *kind = deck_card_find(card->name);
-    return kind && kind->states == CARD_OF_MACHINE;
-}
-
 static int is(const struct card *card, const char *name)
 {
     return !strcmp(card->name, name);
@@ -34,10 +28,10 @@ void deck_split_running(struct deck_reader *reader, int *nread)
             begin = c;
         else if (is(card, "STATE") && begin >= 0)
             deck_error(reader, card->place, "*STATE stands behind *RUNNING, expected the machine behind all states");
-        else if (is_of_machine(card) && begin < 0)
+        else if (deck_stands(card, CARD_OF_MACHINE) && begin < 0)
             deck_error(reader, card->place, "*%s stands before *RUNNING, expected *RUNNING in front of what the machine has",
                        card->name);
-        else if (begin >= 0 && !is_of_machine(card) && !is(card, "DISK") && !is(card, "IDENTIFY"))
+        else if (begin >= 0 && !deck_stands(card, CARD_OF_MACHINE) && !is(card, "DISK") && !is(card, "IDENTIFY"))
             deck_error(reader, card->place,
                        "*%s stands behind *RUNNING, expected it before: behind *RUNNING the machine has *DISK, *IDENTIFY, "
                        "*BEARING and what docs/deck.md lists with them",
@@ -69,16 +63,25 @@ int deck_is_of_bearing(const struct deck_reader *reader, const char *name)
     return 0;
 }
 
+/* The bearing of that name [length], -1: there is none. */
+static int find_bearing(const struct machine *machine, const char *name, size_t length)
+{
+    for (int i = 0; i < machine->nbearing; i++) {
+        const char *own = machine->bearing[i].name;
+        if (own && strlen(own) == length && !strncasecmp(own, name, length))
+            return i;
+    }
+    return -1;
+}
+
+/* -1 after an error. */
 static int named_bearing(struct deck_reader *reader, const struct card_option *option)
 {
-    const struct machine *machine = reader->machine;
-    for (int i = 0; option && i < machine->nbearing; i++)
-        if (machine->bearing[i].name && same_text(machine->bearing[i].name, option->value))
-            return i;
-    if (option)
+    int found = find_bearing(reader->machine, option->value, strlen(option->value));
+    if (found < 0)
         deck_error(reader, option->value_place, "bearing %s is not defined, expected the name of a *BEARING before",
                    option->value);
-    return -1;
+    return found;
 }
 
 static void leave_at_test(struct deck_reader *reader, struct place place, const char *name)
@@ -90,12 +93,13 @@ static void leave_at_test(struct deck_reader *reader, struct place place, const 
         found = rotor->sling > 0 || all;
         machine->without_sling = 1;
     }
-    for (int i = 0; i < rotor->nspring; i++)
-        if (all || (rotor->spring[i].name && same_text(rotor->spring[i].name, name)))
-            found = machine->without_spring[i] = 1;
-    for (int i = 0; i < rotor->ndisk && !all; i++)
-        if (rotor->disk[i].name && same_text(rotor->disk[i].name, name))
-            found = machine->without_disk[i] = 1;
+    for (int kind = 0; kind < 2; kind++) {
+        int *without = kind ? machine->without_disk : machine->without_spring;
+        const char **own;
+        for (int i = 0; (own = deck_name_of(rotor, kind ? TARGET_DISK : TARGET_SPRING, i)); i++)
+            if ((all && !kind) || (!all && *own && same_text(*own, name)))
+                found = without[i] = 1;
+    }
     for (int i = 0; i < rotor->neffect && !all; i++)
         if (rotor->effect[i].name && same_text(rotor->effect[i].name, name))
             found = machine->without_effect[i] = 1;
@@ -404,16 +408,12 @@ int deck_check_change(struct deck_reader *reader, const struct card *card, const
 {
     struct change *change = item;
     const char *unit;
-    int found = deck_find_parameter(reader, &line->field[0], &change->parameter, &unit);
     (void)card;
-    if (found == 1 || found == 2)
-        deck_error(reader, line->field[0].place, "%s is no parameter of this deck, expected one such as GROUP.E", change->name);
-    else if (!found && change->parameter.kind == PARAMETER_G &&
-             reader->job->rotor.group[change->parameter.index].material.isotropic)
+    if (deck_find_parameter(reader, &line->field[0], &change->parameter, &unit))
+        return 1;
+    if (change->parameter.kind == PARAMETER_G && reader->job->rotor.group[change->parameter.index].material.isotropic)
         return deck_error(reader, line->field[0].place, "%s follows E and nu of an isotropic material, expected E to change",
                           change->name);
-    if (found)
-        return found;
     if (!machine_has(reader->machine, &reader->job->rotor, change->parameter))
         return deck_error(reader, line->field[0].place, "%s is of a part that is left at the test, expected one of the machine",
                           change->name);
@@ -473,22 +473,18 @@ int deck_check_runup(struct deck_reader *reader, const struct card *card, const 
 static int unknown_bearing(struct deck_reader *reader, const struct field *field, int *damping)
 {
     const struct machine *machine = reader->machine;
-    const char *dot = strrchr(field->text, '.'),
-               *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - field->text), field->text) : NULL;
+    const char *dot = strrchr(field->text, '.');
     *damping = dot && same_text(dot + 1, "c");
-    for (int i = 0; i < machine->nbearing && name && (*damping || same_text(dot + 1, "k")); i++) {
-        const struct bearing *b = &machine->bearing[i];
-        if (!b->name || !same_text(b->name, name))
-            continue;
-        if (b->like == i)
-            return i;
-        return -deck_error(reader, field->place, "%s is like %s, expected %s.%s", name, machine->bearing[b->like].name,
-                           machine->bearing[b->like].name, dot + 1);
-    }
-    return -deck_error(
-        reader, field->place,
-        "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
-        field->text);
+    int i = dot && (*damping || same_text(dot + 1, "k")) ? find_bearing(machine, field->text, (size_t)(dot - field->text)) : -1;
+    if (i < 0)
+        return -deck_error(
+            reader, field->place,
+            "%s is no unknown of the machine, expected NAME.k or NAME.c of a *BEARING: a factor on its stiffness or damping",
+            field->text);
+    const struct bearing *like = &machine->bearing[machine->bearing[i].like];
+    return like == &machine->bearing[i] ? i
+                                        : -deck_error(reader, field->place, "%s is like %s, expected %s.%s",
+                                                      machine->bearing[i].name, like->name, like->name, dot + 1);
 }
 
 /* *IDENTIFY behind *RUNNING */

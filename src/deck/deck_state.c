@@ -81,12 +81,11 @@ static void check_places(struct deck_reader *reader, const struct division *d)
 {
     for (int c = 0; c < reader->text.ncard && d->nstate; c++) {
         const struct card *card = &reader->text.card[c];
-        const struct deck_card *kind = deck_card_find(card->name);
         int of_state = c >= d->first && c < d->nread;
-        if (kind && of_state && kind->states == CARD_COMMON)
+        if (of_state && deck_stands(card, CARD_COMMON))
             deck_error(reader, card->place, "*%s stands behind *STATE, expected it before the first one: it is common to all",
                        card->name);
-        if (kind && !of_state && kind->states == CARD_OF_STATE)
+        if (!of_state && deck_stands(card, CARD_OF_STATE))
             deck_error(reader, card->place, "*%s stands before the first *STATE, expected it behind that of the state it is of",
                        card->name);
     }
@@ -100,9 +99,8 @@ static void check_overridden_files(struct deck_reader *reader, const struct divi
     for (int s = 0; s < d->nstate; s++) {
         const struct card *card = d->state[s] + 1, *end = s + 1 < d->nstate ? d->state[s + 1] : reader->text.card + d->nread;
         for (; card < end; card++) {
-            const struct deck_card *kind = deck_card_find(card->name);
             const struct card_option *file = card_option(card, "FILE");
-            if (!kind || kind->states != CARD_OF_STATE || !file || !file->overridden)
+            if (!deck_stands(card, CARD_OF_STATE) || !file || !file->overridden)
                 continue;
             if (overridden && name != name_of(d->state[s])) {
                 deck_error(reader, file->place,
@@ -127,12 +125,11 @@ static void text_of_state(struct deck_reader *reader, const struct division *d, 
         return;
     for (int c = 0; c < text->ncard; c++) {
         const struct card *card = &text->card[c];
-        const struct deck_card *kind = deck_card_find(card->name);
         int replaced = 0;
         if (c >= d->first && c < d->nread)
             continue;
         for (const struct card *other = begin; other < end; other++)
-            replaced |= kind && kind->states == CARD_REPLACES && !strcmp(other->name, card->name);
+            replaced |= deck_stands(card, CARD_REPLACES) && !strcmp(other->name, card->name);
         if (!replaced)
             own->text.card[own->text.ncard++] = *card;
     }
@@ -357,11 +354,8 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
     const char *unit = NULL;
     struct parameter parameter;
     double value;
-    int found = deck_find_parameter(reader, &line->field[0], &parameter, &unit);
-    if (found && found != 3 && (found == 2 || !deck_cause_explains(reader, line->field[0].text, line->field[0].place)))
-        deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length",
-                   line->field[0].text);
-    if (found || deck_count(reader, line, 2) || deck_number(reader, line, 1, "value", ANY, &value))
+    if (deck_find_parameter(reader, &line->field[0], &parameter, &unit) || deck_count(reader, line, 2) ||
+        deck_number(reader, line, 1, "value", ANY, &value))
         return;
     double si = deck_in_si(reader, unit ? unit : "");
     value *= si;

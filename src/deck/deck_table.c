@@ -177,27 +177,15 @@ static int find_column(struct deck_reader *reader, const struct data_line *heade
         const struct field *field = &header->field[i];
         if (!table_names(field->text, column, unit))
             continue;
-        if (found >= 0) {
-            deck_error(reader, field->place, "'%s' is a second column of the %.*s, expected one", field->text,
-                       (int)strcspn(column->names, "|"), column->names);
-            return -2;
-        }
+        if (found >= 0)
+            return -1 - deck_error(reader, field->place, "'%s' is a second column of the %.*s, expected one", field->text,
+                                   (int)strcspn(column->names, "|"), column->names);
         found = i;
-        if (*unit && column->si && !((*in_si = deck_unit_factor(column->si, unit)) > 0)) {
-            deck_error(reader, field->place, "the unit of '%s' is not known, expected %s or another one of *UNITS", field->text,
-                       strcmp(column->si, "1") != 0 ? column->si : "%");
-            return -2;
-        }
+        if (*unit && column->si && !((*in_si = deck_unit_factor(column->si, unit)) > 0))
+            return -1 - deck_error(reader, field->place, "the unit of '%s' is not known, expected %s or another one of *UNITS",
+                                   field->text, strcmp(column->si, "1") != 0 ? column->si : "%");
     }
     return found;
-}
-
-static void list_names(const struct table_kind *kind, int length, char *list)
-{
-    *list = 0;
-    for (const struct csv_column *c = kind->column; c->names; c++)
-        (void)snprintf(list + strlen(list), (size_t)length - strlen(list), "%s%.*s", *list ? ", " : "",
-                       (int)strcspn(c->names, "|"), c->names);
 }
 
 /* Finds the columns of a kind. 0, or 1 after an error; a column that no card knows is told of. `values`: those of data lines that
@@ -206,9 +194,12 @@ static int table_find_columns(struct deck_reader *reader, const struct table_tex
                               int values, struct table_columns *columns)
 {
     const struct data_line *header = &table->row[0];
-    char list[256];
+    char list[256] = "", unread[256] = "";
+    int first = -1;
     *columns = (struct table_columns){.header = table_has_header(table)};
-    list_names(kind, sizeof list, list);
+    for (const struct csv_column *c = kind->column; c->names; c++)
+        (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%.*s", *list ? ", " : "", (int)strcspn(c->names, "|"),
+                       c->names);
     for (int k = 0; kind->column[k].names; k++) {
         const struct csv_column *c = &kind->column[k];
         int value = k - kind->nkey, *at = &columns->at[k];
@@ -219,8 +210,6 @@ static int table_find_columns(struct deck_reader *reader, const struct table_tex
             return deck_error(reader, header->place, "the first row names no column '%.*s', expected names such as %s",
                               (int)strcspn(c->names, "|"), c->names, list);
     }
-    char unread[256] = "";
-    int first = -1;
     for (int i = 0; i < header->count && columns->header; i++)
         if (*header->field[i].text && !is_known(header->field[i].text)) {
             (void)snprintf(unread + strlen(unread), sizeof unread - strlen(unread), "%s'%s'", first < 0 ? "" : ", ",
@@ -371,24 +360,12 @@ static void take_rows(struct taking *t)
 
 /* ---- sections: a card for each group */
 
-static void take_group(struct taking *t, const struct field *name, const struct field *material)
-{
-    struct card *card = new_card(t, name->place);
-    const struct card_option *given = card_option(t->card, "MATERIAL");
-    if (!card)
-        return;
-    add_option(t, card, "NAME", name);
-    if (*material->text)
-        add_option(t, card, "MATERIAL", material);
-    else if (given)
-        (void)deck_text_add_option(t->reader->pool, card, *given);
-}
-
 static void take_sections(struct taking *t)
 {
     struct deck_reader *reader = t->reader;
-    const struct card_option *named = card_option(t->card, "NAME");
+    const struct card_option *named = card_option(t->card, "NAME"), *given = card_option(t->card, "MATERIAL");
     const char *group = NULL, *material = NULL;
+    struct card *card = NULL;
     if (t->columns.at[0] < 0 && t->columns.at[1] < 0) {
         take_rows(t);
         return;
@@ -397,32 +374,33 @@ static void take_sections(struct taking *t)
         deck_error(reader, named->place, "*%s has a NAME and its table a column of groups, expected one of them", t->card->name);
         return;
     }
-    for (int r = 1; r < t->table->nrow && !reader->pool->out_of_memory && may_take(t); r++) {
+    for (int r = 1, bad = 0; r < t->table->nrow && !bad && !reader->pool->out_of_memory && may_take(t); r++) {
         const struct data_line *row = &t->table->row[r];
         struct field name = cell_of(row, t->columns.at[0]), of = cell_of(row, t->columns.at[1]),
                      field[TABLE_MOST_VALUES] = {{.text = ""}};
         int count = values_of(t, row, field), is_new = !group || (*name.text && !same_text(name.text, group));
         if (is_new && named)
             name = (struct field){named->value, named->value_place, 0};
-        if (is_new && (strchr(name.text, ',') || strchr(name.text, '*'))) {
-            deck_error(reader, name.place, "'%s' is no name of a group, expected one without commas and asterisks", name.text);
-            return;
-        }
-        if (is_new && !*name.text) {
-            deck_error(reader, name.place, "the first section has no group, expected its name, or NAME on *%s", t->card->name);
-            return;
-        }
-        if (is_new) {
-            take_group(t, &name, &of);
+        if (is_new && strpbrk(name.text, ",*"))
+            bad = deck_error(reader, name.place, "'%s' is no name of a group, expected one without commas and asterisks",
+                             name.text);
+        else if (is_new && !*name.text)
+            bad = deck_error(reader, name.place, "the first section has no group, expected its name, or NAME on *%s",
+                             t->card->name);
+        else if (!is_new && *of.text && !same_text(of.text, material))
+            bad =
+                deck_error(reader, of.place, "material %s stands within group %s, which is of %s, expected one material a group",
+                           of.text, group, *material ? material : "another one");
+        else if (is_new && (card = new_card(t, name.place))) {
+            add_option(t, card, "NAME", &name);
+            if (*of.text)
+                add_option(t, card, "MATERIAL", &of);
+            else if (given)
+                (void)deck_text_add_option(reader->pool, card, *given);
             group = name.text;
             material = of.text;
-        } else if (*of.text && !same_text(of.text, material)) {
-            deck_error(reader, of.place, "material %s stands within group %s, which is of %s, expected one material a group",
-                       of.text, group, *material ? material : "another one");
-            return;
         }
-        if (t->to->ncard == t->first || add_line(t, &t->to->card[t->to->ncard - 1], row->place, count, field))
-            return;
+        bad = bad || !card || add_line(t, card, row->place, count, field);
     }
 }
 
@@ -469,58 +447,35 @@ static void take_value(struct taking *t, const struct data_line *row, const stru
 }
 
 /* The numbers of the column that names the mode of each row, read once however many cards ask for a mode of it. */
-static const double *modes_of_rows(struct taking *t)
+static const double *modes_of_rows(struct taking *t, int column)
 {
     struct table_text *table = t->table;
     if (table->number)
         return table->number;
     table->number = POOL_ARRAY(t->reader->pool, double, table->nrow);
     for (int r = 1; r < table->nrow && table->number; r++) {
-        const char *text = cell_of(&table->row[r], t->columns.at[0]).text;
+        const char *text = cell_of(&table->row[r], column).text;
         table->number[r] = table_is_number(text) ? strtod(text, NULL) : (double)NAN;
     }
     return table->number;
 }
 
-/* mode, sensor, value */
-static void take_triples(struct taking *t)
+/* Values in a column, their deviations in column `std`, of mode and sensor as their columns say; where these are -1: `fixed`. */
+static void take_column(struct taking *t, int of_mode, int of_sensor, struct field fixed, int column, int std,
+                        const double in_si[2])
 {
-    const struct card_option *asked = card_option(t->card, "MODE");
-    struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
-    const double *number = t->columns.at[0] >= 0 && !isnan(t->asked) ? modes_of_rows(t) : NULL;
+    const double *number = of_mode >= 0 && !isnan(t->asked) ? modes_of_rows(t, of_mode) : NULL;
     for (int r = 1; r < t->table->nrow && !t->reader->pool->out_of_memory && !t->table->bad; r++) {
         if (number && !isnan(number[r]) && number[r] != t->asked)
             continue;
         if (!may_take(t))
             return;
         const struct data_line *row = &t->table->row[r];
-        struct field field[TABLE_MOST_VALUES], mode = t->columns.at[0] >= 0 ? cell_of(row, t->columns.at[0]) : only;
-        int count = values_of(t, row, field);
-        if (count > 1)
-            take_value(t, row, &mode, &field[0], &field[1], &field[2]);
-    }
-}
-
-/* A column of the matrix; std: that of its standard deviations, -1: there is none. */
-static void take_column(struct taking *t, int of_rows, int of_modes, int column, int std_column, int number)
-{
-    struct deck_reader *reader = t->reader;
-    const struct field *name = &t->table->row[0].field[column];
-    const struct csv_column plain = {"", t->kind->column[2].si, 0};
-    char unit[TABLE_CELL_LENGTH];
-    double in_si = 0;
-    (void)table_names(name->text, &plain, unit);
-    if (plain.si && *unit && !((in_si = deck_unit_factor(plain.si, unit)) > 0)) {
-        deck_error(reader, name->place, "the unit of '%s' is not known, expected %s or another one of *UNITS", name->text,
-                   plain.si);
-        return;
-    }
-    struct field numbered = {pool_format(reader->pool, "%d", number), name->place, 0};
-    for (int r = 1; r < t->table->nrow && !reader->pool->out_of_memory && !t->table->bad && may_take(t); r++) {
-        const struct data_line *row = &t->table->row[r];
-        struct field of_row = cell_of(row, of_rows), value = cell_of(row, column), std = cell_of(row, std_column);
-        value.in_si = std.in_si = in_si;
-        take_value(t, row, of_modes ? &numbered : &of_row, of_modes ? &of_row : &numbered, &value, &std);
+        struct field mode = of_mode < 0 ? fixed : cell_of(row, of_mode), sensor = of_sensor < 0 ? fixed : cell_of(row, of_sensor),
+                     value = cell_of(row, column), deviation = cell_of(row, std);
+        value.in_si = in_si[0];
+        deviation.in_si = in_si[1];
+        take_value(t, row, &mode, &sensor, &value, &deviation);
     }
 }
 
@@ -528,6 +483,7 @@ static void take_column(struct taking *t, int of_rows, int of_modes, int column,
 static void take_matrix(struct taking *t, int of_rows, int of_modes)
 {
     const struct data_line *header = &t->table->row[0];
+    const struct csv_column plain = {"", t->kind->column[2].si, 0};
     struct table_numbered *column = POOL_ARRAY(t->reader->pool, struct table_numbered, header->count);
     int any_std = 0;
     for (int i = 0; i < header->count && column; i++) {
@@ -536,13 +492,23 @@ static void take_matrix(struct taking *t, int of_rows, int of_modes)
         any_std |= column[i].is_std;
     }
     for (int i = 0; i < header->count && column; i++) {
+        const struct field *name = &header->field[i];
+        char unit[TABLE_CELL_LENGTH];
+        double in_si[2] = {0};
+        int std = -1;
         if (column[i].number < 0 || column[i].is_std || i == of_rows ||
             (of_modes && !isnan(t->asked) && column[i].number != t->asked))
             continue;
-        int std = -1;
         for (int j = 0; j < header->count && any_std; j++)
             std = column[j].is_std && column[j].number == column[i].number ? j : std;
-        take_column(t, of_rows, of_modes, i, std, column[i].number);
+        (void)table_names(name->text, &plain, unit);
+        if (plain.si && *unit && !((in_si[0] = in_si[1] = deck_unit_factor(plain.si, unit)) > 0)) {
+            deck_error(t->reader, name->place, "the unit of '%s' is not known, expected %s or another one of *UNITS", name->text,
+                       plain.si);
+            continue;
+        }
+        const struct field numbered = {pool_format(t->reader->pool, "%d", column[i].number), name->place, 0};
+        take_column(t, of_modes ? -1 : of_rows, of_modes ? of_rows : -1, numbered, i, std, in_si);
     }
 }
 
@@ -550,11 +516,13 @@ static void take_shapes(struct taking *t)
 {
     const struct table_columns *c = &t->columns;
     const int *mode = &c->at[0], *sensor = &c->at[1], *value = &c->at[2];
+    const struct card_option *asked = card_option(t->card, "MODE");
+    const struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
     struct deck_reader *reader = t->reader;
-    if (!c->header && card_option(t->card, "MODE"))
+    if (!c->header && asked)
         take_rows(t);
-    else if (c->header && *sensor >= 0 && *value >= 0 && (*mode >= 0 || card_option(t->card, "MODE")))
-        take_triples(t);
+    else if (c->header && *sensor >= 0 && *value >= 0 && (*mode >= 0 || asked))
+        take_column(t, *mode, *sensor, only, *value, c->at[3], &c->in_si[2]);
     else if (c->header && (*sensor >= 0) != (*mode >= 0))
         take_matrix(t, *sensor >= 0 ? *sensor : *mode, *sensor >= 0);
     else
@@ -590,10 +558,8 @@ static void take_table(struct deck_reader *reader, const struct card *card, cons
 int deck_read_tables(struct deck_reader *reader, int *nread)
 {
     struct deck_text *text = &reader->text, to = {0};
-    int before = reader->messages->errors, none = 1, front = *nread;
-    for (int c = 0; c < text->ncard; c++)
-        none &= !table_kind_of(text->card[c].name) || !card_option(&text->card[c], "FILE");
-    for (int c = 0; c < text->ncard && !none && !reader->pool->out_of_memory; c++) {
+    int before = reader->messages->errors, front = *nread;
+    for (int c = 0; c < text->ncard && !reader->pool->out_of_memory; c++) {
         const struct card *card = &text->card[c];
         const struct table_kind *kind = card_option(card, "FILE") ? table_kind_of(card->name) : NULL;
         struct card *same = kind ? NULL : deck_text_add_card(reader->pool, &to, card->name, card->place);
@@ -604,9 +570,7 @@ int deck_read_tables(struct deck_reader *reader, int *nread)
         if (c == front - 1)
             *nread = to.ncard;
     }
-    if (!none) {
-        text->card = to.card;
-        text->ncard = to.ncard;
-    }
+    text->card = to.card;
+    text->ncard = to.ncard;
     return reader->messages->errors > before;
 }

@@ -1,4 +1,4 @@
-#include "deck/deck.h"
+#include "deck/deck_row.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -65,7 +65,7 @@ static void trim(const char **begin, const char **end)
 
 struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
 {
-    const struct card card = {.name = name, .place = place, .end = place};
+    const struct card card = {.name = name, .kind = deck_card_find(name), .place = place, .end = place};
     return POOL_ADD(pool, text->card, text->ncard, &card) ? NULL : &text->card[text->ncard - 1];
 }
 

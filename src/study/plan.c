@@ -188,6 +188,7 @@ static const struct card *cause_card(struct plan_reader *reader, const struct ca
         return NULL;
     *cause = *card;
     cause->name = "CAUSE";
+    cause->kind = deck_card_find("CAUSE");
     cause->line = POOL_COPY(pool, card->line, card->nline, 0);
     const struct card_option hidden = {.name = "NAME", .value = "hidden", .place = card->place, .value_place = card->place};
     if (!cause->line || (!card_option(card, "NAME") && deck_text_add_option(pool, cause, hidden)))
