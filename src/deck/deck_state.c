@@ -338,15 +338,6 @@ const char *deck_outside_range(struct pool *pool, const struct rotor *rotor, str
     return range ? range : "inside its range";
 }
 
-static int check_value(struct deck_reader *reader, const struct data_line *line, struct parameter parameter, double *value,
-                       double si)
-{
-    const char *range = deck_outside_range(reader->pool, &reader->job->rotor, parameter, si, value);
-    return range ? deck_error(reader, line->field[1].place, "%s is %s, expected a value %s", line->field[0].text,
-                              line->field[1].text, range)
-                 : 0;
-}
-
 /* An unknown that a later *SET gives a value is known. */
 static void set_parameter(struct deck_reader *reader, const struct data_line *line)
 {
@@ -359,8 +350,12 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
         return;
     double si = deck_in_si(reader, unit ? unit : "");
     value *= si;
-    if (check_value(reader, line, parameter, &value, si))
+    const char *range = deck_outside_range(reader->pool, &job->rotor, parameter, si, &value);
+    if (range) {
+        deck_error(reader, line->field[1].place, "%s is %s, expected a value %s", line->field[0].text, line->field[1].text,
+                   range);
         return;
+    }
     parameter_state(&job->rotor, &parameter, value);
     for (int p = 0; p < job->unknowns.nparameter; p++) {
         if (!parameters_overlap(&job->unknowns.parameter[p], &parameter))
