@@ -168,21 +168,21 @@ static const struct deck_row modes[] = {
     OPTION("FILE"),
     {WHOLE(struct mode_line, number, "mode"), FROM_TO(1, DECK_MOST_MODES)},
     {ABOVE_0(struct mode_line, hz, "frequency [Hz]")},
-    {FROM_0(struct mode_line, damping, "damping ratio"), OPTIONAL},
-    {ABOVE_0(struct mode_line, std, "standard deviation of the frequency [Hz]"), OPTIONAL},
+    {FROM_0(struct mode_line, damping, "damping ratio"), OR_NAN},
+    {ABOVE_0(struct mode_line, std, "standard deviation of the frequency [Hz]"), OR_NAN},
     LAST};
 static const struct deck_row shape[] = {
     OPTION("MODE"), OPTION("FILE"),
     {WHOLE(struct point_line, id, "sensor id"), FROM_TO(1, 1000000000)},
     {NUMBER(struct point_line, value, "value")},
-    {ABOVE_0(struct point_line, std, "standard deviation"), OPTIONAL},
+    {ABOVE_0(struct point_line, std, "standard deviation"), OR_NAN},
     LAST};
 static const struct deck_row frequencies[] = {
     OPTION("MODE"), OPTION("FILE"),
     OTHER("MEAN", .words = deck_answers, .standard = 1),
     {WHOLE(struct point_line, id, "sensor id"), FROM_TO(1, 1000000000)},
     {ABOVE_0(struct point_line, value, "frequency [Hz]")},
-    {ABOVE_0(struct point_line, std, "standard deviation [Hz]"), OPTIONAL},
+    {ABOVE_0(struct point_line, std, "standard deviation [Hz]"), OR_NAN},
     LAST};
 static const struct deck_row measured[] = {
     OPTION("FILE"),

@@ -287,7 +287,7 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 int deck_named_material(struct deck_reader *reader, const char *name, struct place place);
 
 /* Index of the first `count` groups that is called so [length], -1 where there is none. */
-int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length);
+int deck_find_group(const struct rotor *rotor, int count, const char *name, size_t length);
 /* The group of that name, or that an option names: -1 after an error. */
 int deck_named_group(struct deck_reader *reader, const char *name, struct place place);
 int deck_option_group(struct deck_reader *reader, const struct card *card, const char *option);
@@ -317,9 +317,10 @@ void deck_read_cards(struct deck_reader *reader);
 /* parameter_find of a field, also of "left.E=right.E". 0, or 1 after an error. */
 int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
 
-/* NULL where a parameter may have this value: one of a cause within its own range, others as their cards ask for; one that leaves it
- * by rounding becomes its end. Else what was expected, in a unit of which one is `si`. */
-const char *deck_outside_range(struct pool *pool, const struct rotor *rotor, struct parameter parameter, double si, double *value);
+/* NULL where a parameter may have this value: one of a cause within its own range, others as their cards ask for; one that leaves
+ * it by rounding becomes its end. Else what was expected, in a unit of which one is `si`. */
+const char *deck_outside_range(struct pool *pool, const struct rotor *rotor, struct parameter parameter, double si,
+                               double *value);
 
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);

@@ -25,6 +25,60 @@ static void require(struct comparing *c, int same, const char *card)
         differ(c, DECK_OTHER_MODEL, card);
 }
 
+/* ------------------------------------------------------------------------------------------------ by rows */
+
+static int is_same_text(const char *a, const char *b)
+{
+    return a && b ? same_text(a, b) : !a == !b;
+}
+
+static int is_same_material(const struct material *a, const struct material *b)
+{
+    return a->isotropic == b->isotropic && a->laminated == b->laminated && deck_is_near(a->e, b->e) &&
+           deck_is_near(a->nu, b->nu) && deck_is_near(a->rho, b->rho) && (a->isotropic || deck_is_near(a->g, b->g)) &&
+           (!a->laminated || (deck_is_near(a->sheet_e, b->sheet_e) && deck_is_near(a->stacking, b->stacking)));
+}
+
+static int is_same(const struct deck_row *row, const void *a, const void *b)
+{
+    int same = 1;
+    for (; !deck_row_is_last(row) && same; row++) {
+        const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
+        switch (row->kind) {
+        case ROW_NAME:
+            same = is_same_text(*(const char *const *)p, *(const char *const *)q);
+            break;
+        case ROW_MATERIAL:
+            same = is_same_material(p, q);
+            break;
+        case ROW_GROUP:
+        case ROW_WORD:
+        case ROW_WHOLE:
+            same = *(const int *)p == *(const int *)q;
+            break;
+        case ROW_NUMBER:
+        case ROW_POSITION:
+            same = deck_is_near(*(const double *)p, *(const double *)q);
+            break;
+        default:
+            break;
+        }
+    }
+    return same;
+}
+
+static int is_same_list(const struct deck_card *kind, const void *a, const void *b)
+{
+    const char *p = *(const char *const *)((const char *)a + kind->list),
+               *q = *(const char *const *)((const char *)b + kind->list);
+    int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
+    for (int i = 0; i < count && same; i++)
+        same = is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
+    return same;
+}
+
+/* ------------------------------------------------------------------------------------------------ rotors */
+
 static void compare_segments(struct comparing *c, const struct rotor *a, const struct rotor *b)
 {
     for (int s = 0; s < a->nsegment; s++) {
@@ -34,7 +88,7 @@ static void compare_segments(struct comparing *c, const struct rotor *a, const s
         if (p.elements != q.elements)
             differ(c, DECK_OTHER_ELEMENTS, "SHAFT");
         q.elements = p.elements;
-        require(c, same && deck_is_same(deck_rows(card), &p, &q), card);
+        require(c, same && is_same(deck_rows(card), &p, &q), card);
     }
 }
 
@@ -61,17 +115,16 @@ unsigned deck_compare_rotors(const struct rotor *a, const struct rotor *b, const
     for (int g = 0; g < a->ngroup && !c.bits; g++) {
         const struct group *p = &a->group[g], *q = &b->group[g];
         require(&c, same_text(p->name, q->name) && p->layer_of == q->layer_of, p->layer_of > 0 ? "LAYER" : "SHAFT");
-        require(&c, deck_is_same_material(&p->material, &q->material), "ELASTIC");
-        require(&c, p->holes == q->holes && (!p->holes || deck_is_same(deck_rows("PERFORATION"), p, q)), "PERFORATION");
+        require(&c, is_same_material(&p->material, &q->material), "ELASTIC");
+        require(&c, p->holes == q->holes && (!p->holes || is_same(deck_rows("PERFORATION"), p, q)), "PERFORATION");
         require(&c, deck_is_near(p->preload, q->preload), "PRELOAD");
     }
     if (!(c.bits & DECK_OTHER_MODEL))
         compare_segments(&c, a, b);
     for (int i = 0; i < a->nring && a->nring == b->nring; i++)
-        require(&c, a->ring[i].group == b->ring[i].group && deck_is_same(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
+        require(&c, a->ring[i].group == b->ring[i].group && is_same(deck_rows("LAYER"), &a->ring[i], &b->ring[i]), "LAYER");
     for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        require(&c,
-                !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES || deck_is_same_list(kind, a, b),
+        require(&c, !kind->size || kind->states == CARD_OF_MACHINE || kind->places == SENSOR_PLACES || is_same_list(kind, a, b),
                 kind->name);
     require(&c, deck_is_near(a->sling, b->sling), "SLING");
     require(&c, a->neffect == b->neffect, "CAUSE");
@@ -179,7 +232,7 @@ static void compare_options(struct comparing *c, const struct job_options *a, co
     if (a->fit.functional != b->fit.functional || a->fit.reduction != b->fit.reduction ||
         a->fit.derivative != b->fit.derivative || a->solid != b->solid)
         differ(c, DECK_OTHER_FIT, "FIT");
-    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && deck_is_same(deck_rows("FRF"), &a->frf, &b->frf);
+    int same = a->frf.given == b->frf.given && a->frf.npair == b->frf.npair && is_same(deck_rows("FRF"), &a->frf, &b->frf);
     require(c, same && !a->frf.file == !b->frf.file, "FRF");
 }
 

@@ -124,10 +124,10 @@ int deck_count(struct deck_reader *reader, const struct data_line *line, int mos
                       reader->layout);
 }
 
-int deck_find_group(const struct deck_reader *reader, int count, const char *name, size_t length)
+int deck_find_group(const struct rotor *rotor, int count, const char *name, size_t length)
 {
     for (int g = 0; g < count; g++) {
-        const char *known = reader->job->rotor.group[g].name;
+        const char *known = rotor->group[g].name;
         if (strlen(known) == length && !strncasecmp(known, name, length))
             return g;
     }
@@ -138,7 +138,7 @@ static const char group_name[] = "name of a *SHAFT, *BEAM or *LAYER";
 
 int deck_named_group(struct deck_reader *reader, const char *name, struct place place)
 {
-    int group = deck_find_group(reader, reader->job->rotor.ngroup, name, strlen(name));
+    int group = deck_find_group(&reader->job->rotor, reader->job->rotor.ngroup, name, strlen(name));
     if (group < 0)
         deck_error(reader, place, "group %s is not defined, expected the %s", name, group_name);
     return group;
@@ -161,7 +161,7 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
     *z = strtod(text, &end) * in_si;
     if (end == text || *end) {
         const char *which = text;
-        int group = dot ? deck_find_group(reader, reader->job->rotor.ngroup, text, (size_t)(dot - text)) : -1;
+        int group = dot ? deck_find_group(&reader->job->rotor, reader->job->rotor.ngroup, text, (size_t)(dot - text)) : -1;
         if (group >= 0) {
             rotor_group_span(&reader->job->rotor, group, &from, &to);
             which = dot + 1;
@@ -424,50 +424,7 @@ void deck_read_card(struct deck_reader *reader, const struct card *card, const s
         read_list(reader, card, kind);
 }
 
-/* ---- writing */
-
-/* Values at the end that may lack are left out where they say nothing: zero, or what they follow. */
-static int says_more(const struct deck_row *row, const void *from)
-{
-    for (; !deck_row_is_last(row); row++) {
-        const char *member = (const char *)from + row->offset;
-        if (row->option)
-            continue;
-        double value = row->kind == ROW_WHOLE ? *(const int *)member : *(const double *)member;
-        if (!(row->bits & ROW_MAY_LACK) || (value != 0 && !(row->as && value == *(const double *)((const char *)from + row->as))))
-            return 1;
-    }
-    return 0;
-}
-
-void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from)
-{
-    const char *before = "";
-    for (; !deck_row_is_last(row) && says_more(row, from); row++) {
-        const void *member = (const char *)from + row->offset;
-        if (row->option)
-            continue;
-        if (row->kind == ROW_WHOLE)
-            deck_put(w, "%s%d", before, *(const int *)member);
-        else
-            deck_put_number(w, before, *(const double *)member, row->kind == ROW_POSITION ? "m" : row->what);
-        before = ", ";
-    }
-    deck_put(w, "\n");
-}
-
-void deck_put_list_item(struct deck_writer *w, const char *card, const void *from)
-{
-    const struct deck_card *kind = deck_card_find(card);
-    deck_put_card(w, card);
-    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
-        if (row->kind == ROW_NAME && *(const char *const *)((const char *)from + row->offset))
-            deck_put_option(w, row->option, *(const char *const *)((const char *)from + row->offset));
-    deck_put(w, "\n");
-    deck_put_values(w, kind->row, from);
-}
-
-/* ---- comparing */
+/* ---- rounding */
 
 int deck_is_near(double a, double b)
 {
@@ -481,54 +438,4 @@ int deck_clip(double lower, double upper, double *value)
     if (*value > upper && deck_is_near(*value, upper))
         *value = upper;
     return *value >= lower && *value <= upper;
-}
-
-static int is_same_text(const char *a, const char *b)
-{
-    return a && b ? same_text(a, b) : !a == !b;
-}
-
-int deck_is_same_material(const struct material *a, const struct material *b)
-{
-    return a->isotropic == b->isotropic && a->laminated == b->laminated && deck_is_near(a->e, b->e) &&
-           deck_is_near(a->nu, b->nu) && deck_is_near(a->rho, b->rho) && (a->isotropic || deck_is_near(a->g, b->g)) &&
-           (!a->laminated || (deck_is_near(a->sheet_e, b->sheet_e) && deck_is_near(a->stacking, b->stacking)));
-}
-
-int deck_is_same(const struct deck_row *row, const void *a, const void *b)
-{
-    int same = 1;
-    for (; !deck_row_is_last(row) && same; row++) {
-        const void *p = (const char *)a + row->offset, *q = (const char *)b + row->offset;
-        switch (row->kind) {
-        case ROW_NAME:
-            same = is_same_text(*(const char *const *)p, *(const char *const *)q);
-            break;
-        case ROW_MATERIAL:
-            same = deck_is_same_material(p, q);
-            break;
-        case ROW_GROUP:
-        case ROW_WORD:
-        case ROW_WHOLE:
-            same = *(const int *)p == *(const int *)q;
-            break;
-        case ROW_NUMBER:
-        case ROW_POSITION:
-            same = deck_is_near(*(const double *)p, *(const double *)q);
-            break;
-        default:
-            break;
-        }
-    }
-    return same;
-}
-
-int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b)
-{
-    const char *p = *(const char *const *)((const char *)a + kind->list),
-               *q = *(const char *const *)((const char *)b + kind->list);
-    int count = *(const int *)((const char *)a + kind->count), same = count == *(const int *)((const char *)b + kind->count);
-    for (int i = 0; i < count && same; i++)
-        same = deck_is_same(kind->row, p + (size_t)i * kind->size, q + (size_t)i * kind->size);
-    return same;
 }

@@ -11,12 +11,10 @@
 static int read_reference(struct deck_reader *reader, const struct data_line *line)
 {
     struct job *job = reader->job;
-    const char *equals = strchr(line->text, '=');
+    const char *begin = line->text + strlen("paper"), *equals = strchr(line->field[0].text, '='), *end = strchr(line->text, '=');
     if (strncmp(line->text, "paper ", 6) || !equals)
         return 0;
-    const char *begin = line->text + 6, *end = equals;
-    while (*begin == ' ')
-        begin++;
+    begin += strspn(begin, " ");
     while (end > begin && end[-1] == ' ')
         end--;
     rotid_reference *reference = &job->reference[job->nreference];
@@ -26,11 +24,8 @@ static int read_reference(struct deck_reader *reader, const struct data_line *li
         return 1;
     for (int i = 0; i < line->count; i++) {
         const char *text = i ? line->field[i].text : equals + 1;
-        char *rest;
-        reference->values[i] = strtod(text, &rest);
-        while (*rest == ' ' || (!i && *rest == ','))
-            rest = *rest == ',' ? "" : rest + 1;
-        if (rest == text || *rest || !isfinite(reference->values[i]))
+        reference->values[i] = strtod(text, NULL);
+        if (!table_is_number(text) || !isfinite(reference->values[i]))
             return deck_error(reader, line->field[i].place,
                               "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
     }

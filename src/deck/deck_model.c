@@ -110,7 +110,7 @@ static int add_group(struct deck_reader *reader, const struct card *card)
                *of = deck_option(reader, card, "MATERIAL", "name of a material");
     struct group group = {.name = name ? name : "", .layer_of = -1};
     int material = of ? deck_named_material(reader, of, card_option(card, "MATERIAL")->value_place) : -1;
-    if (name && deck_find_group(reader, rotor->ngroup, name, strlen(name)) >= 0)
+    if (name && deck_find_group(rotor, rotor->ngroup, name, strlen(name)) >= 0)
         return -deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one",
                            name);
     if (material >= 0)
@@ -158,7 +158,7 @@ static int host_of(struct deck_reader *reader, const struct card *card)
     const struct rotor *rotor = &reader->job->rotor;
     const struct card_option *option = card_option(card, "GROUP");
     const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT");
-    int host = name ? deck_find_group(reader, rotor_axis_groups(rotor), name, strlen(name)) : -1;
+    int host = name ? deck_find_group(rotor, rotor_axis_groups(rotor), name, strlen(name)) : -1;
     if (name && host < 0)
         deck_error(reader, option->value_place, "group %s is not defined, expected the name of a *SHAFT", name);
     for (int s = 0; s < rotor->nsegment && host >= 0; s++)

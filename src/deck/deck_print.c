@@ -141,6 +141,57 @@ void deck_put_text(struct deck_writer *w, const char *text)
         deck_put(w, "%s\n", line);
 }
 
+/* ------------------------------------------------------------------------------------------------ by rows */
+
+/* Values at the end that may lack are left out where they say nothing: zero or NaN, or what they follow. */
+static int says_more(const struct deck_row *row, const void *from)
+{
+    for (; !deck_row_is_last(row); row++) {
+        const char *member = (const char *)from + row->offset;
+        if (row->option)
+            continue;
+        double value = row->kind == ROW_WHOLE ? *(const int *)member : *(const double *)member;
+        int lacks = row->bits & ROW_NAN ? isnan(value)
+                                        : value == 0 || (row->as && value == *(const double *)((const char *)from + row->as));
+        if (!(row->bits & ROW_MAY_LACK) || !lacks)
+            return 1;
+    }
+    return 0;
+}
+
+void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from)
+{
+    const char *before = "";
+    for (; !deck_row_is_last(row) && says_more(row, from); row++) {
+        const void *member = (const char *)from + row->offset;
+        if (row->option)
+            continue;
+        if (row->kind == ROW_WHOLE) {
+            int whole = *(const int *)member;
+            if (whole < row->least || whole > row->most)
+                refuse_writing(w);
+            deck_put(w, "%s%d", before, whole);
+        } else if (row->bits & ROW_NAN && isnan(*(const double *)member)) {
+            deck_put(w, "%s", before);
+        } else {
+            deck_put_number(w, before, *(const double *)member, row->kind == ROW_POSITION ? "m" : row->what);
+        }
+        before = ", ";
+    }
+    deck_put(w, "\n");
+}
+
+void deck_put_list_item(struct deck_writer *w, const char *card, const void *from)
+{
+    const struct deck_card *kind = deck_card_find(card);
+    deck_put_card(w, card);
+    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+        if (row->kind == ROW_NAME && *(const char *const *)((const char *)from + row->offset))
+            deck_put_option(w, row->option, *(const char *const *)((const char *)from + row->offset));
+    deck_put(w, "\n");
+    deck_put_values(w, kind->row, from);
+}
+
 /* ------------------------------------------------------------------------------------------------ measured data */
 
 struct job_raw deck_data_as_read(const struct job *job)
@@ -171,11 +222,7 @@ void deck_put_sensors(struct deck_writer *w, int count, const struct sensor *sen
     for (int s = 0; s < count; s++) {
         if (s % DECK_MOST_LINES == 0)
             deck_put(w, "*SENSORS\n");
-        if (sensor[s].id < 1 || sensor[s].id > 1000000000)
-            refuse_writing(w);
-        deck_put(w, "%d", sensor[s].id);
-        deck_put_number(w, ", ", sensor[s].position, "m");
-        deck_put(w, "\n");
+        deck_put_values(w, deck_rows("SENSORS"), &sensor[s]);
     }
 }
 
@@ -201,49 +248,38 @@ static double std_hz(double std, double hz)
 
 static void write_modes(struct deck_writer *w, const struct job_raw *data, int with_std)
 {
-    const struct job *job = w->job;
+    const struct job_measurement *m = &w->job->measurement;
+    int type = w->job->options.type;
     double last = 0;
-    if (job->measurement.nmode > DECK_MOST_MODES)
+    if (m->nmode > DECK_MOST_MODES)
         refuse_writing(w);
-    if (job->measurement.nmode)
-        deck_put(w, "*MODES%s%s\n", job->options.type ? ", TYPE=" : "",
-                 job->options.type ? mode_type_words[job->options.type] : "");
-    for (int k = 0; k < job->measurement.nmode; k++) {
-        double hz = job->measurement.frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
-        int damped = job->measurement.damping[k] >= 0 && job->measurement.damping[k] < 1;
-        if (job->measurement.number[k] > DECK_MOST_MODES)
-            refuse_writing(w);
-        if (k && hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
-            hz = nextafter(hz, INFINITY);
-        last = hz;
-        deck_put(w, "%d", job->measurement.number[k]);
-        deck_put_number(w, ", ", hz, "Hz");
-        if (damped)
-            deck_put_number(w, ", ", job->measurement.damping[k], "");
-        else if (isfinite(std))
-            deck_put(w, ", ");
-        if (isfinite(std))
-            deck_put_number(w, ", ", std_hz(std, hz), "Hz");
-        deck_put(w, "\n");
+    if (m->nmode)
+        deck_put(w, "*MODES%s%s\n", type ? ", TYPE=" : "", type ? mode_type_words[type] : "");
+    for (int k = 0; k < m->nmode; k++) {
+        struct mode_line line = {m->number[k], m->frequency_hz[k], m->damping[k], with_std ? data->frequency_std[k] : NAN};
+        if (!(line.damping >= 0 && line.damping < 1))
+            line.damping = NAN;
+        if (k && line.hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
+            line.hz = nextafter(line.hz, INFINITY);
+        last = line.hz;
+        line.std = isfinite(line.std) ? std_hz(line.std, line.hz) : NAN;
+        deck_put_values(w, deck_rows("MODES"), &line);
     }
 }
 
 /* The card of mode k with what was measured at each sensor and, where wanted, its deviation. Of frequencies the mean in *MODES
  * stays: it may have been found by better means. */
 static void write_at_sensors(struct deck_writer *w, const struct job_raw *data, int k, const char *card, const double *value,
-                             const double *std, const char *unit)
+                             const double *std)
 {
     ptrdiff_t first = (ptrdiff_t)k * data->nsensor;
     for (int s = 0, lines = 0; s < data->nsensor; s++) {
-        if (!isfinite(value[first + s]))
+        const struct point_line line = {data->sensor[s].id, value[first + s], std ? std[first + s] : NAN};
+        if (!isfinite(line.value))
             continue;
         if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*%s, MODE=%d%s\n", card, w->job->measurement.number[k], *unit ? ", MEAN=NO" : "");
-        deck_put(w, "%d", data->sensor[s].id);
-        deck_put_number(w, ", ", value[first + s], unit);
-        if (std && isfinite(std[first + s]))
-            deck_put_number(w, ", ", std[first + s], unit);
-        deck_put(w, "\n");
+            deck_put(w, "*%s, MODE=%d%s\n", card, w->job->measurement.number[k], value != data->shape ? ", MEAN=NO" : "");
+        deck_put_values(w, deck_rows(card), &line);
     }
 }
 
@@ -268,9 +304,9 @@ void deck_put_measured(struct deck_writer *w, int with_sensors)
     if (isfinite(frequency) || isfinite(shape))
         deck_put_noise(w, frequency, shape);
     for (int k = 0; k < nmode && data.shape; k++)
-        write_at_sensors(w, &data, k, "SHAPE", data.shape, isfinite(shape) ? NULL : data.shape_std, "");
+        write_at_sensors(w, &data, k, "SHAPE", data.shape, isfinite(shape) ? NULL : data.shape_std);
     for (int k = 0; k < nmode && data.point_frequency_hz; k++)
-        write_at_sensors(w, &data, k, "FREQUENCIES", data.point_frequency_hz, data.point_frequency_std, "Hz");
+        write_at_sensors(w, &data, k, "FREQUENCIES", data.point_frequency_hz, data.point_frequency_std);
 }
 
 /* ------------------------------------------------------------------------------------------------ identification */

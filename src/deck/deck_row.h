@@ -19,6 +19,7 @@ enum row_kind {
 
 enum row_bit {
     ROW_MAY_LACK = 1,
+    ROW_NAN = 4,    /* what lacks is NaN: zero is a value */
     ROW_ABOVE_0 = 2 /* written where the member is above zero: else it was not stated; of values the last ones */
 };
 
@@ -63,6 +64,7 @@ struct deck_row {
     }
 #define OPTION(O) OTHER(O, .what = "")
 #define OPTIONAL  .bits = ROW_MAY_LACK
+#define OR_NAN    .bits = ROW_MAY_LACK | ROW_NAN
 #define LAST                                                                                                                     \
     {                                                                                                                            \
         .option = NULL, .what = NULL                                                                                             \
@@ -147,15 +149,11 @@ void deck_read_card(struct deck_reader *reader, const struct card *card, const s
 void deck_put_values(struct deck_writer *w, const struct deck_row *row, const void *from);
 void deck_put_list_item(struct deck_writer *w, const char *card, const void *from);
 
-/* Whether two numbers, materials, structs or lists of two rotors are the same but for rounding: of sums and ratios of lengths, of
- * a quotient by a unit. */
+/* Whether two numbers are the same but for rounding: of sums and ratios of lengths, of a quotient by a unit. */
 #define DECK_ROUNDING 1e-11
 int deck_is_near(double a, double b);
 
 /* Whether a value lies from lower to upper; one beyond them by rounding becomes the bound. */
 int deck_clip(double lower, double upper, double *value);
-int deck_is_same_material(const struct material *a, const struct material *b);
-int deck_is_same(const struct deck_row *row, const void *a, const void *b);
-int deck_is_same_list(const struct deck_card *kind, const void *a, const void *b);
 
 #endif

@@ -303,7 +303,7 @@ static void set_length(struct deck_reader *reader, const struct data_line *line)
     struct rotor *rotor = &reader->job->rotor;
     const char *name = line->field[0].text;
     double length, from, to;
-    int group = deck_find_group(reader, rotor->ngroup, name, (size_t)(strrchr(name, '.') - name));
+    int group = deck_find_group(rotor, rotor->ngroup, name, (size_t)(strrchr(name, '.') - name));
     if (group < 0) {
         deck_error(reader, line->field[0].place, "%s is no length, expected that of a *SHAFT or *BEAM", name);
         return;

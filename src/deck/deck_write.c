@@ -357,10 +357,7 @@ static void edit_holdout(struct writing *w)
 
 static int group_of(const struct rotor *rotor, const char *name)
 {
-    for (int g = 0; g < rotor_axis_groups(rotor) && name; g++)
-        if (same_text(rotor->group[g].name, name))
-            return g;
-    return -1;
+    return name ? deck_find_group(rotor, rotor_axis_groups(rotor), name, strlen(name)) : -1;
 }
 
 static const struct segment *segment_of(const struct rotor *rotor, int group, int number)
@@ -382,24 +379,19 @@ static void set_elements(struct deck_line_edit *edit, void *context)
     edit->value[3] = pool_format(in->w->pool, "%d", to->elements);
 }
 
-static void put_sections(struct deck_writer *lines, const struct rotor *rotor, int group)
-{
-    const struct segment *segment;
-    for (int i = 0; (segment = segment_of(rotor, group, i)); i++)
-        deck_put_values(lines, deck_rows(segment->rectangular ? "BEAM" : "SHAFT"), segment);
-}
-
 /* The sections of a table become lines: a table is not ours to change. first ... last: its groups, a card each; `named`: the card
  * has the name of the only one. */
 static void write_sections(struct writing *w, int at, int s, int first, int last, int named)
 {
     const struct rotor *rotor = &w->meant.state[s].job.rotor;
     struct deck_writer lines = writer_of(w, s);
-    const char *card = deck_edit_is(&w->edit.part[at], "BEAM") ? "BEAM" : "SHAFT";
+    const char *card = w->edit.part[at].read.name;
     for (int g = first; g <= last; g++) {
+        const struct segment *segment;
         if (g > first)
             deck_put(&lines, "*%s, NAME=%s, MATERIAL=%s\n", card, rotor->group[g].name, rotor->group[g].material.name);
-        put_sections(&lines, rotor, g);
+        for (int i = 0; (segment = segment_of(rotor, g, i)); i++)
+            deck_put_values(&lines, deck_rows(card), segment);
     }
     if (!named) {
         deck_edit_set(&w->edit, at, "NAME", rotor->group[first].name);
@@ -410,14 +402,18 @@ static void write_sections(struct writing *w, int at, int s, int first, int last
     w->edit.status = w->edit.status ? w->edit.status : lines.status;
 }
 
+static int is_sections(const struct deck_part *part)
+{
+    return deck_edit_is(part, "SHAFT") || deck_edit_is(part, "BEAM");
+}
+
 /* The last of the groups from `first` on that no *SHAFT or *BEAM has the name of: those of a table with a column of groups. */
-static int last_unnamed(struct writing *w, const struct rotor *rotor, int first)
+static int last_unnamed(const struct writing *w, const struct rotor *rotor, int first)
 {
     int last = first;
     for (; last < rotor_axis_groups(rotor); last++)
         for (int i = 0; i < w->edit.npart; i++)
-            if ((deck_edit_is(&w->edit.part[i], "SHAFT") || deck_edit_is(&w->edit.part[i], "BEAM")) &&
-                group_of(rotor, deck_edit_option(&w->edit.part[i], "NAME")) == last)
+            if (is_sections(&w->edit.part[i]) && group_of(rotor, deck_edit_option(&w->edit.part[i], "NAME")) == last)
                 return last - 1;
     return last - 1;
 }
@@ -427,7 +423,7 @@ static void edit_elements(struct writing *w)
     for (int i = 0, before = -1; i < w->edit.npart && !w->edit.status; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
-        if (!deck_edit_is(part, "SHAFT") && !deck_edit_is(part, "BEAM"))
+        if (!is_sections(part))
             continue;
         while (in.s < w->meant.nstate && !is_in(w, part, in.s))
             in.s++;
