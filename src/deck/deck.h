@@ -405,9 +405,8 @@ void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff
 struct deck_writer {
     struct pool *pool;
     const struct job *job; /* what is written; its units are those of the numbers, NULL: SI */
-    char *text;
+    char *text;            /* incomplete where memory is out, as the pool says */
     size_t length, room;
-    int status; /* the first failure; nothing is written behind it */
 };
 
 void deck_put(struct deck_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -421,8 +420,8 @@ const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH]);
  * digits, in another unit than SI to 15 of them, for a quotient is rounded. */
 void deck_put_number(struct deck_writer *w, const char *separator, double value, const char *what);
 
-/* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. A text that a deck cannot
- * give back is an error. The caller ends the line. */
+/* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. The caller ends the line.
+ * What a deck cannot give back is found when it is read back. */
 void deck_put_card(struct deck_writer *w, const char *name);
 void deck_put_option(struct deck_writer *w, const char *name, const char *value);
 void deck_put_option_number(struct deck_writer *w, const char *name, double value, const char *what);
@@ -483,7 +482,7 @@ struct deck_part {
 struct deck_edit {
     struct pool *pool;
     const struct deck_origin *origin;
-    int npart, nstate, running, status; /* running: of the part at hand, *RUNNING has been met */
+    int npart, nstate, running; /* running: of the part at hand, *RUNNING has been met */
     struct deck_part *part;
 };
 

@@ -46,7 +46,6 @@ static void read_part(struct deck_edit *e, struct deck_part *part)
     int line = last->nline ? last->line[last->nline - 1].place.line : last->end.line;
     part->read = text.ncard ? text.card[0] : none;
     part->end = text.ncard ? (size_t)(text_at(part, (struct place){.line = line + 1, .column = 1}) - part->text) : 0;
-    e->status = e->pool->out_of_memory ? ROTID_ERROR_MEMORY : e->status;
 }
 
 const char *deck_edit_option(const struct deck_part *part, const char *name)
@@ -58,14 +57,6 @@ const char *deck_edit_option(const struct deck_part *part, const char *name)
 int deck_edit_is(const struct deck_part *part, const char *card)
 {
     return !strcmp(part->read.name, card);
-}
-
-/* Adds the part as the last one. */
-static int add_part(struct deck_edit *e, const struct deck_part *part)
-{
-    int failed = POOL_ADD(e->pool, e->part, e->npart, part);
-    e->status = failed ? ROTID_ERROR_MEMORY : e->status;
-    return failed;
 }
 
 /* A path as an option of a part names it, as the reader saw it. */
@@ -85,11 +76,12 @@ static const char *text_of(const struct deck_edit *e, const char *path)
     return NULL;
 }
 
-/* The parts of a text, and behind each *INCLUDE those of its file. */
-static void gather(struct deck_edit *e, const char *text, const char *file, int depth)
+/* The parts of a text, and behind each *INCLUDE those of its file. ROTID_OK, or ROTID_ERROR_IO where that is not there. */
+static int gather(struct deck_edit *e, const char *text, const char *file, int depth)
 {
     const char *stop = text + strlen(text);
-    for (const char *end = text; *text && !e->status; text = end) {
+    int status = ROTID_OK;
+    for (const char *end = text; *text && !status; text = end) {
         do
             end += line_length(end, stop);
         while (*end && !begins_card(end, stop));
@@ -100,24 +92,21 @@ static void gather(struct deck_edit *e, const char *text, const char *file, int 
         e->running |= deck_edit_is(&part, "RUNNING");
         part.state = e->running ? DECK_BEHIND_STATES : e->nstate - 1;
         int at = e->npart;
-        if (add_part(e, &part))
-            return;
+        if (POOL_ADD(e->pool, e->part, e->npart, &part))
+            return ROTID_ERROR_MEMORY;
         if (!part.include || depth < 0)
             continue;
         const char *value = deck_edit_option(&part, "FILE"), *path = value ? path_from(e, file, value) : NULL,
                    *inside = depth < DECK_MOST_INCLUDES ? text_of(e, path) : NULL;
-        if (inside)
-            gather(e, inside, path, depth + 1);
-        else
-            e->status = e->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_ERROR_IO;
+        status = inside ? gather(e, inside, path, depth + 1) : ROTID_ERROR_IO;
         e->part[at].inside = e->npart - 1 - at;
     }
+    return status;
 }
 
 static void replace(struct deck_edit *e, int part, struct deck_writer *w)
 {
-    e->status = e->status ? e->status : w->status;
-    if (e->status)
+    if (e->pool->out_of_memory)
         return;
     e->part[part].text = w->text ? w->text : "";
     e->part[part].length = w->length;
@@ -149,7 +138,7 @@ static const char *around(struct deck_edit *e, const struct deck_part *p, const 
 void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *value)
 {
     struct deck_writer w = {.pool = e->pool};
-    if (e->status)
+    if (e->pool->out_of_memory)
         return;
     const struct deck_part *p = &e->part[part];
     const struct card_option *option = card_option(&p->read, name);
@@ -231,7 +220,7 @@ void deck_edit_insert(struct deck_edit *e, int at, const char *text)
 {
     int last = e->npart;
     struct deck_part *before, part = {.text = text, .length = text ? strlen(text) : 0, .file = e->origin->path, .changed = 1};
-    if (!part.length || add_part(e, &part))
+    if (!part.length || POOL_ADD(e->pool, e->part, e->npart, &part))
         return;
     before = at ? &e->part[at - 1] : NULL;
     part.state = before ? before->state : -1;
@@ -267,11 +256,7 @@ static void apply(struct deck_edit *e, const struct override *o)
     int found = 0;
     if (same_text(o->option, "FILE"))
         value = deck_absolute(e->pool, path_from(e, e->origin->memory ? e->origin->path : NULL, value));
-    if (!value) {
-        e->status = ROTID_ERROR_MEMORY;
-        return;
-    }
-    for (int i = 0; i < e->npart; i++)
+    for (int i = 0; i < e->npart && value; i++)
         if (same_text(e->part[i].read.name, o->card)) {
             deck_edit_set(e, i, o->option, value);
             found = 1;
@@ -282,7 +267,7 @@ static void apply(struct deck_edit *e, const struct override *o)
         at++;
     while (card->name && !same_text(card->name, o->card))
         card++;
-    if (card->name && !found)
+    if (card->name && !found && value)
         deck_edit_set(e, deck_edit_new(e, at, card->name), o->option, value);
 }
 
@@ -290,20 +275,19 @@ static int open_to(struct deck_edit *e, struct pool *pool, const struct deck_ori
 {
     *e = (struct deck_edit){.pool = pool, .origin = origin};
     const char *text = origin ? text_of(e, origin->path) : NULL;
-    if (!text)
-        return e->status = ROTID_ERROR_IO;
-    gather(e, text, origin->path, depth);
+    int status = text ? gather(e, text, origin->path, depth) : ROTID_ERROR_IO;
     /* the last line of a file may lack its line feed */
-    for (int i = 0; i < e->npart && !e->status; i++) {
+    for (int i = 0; i < e->npart; i++) {
         struct deck_part *part = &e->part[i];
         if (part->length && part->text[part->length - 1] != '\n') {
-            part->text = pool_format(pool, "%.*s\n", (int)part->length++, part->text);
-            e->status = part->text ? ROTID_OK : ROTID_ERROR_MEMORY;
+            const char *whole = pool_format(pool, "%.*s\n", (int)part->length, part->text);
+            part->length += whole != NULL;
+            part->text = whole ? whole : part->text;
         }
     }
-    for (int i = 0; i < origin->noverride && !e->status; i++)
+    for (int i = 0; !status && i < origin->noverride; i++)
         apply(e, &origin->override[i]);
-    return e->status;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin)
@@ -316,7 +300,7 @@ int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path
     struct deck_file *file = POOL_NEW(pool, struct deck_file);
     struct deck_origin *origin = POOL_NEW(pool, struct deck_origin);
     if (!file || !origin)
-        return e->status = ROTID_ERROR_MEMORY;
+        return ROTID_ERROR_MEMORY;
     *file = (struct deck_file){path, text};
     *origin = (struct deck_origin){.path = path, .nfile = 1, .file = file};
     return open_to(e, pool, origin, -1);
@@ -334,7 +318,6 @@ void deck_edit_put(struct deck_edit *e, struct deck_writer *w, const struct deck
                    *from = text_at(part, file->value_place), *to = text_at(part, file->end);
         text = whole ? pool_format(e->pool, "%.*s%s%.*s", (int)(from - text), text, whole, (int)(stop - to), to) : NULL;
         count = text ? strlen(text) : 0;
-        w->status = text ? w->status : ROTID_ERROR_MEMORY;
     }
     if (text)
         put_lines(w, text, count, with);
@@ -352,7 +335,7 @@ static int is_whole(const struct deck_edit *e, int at)
 /* Parts [from, to). */
 static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int to)
 {
-    for (int i = from; i < to && !e->status; i += 1 + e->part[i].inside) {
+    for (int i = from; i < to; i += 1 + e->part[i].inside) {
         const struct deck_part *part = &e->part[i];
         int behind = i + 1 + part->inside, any = !part->left_out && !part->inside;
         for (int k = i + 1; k < behind; k++)
@@ -374,5 +357,4 @@ static void put_parts(struct deck_edit *e, struct deck_writer *w, int from, int 
 void deck_edit_text(struct deck_edit *e, struct deck_writer *w)
 {
     put_parts(e, w, 0, e->npart);
-    e->status = e->status ? e->status : w->status;
 }

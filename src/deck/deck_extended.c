@@ -68,7 +68,7 @@ static int find_folder(struct pool *pool, const char *file, struct folder *folde
 static void shorten(struct deck_edit *e, const char *folder)
 {
     size_t count = strlen(folder);
-    for (int i = 0; i < e->npart && !e->status; i++) {
+    for (int i = 0; i < e->npart; i++) {
         const char *path = deck_edit_option(&e->part[i], "FILE");
         if (path && !strncmp(path, folder, count) && path[count] == '/' && path[count + 1])
             deck_edit_set(e, i, "FILE", path + count + 1);
@@ -89,10 +89,12 @@ int deck_place(struct pool *pool, const char *from, const char *text, const char
         return status;
     *placed = NULL;
     status = deck_edit_open_flat(&e, pool, to, text);
+    if (status)
+        return status;
     shorten(&e, old.path);
-    for (int i = 0; i < e.npart && !status; i++)
+    for (int i = 0; i < e.npart; i++)
         deck_put(&out, "%.*s", (int)e.part[i].length, e.part[i].text);
-    status = status ? status : e.status ? e.status : out.status;
+    status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
     if (!status)
         status = deck_read_back(pool, to, text, ".", notes, &as_written);
     if (!status)

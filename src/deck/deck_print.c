@@ -18,17 +18,14 @@ void deck_put(struct deck_writer *w, const char *format, ...)
     va_copy(again, values);
     int count = vsnprintf(NULL, 0, format, values);
     va_end(values);
-    while (!w->status && count >= 0 && w->length + (size_t)count + 1 > w->room) {
+    while (count >= 0 && w->length + (size_t)count + 1 > w->room) {
         char *grown = pool_grow(w->pool, w->text, w->room, &w->room, 1);
-        if (grown)
-            w->text = grown;
-        else
-            w->status = ROTID_ERROR_MEMORY;
+        if (!grown)
+            break;
+        w->text = grown;
     }
-    if (!w->status && count >= 0) {
-        (void)vsnprintf(w->text + w->length, (size_t)count + 1, format, again);
-        w->length += (size_t)count;
-    }
+    if (count >= 0 && w->length + (size_t)count + 1 <= w->room)
+        w->length += (size_t)vsnprintf(w->text + w->length, (size_t)count + 1, format, again);
     va_end(again);
 }
 
@@ -55,11 +52,6 @@ const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH])
     return strlen(plain) > strlen(text) + 3 ? text : strcpy(text, plain);
 }
 
-static void refuse_writing(struct deck_writer *w)
-{
-    w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
-}
-
 /* The value in the deck's unit of `what`. */
 static double in_unit(const struct deck_writer *w, double value, const char *what)
 {
@@ -74,26 +66,7 @@ static double in_unit(const struct deck_writer *w, double value, const char *wha
 void deck_put_number(struct deck_writer *w, const char *separator, double value, const char *what)
 {
     char text[DECK_NUMBER_LENGTH];
-    if (!isfinite(value))
-        refuse_writing(w);
     deck_put(w, "%s%s", separator, deck_number_text(in_unit(w, value, what), text));
-}
-
-/* What the value of an option can be: no comma, no comment, no control character, nothing that trimming takes away. */
-static int is_value(const char *text)
-{
-    size_t length = text ? strlen(text) : 0;
-    if (!length || isspace((unsigned char)text[0]) || isspace((unsigned char)text[length - 1]) || strstr(text, "**"))
-        return 0;
-    for (size_t i = 0, bytes; i < length; i += bytes ? bytes : 1) {
-        unsigned char c = (unsigned char)text[i];
-        bytes = text_visible(text + i);
-        if (c == ',' || (!bytes && c != '\t' && c < 0xa0)) /* names in Latin-1 stay as they are: they may be those of files */
-            return 0;
-        if (!bytes && text_utf8(text + i) > 1)
-            return 0;
-    }
-    return 1;
 }
 
 void deck_put_card(struct deck_writer *w, const char *name)
@@ -104,10 +77,7 @@ void deck_put_card(struct deck_writer *w, const char *name)
 void deck_put_option(struct deck_writer *w, const char *name, const char *value)
 {
     size_t column = 0;
-    if (!is_value(value)) {
-        refuse_writing(w);
-        return;
-    }
+    value = value ? value : "";
     while (column < w->length && w->text[w->length - column - 1] != '\n')
         column++;
     deck_put(w, ",%s%s=%s", column + strlen(name) + strlen(value) + 3 > LINE ? "\n    " : " ", name, value);
@@ -166,16 +136,12 @@ void deck_put_values(struct deck_writer *w, const struct deck_row *row, const vo
         const void *member = (const char *)from + row->offset;
         if (row->option)
             continue;
-        if (row->kind == ROW_WHOLE) {
-            int whole = *(const int *)member;
-            if (whole < row->least || whole > row->most)
-                refuse_writing(w);
-            deck_put(w, "%s%d", before, whole);
-        } else if (row->bits & ROW_NAN && isnan(*(const double *)member)) {
+        if (row->kind == ROW_WHOLE)
+            deck_put(w, "%s%d", before, *(const int *)member);
+        else if (row->bits & ROW_NAN && isnan(*(const double *)member))
             deck_put(w, "%s", before);
-        } else {
+        else
             deck_put_number(w, before, *(const double *)member, row->kind == ROW_POSITION ? "m" : row->what);
-        }
         before = ", ";
     }
     deck_put(w, "\n");
@@ -251,8 +217,6 @@ static void write_modes(struct deck_writer *w, const struct job_raw *data, int w
     const struct job_measurement *m = &w->job->measurement;
     int type = w->job->options.type;
     double last = 0;
-    if (m->nmode > DECK_MOST_MODES)
-        refuse_writing(w);
     if (m->nmode)
         deck_put(w, "*MODES%s%s\n", type ? ", TYPE=" : "", type ? mode_type_words[type] : "");
     for (int k = 0; k < m->nmode; k++) {
@@ -325,9 +289,7 @@ void deck_put_unknown(struct deck_writer *w, int p, const char *name)
 {
     const rotid_parameter *bounds = &w->job->unknowns.bounds[p];
     const char *unit = bounds->unit ? bounds->unit : "";
-    if (!name || !*name || *name == '*' || strchr(name, ','))
-        refuse_writing(w);
-    deck_put(w, "%s", name ? name : "");
+    deck_put(w, "%s", name);
     deck_put_number(w, ", ", bounds->lower, unit);
     deck_put_number(w, ", ", bounds->upper, unit);
     deck_put_number(w, ", ", bounds->start, unit);

@@ -56,7 +56,6 @@ static void put_moved(struct deck_writer *w, const struct test *test)
 {
     const struct spring *spring = &w->job->rotor.spring[test->spring];
     const char *name = pool_format(w->pool, "%s_moved", spring->name);
-    w->status = name ? w->status : ROTID_ERROR_MEMORY;
     deck_put(w, "*SET\n");
     put_value(w, spring->name, "k", spring->lateral * TEST_SOFTER * TEST_SOFTER);
     if (spring->rotational > 0)
@@ -73,10 +72,6 @@ static void put_supports(struct deck_writer *w, const struct test *test)
     const struct rotor *rotor = &w->job->rotor;
     double factor = test->kind == TEST_STIFF ? TEST_STIFFER : TEST_SOFTER;
     for (int s = 0; s < rotor->nspring; s++) {
-        if (!rotor->spring[s].name) {
-            w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
-            return;
-        }
         put_stiffness(w, s, rotor->spring[s].name, PARAMETER_SPRING_K, rotor->spring[s].lateral * factor);
         put_stiffness(w, s, rotor->spring[s].name, PARAMETER_SPRING_K_ROT, rotor->spring[s].rotational * factor);
     }
@@ -93,10 +88,7 @@ static void put_change(struct deck_writer *w, const struct test *test)
         put_supports(w, test);
         break;
     case TEST_MOVED:
-        if (!w->job->rotor.spring[test->spring].name)
-            w->status = ROTID_ERROR_ARGUMENT;
-        else
-            put_moved(w, test);
+        put_moved(w, test);
         break;
     default:
         break;
@@ -106,13 +98,12 @@ static void put_change(struct deck_writer *w, const struct test *test)
 static void put_sensors(struct deck_writer *w, const struct test *test)
 {
     struct job planned;
-    int status = planned_sensors(w->pool, w->job, test->nsensor, test->sensor, &planned);
-    w->status = w->status ? w->status : status;
-    if (!w->status)
-        deck_put_sensors(w, test->nsensor, planned.rotor.sensor);
+    if (planned_sensors(w->pool, w->job, test->nsensor, test->sensor, &planned))
+        return;
+    deck_put_sensors(w, test->nsensor, planned.rotor.sensor);
     if (test->nsensor)
         deck_put(w, "** the shapes, once for each mode; or all of it as *MEASURED, FILE=\n** *SHAPE, MODE=%d\n", test->number[0]);
-    for (int s = 0; s < test->nsensor && !w->status; s++)
+    for (int s = 0; s < test->nsensor; s++)
         deck_put(w, "** %d, \n", planned.rotor.sensor[s].id);
 }
 
@@ -122,6 +113,9 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
     const char *what = test_text(pool, job, test);
     double hertz = deck_unit_of(&job->units, "Hz");
     *text = NULL;
+    for (int s = 0; s < job->rotor.nspring && test->kind >= TEST_STIFF; s++) /* which a deck calls by name */
+        if (!job->rotor.spring[s].name && (test->kind != TEST_MOVED || s == test->spring))
+            return ROTID_ERROR_ARGUMENT;
     deck_put(&w, "** proposed by rotid suggest: %s\n*STATE, NAME=%s\n", what ? what : "", test_id(test->kind));
     put_change(&w, test);
     deck_put_noise(&w, test->frequency_std, test->nsensor ? test->shape_std : NAN);
@@ -134,8 +128,8 @@ int deck_write_test(struct pool *pool, const struct job *job, const struct test 
         deck_put(&w, "\n");
     }
     put_sensors(&w, test);
-    *text = w.status ? NULL : w.text;
-    return w.status;
+    *text = pool->out_of_memory ? NULL : w.text;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------ the deck with it */
@@ -179,7 +173,7 @@ static const char *free_name(struct deck_edit *e, const char *name)
 static const char *take_modes(struct deck_edit *e, const char *option)
 {
     const char *list = NULL;
-    for (int i = 0; i < e->npart && !e->status; i++) {
+    for (int i = 0; i < e->npart; i++) {
         const struct deck_part *part = &e->part[i];
         const char *value = deck_edit_is(part, "FIT") ? deck_edit_option(part, option) : NULL;
         if (!value || !isdigit((unsigned char)*value))
@@ -187,7 +181,7 @@ static const char *take_modes(struct deck_edit *e, const char *option)
         list = value;
         deck_edit_set(e, i, option, NULL);
     }
-    for (int i = 0; i < e->npart && list && !e->status; i++)
+    for (int i = 0; i < e->npart && list; i++)
         if (deck_edit_is(&e->part[i], "STATE") && !deck_edit_option(&e->part[i], option))
             deck_edit_set(e, i, option, list);
     return list;
@@ -226,9 +220,8 @@ int deck_add_state(struct pool *pool, const struct deck_origin *origin, const ch
         put_cards_of(&e, &w, home);
     deck_put(&w, "%s", rest + (*rest == '\n'));
     put_parts(&e, &w, RUNNING);
-    status = e.status ? e.status : w.status;
-    *text = status ? NULL : w.text;
-    return status;
+    *text = pool->out_of_memory ? NULL : w.text;
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------ read back */
@@ -251,7 +244,7 @@ static const char *filled_in(struct pool *pool, const char *text)
         begin = next;
     }
     deck_put(&w, "%s", begin);
-    return w.status ? NULL : w.text;
+    return pool->out_of_memory ? NULL : w.text;
 }
 
 /* Names of unknowns have that of their state in front where there are several. */

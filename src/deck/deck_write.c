@@ -193,9 +193,7 @@ static struct deck_writer writer_of(const struct writing *w, int s)
 
 static void insert(struct writing *w, int state, const struct deck_writer *cards)
 {
-    if (cards->status)
-        w->edit.status = w->edit.status ? w->edit.status : cards->status;
-    else if (cards->length)
+    if (cards->length)
         deck_edit_insert(&w->edit, end_of(w, state), cards->text);
 }
 
@@ -243,7 +241,6 @@ static void edit_unknown(struct deck_line_edit *edit, void *context)
                 continue;
             deck_put_number(&number, "", value[k], to->unit ? to->unit : "");
             edit->value[k + 1] = number.text;
-            w->edit.status = w->edit.status ? w->edit.status : number.status;
         }
         return;
     }
@@ -267,7 +264,7 @@ static int is_named_suspect(struct writing *w, const struct deck_part *part)
 
 static void edit_searched(struct writing *w)
 {
-    for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+    for (int i = 0; i < w->edit.npart; i++) {
         struct in_part in = {.w = w, .part = &w->edit.part[i]};
         if (deck_edit_is(in.part, "IDENTIFY"))
             deck_edit_lines(&w->edit, i, edit_unknown, &in);
@@ -290,14 +287,14 @@ static int find_card(const struct writing *w, const char *name, int state)
 static int card_at(struct writing *w, const char *name, int state)
 {
     int at = find_card(w, name, state);
-    return at >= 0 || w->edit.status ? at : deck_edit_new(&w->edit, end_of(w, state), name);
+    return at >= 0 || w->pool->out_of_memory ? at : deck_edit_new(&w->edit, end_of(w, state), name);
 }
 
 static void edit_fit(struct writing *w)
 {
     const struct job_options *options = &w->meant.state->job.options;
     int at = card_at(w, "FIT", -1);
-    if (w->edit.status)
+    if (w->pool->out_of_memory)
         return;
     if (options->fit.functional >= 0)
         deck_edit_set(&w->edit, at, "FUNCTIONAL", functional_words[options->fit.functional]);
@@ -310,7 +307,7 @@ static void edit_fit(struct writing *w)
 
 static void set_or_drop(struct writing *w, int at, const char *option, const char *value)
 {
-    if ((value && *value) || deck_edit_option(&w->edit.part[at], option))
+    if (!w->pool->out_of_memory && ((value && *value) || deck_edit_option(&w->edit.part[at], option)))
         deck_edit_set(&w->edit, at, option, value && *value ? value : NULL);
 }
 
@@ -335,7 +332,7 @@ static void edit_holdout(struct writing *w)
 {
     int fit = card_at(w, "FIT", -1);
     struct deck_writer whole = {.pool = w->pool};
-    for (int s = 0; s < w->meant.nstate && !w->edit.status; s++) {
+    for (int s = 0; s < w->meant.nstate; s++) {
         struct deck_writer modes = writer_of(w, s);
         int all = w->meant.nstate > 1 && is_held_out(&w->meant.state[s].job);
         if (all)
@@ -346,11 +343,10 @@ static void edit_holdout(struct writing *w)
         set_or_drop(w, at, "MODES", NULL);
         set_or_drop(w, at, "HOLDOUT", w->of[s] < 0 ? with_runup(w, modes.text) : modes.text);
     }
-    if (w->of[0] < 0 || w->edit.status)
+    if (w->of[0] < 0)
         return;
     set_or_drop(w, fit, "MODES", NULL);
     set_or_drop(w, fit, "HOLDOUT", with_runup(w, whole.text));
-    w->edit.status = whole.status;
 }
 
 /* ------------------------------------------------------------------------------------------------ elements */
@@ -399,7 +395,6 @@ static void write_sections(struct writing *w, int at, int s, int first, int last
     }
     deck_edit_set(&w->edit, at, "FILE", NULL);
     deck_edit_append(&w->edit, at, lines.text);
-    w->edit.status = w->edit.status ? w->edit.status : lines.status;
 }
 
 static int is_sections(const struct deck_part *part)
@@ -420,7 +415,7 @@ static int last_unnamed(const struct writing *w, const struct rotor *rotor, int 
 
 static void edit_elements(struct writing *w)
 {
-    for (int i = 0, before = -1; i < w->edit.npart && !w->edit.status; i++) {
+    for (int i = 0, before = -1; i < w->edit.npart; i++) {
         struct deck_part *part = &w->edit.part[i];
         struct in_part in = {.w = w, .part = part};
         if (!is_sections(part))
@@ -499,12 +494,11 @@ static void edit_data(struct writing *w, int s)
         deck_put_noise(&cards, std, NAN); /* in place of a common one, whose floor would add to the deviations of the modes */
     if (first < 0)
         insert(w, w->of[s], &cards);
-    else if (!cards.status && cards.length) {
+    else if (cards.length) {
         deck_put(&cards, "%.*s", (int)w->edit.part[first].length, w->edit.part[first].text);
         w->edit.part[first].text = cards.text;
         w->edit.part[first].length = cards.length;
     }
-    w->edit.status = w->edit.status ? w->edit.status : cards.status;
 }
 
 /* ------------------------------------------------------------------------------------------------ names */
@@ -536,7 +530,7 @@ static void edit_names(struct writing *w, int s, const char *card)
     int next = 0;
     const struct rotor *meant = &w->meant.state[s].job.rotor, *given = &w->given->state[s].job.rotor;
     for (int own = 0; own < 2; own++)
-        for (int i = 0; i < w->edit.npart && !w->edit.status; i++) {
+        for (int i = 0; i < w->edit.npart; i++) {
             struct in_part in = {.w = w, .part = &w->edit.part[i], .s = s, .first = next};
             int lines = in.part->read.nline, any = 0;
             if (!deck_edit_is(in.part, card) || !is_in(w, in.part, s) || (in.part->state >= 0) != own)
@@ -583,46 +577,44 @@ static void add_heading(struct writing *w)
     int at = find_card(w, "HEADING", -1), first = 0;
     for (int i = 0; i < w->options->nextra; i++)
         deck_put_text(&lines, w->options->extra[i]);
-    if (!lines.length || lines.status) {
-        w->edit.status = w->edit.status ? w->edit.status : lines.status;
-    } else if (at >= 0) {
+    while (first < w->edit.npart && !*w->edit.part[first].read.name)
+        first++;
+    if (lines.length && at >= 0)
         deck_edit_append(&w->edit, at, lines.text);
-    } else {
-        while (first < w->edit.npart && !*w->edit.part[first].read.name)
-            first++;
+    else if (lines.length)
         deck_edit_insert(&w->edit, first, pool_format(w->pool, "*HEADING\n%s", lines.text));
-    }
 }
 
 /* ------------------------------------------------------------------------------------------------ the text */
 
 /* Lines end as those of the deck do, and a byte that is no character and no letter of Latin-1 goes: a terminal may obey it. */
-static void finish(struct writing *w, const char *deck, struct deck_writer *text)
+static char *finish(struct pool *pool, const char *deck, const char *text)
 {
     const char *feed = strchr(deck, '\n');
     int carriage = feed && feed > deck && feed[-1] == '\r';
-    struct deck_writer out = {.pool = w->pool};
-    for (const char *from = text->text, *c = from; c && *c && !text->status; from = c) {
+    struct deck_writer out = {.pool = pool};
+    for (const char *from = text, *c = from; c && *c; from = c) {
         size_t bytes;
         while (*c && *c != '\n' && ((bytes = text_visible(c)) || *c == '\t' || *c == '\r' || (unsigned char)*c >= 0xa0))
             c += bytes ? bytes : 1;
         deck_put(&out, "%.*s%s", (int)(c - from), from,
-                 !*c                                              ? ""
-                 : *c != '\n'                                     ? TEXT_REPLACEMENT
-                 : carriage && !(c > text->text && c[-1] == '\r') ? "\r\n"
-                                                                  : "\n");
+                 !*c                                        ? ""
+                 : *c != '\n'                               ? TEXT_REPLACEMENT
+                 : carriage && !(c > text && c[-1] == '\r') ? "\r\n"
+                                                            : "\n");
         c += *c != 0;
     }
-    text->status = text->status ? text->status : out.status;
-    text->text = out.text;
+    return out.text;
 }
 
 static int compose(struct writing *w, char **text)
 {
     struct deck_writer out = {.pool = w->pool};
     unsigned any = 0;
-    if (deck_edit_open(&w->edit, w->pool, w->given->state->job.origin))
-        return w->edit.status;
+    const struct deck_origin *origin = w->given->state->job.origin;
+    int status = deck_edit_open(&w->edit, w->pool, origin);
+    if (status)
+        return status;
     find_states(w);
     for (int s = 0; s < w->meant.nstate; s++)
         any |= w->todo[s];
@@ -656,10 +648,8 @@ static int compose(struct writing *w, char **text)
         edit_holdout(w);
     add_heading(w);
     deck_edit_text(&w->edit, &out);
-    if (!w->edit.status)
-        finish(w, w->given->state->job.origin->file[w->given->state->job.origin->nfile - 1].text, &out);
-    *text = out.text;
-    return w->edit.status ? w->edit.status : out.status;
+    *text = finish(w->pool, origin->file[origin->nfile - 1].text, out.text);
+    return w->pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 int deck_read_back(struct pool *pool, const char *path, const char *text, const char *directory, struct message_list *notes,
