@@ -140,9 +140,6 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
 struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place);
 int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option);
 
-/* The path of a file that the deck is made of; kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
-int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path);
-
 /* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
  * ROTID_ERROR_MEMORY. */
 int override_parse(struct pool *pool, const char *text, struct override *override);

@@ -202,7 +202,7 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
     const char *path = deck_text_path(reader->pool, &reader->text, card, option, reader->messages);
-    return path && !deck_text_add_file(reader->pool, &reader->text, path) ? path : NULL;
+    return path && !POOL_ADD(reader->pool, reader->text.file, reader->text.nfile, &path) ? path : NULL;
 }
 
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,

@@ -266,7 +266,7 @@ struct table_text *deck_open_table(struct deck_reader *reader, const struct card
         return NULL;
     }
     struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL;
-    if (!table || deck_text_add_file(reader->pool, text, path))
+    if (!table || POOL_ADD(reader->pool, text->file, text->nfile, &path))
         return NULL;
     int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
     reader->pool->out_of_memory |= status == ROTID_ERROR_MEMORY;

@@ -177,11 +177,6 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
     return deck_path_from(pool, option->value, here, text->memory && (!here || here == text->memory) ? text->directory : NULL);
 }
 
-int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path)
-{
-    return POOL_ADD(pool, text->file, text->nfile, &path) ? ROTID_ERROR_MEMORY : ROTID_OK;
-}
-
 static int read_file(struct reader *reader, const char *path, struct place from);
 
 static void include(struct reader *reader, struct card card)
@@ -366,7 +361,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     }
     if (!text)
         return ROTID_ERROR_MEMORY;
-    (void)deck_text_add_file(reader->pool, reader->text, path);
+    (void)POOL_ADD(reader->pool, reader->text->file, reader->text->nfile, &path);
     reader->depth += from.file != NULL;
     reader->open_stat[reader->depth] = about;
     read_lines(reader, path, text, length <= left ? length : S_ISREG(about.st_mode) ? 0 : left, length > left);

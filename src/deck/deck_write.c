@@ -61,31 +61,29 @@ static double inside_physical(const struct rotor *rotor, const struct effect *ef
 }
 
 /* A cause is said to act on a spring or a disk by its name: those without one get one. */
-static int name_target(struct pool *pool, struct rotor *rotor, const struct effect *effect)
+static void name_target(struct pool *pool, struct rotor *rotor, const struct effect *effect)
 {
     const struct cause_kind *kind = catalogue_of(effect);
     const char **name = kind && effect->target >= 0 ? deck_name_of(rotor, kind->target, effect->target) : NULL;
     if (name && !*name)
         *name = scan_free_name(pool, rotor, kind->target == TARGET_SPRING ? "spring" : "disk");
-    return name && !*name ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
-static int prepare_state(struct writing *w, int s)
+static void prepare_state(struct writing *w, int s)
 {
     struct state *state = &w->meant.state[s];
     struct job *job = &state->job;
     const struct rotor *given = &w->given->state[s].job.rotor;
-    int n = job->unknowns.nparameter, status = ROTID_OK;
-    rotid_parameter *bounds = POOL_ARRAY(w->pool, rotid_parameter, n);
+    int n = job->unknowns.nparameter;
+    rotid_parameter *bounds = POOL_COPY(w->pool, job->unknowns.bounds, n, 0);
     double *x = POOL_ARRAY(w->pool, double, n);
     struct rotor rotor;
     if (!bounds || !x || deck_copy_rotor(w->pool, &job->rotor, &rotor))
-        return ROTID_ERROR_MEMORY;
+        return;
     for (int p = 0; p < n; p++) {
         const struct parameter *parameter = &job->unknowns.parameter[p];
-        bounds[p] = job->unknowns.bounds[p];
-        if (parameter->kind == PARAMETER_EFFECT && is_new(given, &rotor.effect[parameter->index])) {
-            const struct effect *effect = &rotor.effect[parameter->index];
+        const struct effect *effect = parameter->kind == PARAMETER_EFFECT ? &rotor.effect[parameter->index] : NULL;
+        if (effect && is_new(given, effect)) {
             bounds[p].lower = inside_physical(given, effect, parameter->component, bounds[p].lower);
             bounds[p].upper = inside_physical(given, effect, parameter->component, bounds[p].upper);
         }
@@ -93,18 +91,17 @@ static int prepare_state(struct writing *w, int s)
         x[p] = bounds[p].start = start_of(&bounds[p], start);
     }
     parameters_set(&rotor, n, job->unknowns.parameter, x);
-    for (int i = 0; i < rotor.neffect && !status; i++) {
+    for (int i = 0; i < rotor.neffect; i++) {
         struct effect *effect = &rotor.effect[i];
         const struct cause_kind *kind = catalogue_of(effect);
         for (int p = 0; p < effect_parameters(effect) && kind && is_new(given, effect); p++)
             if (effect->value[p] != kind->parameter[p].neutral)
                 effect->value[p] = inside_physical(given, effect, p, effect->value[p]);
-        status = name_target(w->pool, &rotor, effect);
+        name_target(w->pool, &rotor, effect);
     }
     job->rotor = rotor;
     job->unknowns.bounds = bounds;
     job->units = w->given->state->job.units;
-    return status;
 }
 
 /* One mesh for what is common to states: the finest of theirs. */
@@ -136,22 +133,18 @@ static int is_in_all(const struct writing *w, const struct effect *effect)
 }
 
 /* The unknowns of a cause that some states lack are each state's own, as the reader names those. */
-static int name_unknowns(struct writing *w)
+static void name_unknowns(struct writing *w)
 {
     for (int s = 0; s < w->meant.nstate && w->meant.nstate > 1; s++) {
         const struct job *job = &w->meant.state[s].job;
         for (int p = 0; p < job->unknowns.nparameter; p++) {
             const struct parameter *parameter = &job->unknowns.parameter[p];
             rotid_parameter *bounds = &job->unknowns.bounds[p];
-            if (parameter->kind != PARAMETER_EFFECT || strchr(bounds->name, ':') ||
-                is_in_all(w, &job->rotor.effect[parameter->index]))
-                continue;
-            bounds->name = pool_format(w->pool, "%s:%s", w->meant.state[s].name, bounds->name);
-            if (!bounds->name)
-                return ROTID_ERROR_MEMORY;
+            if (parameter->kind == PARAMETER_EFFECT && bounds->name && !strchr(bounds->name, ':') &&
+                !is_in_all(w, &job->rotor.effect[parameter->index]))
+                bounds->name = pool_format(w->pool, "%s:%s", w->meant.state[s].name, bounds->name);
         }
     }
-    return ROTID_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------ where things stand */
@@ -703,10 +696,11 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
     if (!w.todo || !w.of || given->nstate != meant->nstate)
         return w.todo && w.of ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
     for (int s = 0; s < meant->nstate && !status; s++)
-        status = prepare_state(&w, s);
+        prepare_state(&w, s);
     if (!status) {
         share_mesh(&w.meant);
-        status = name_unknowns(&w);
+        name_unknowns(&w);
+        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
     }
     const char *path = given->state->job.deck, *card = "";
     for (int attempt = 0; attempt < ATTEMPTS && !status && left > 0; attempt++) {
