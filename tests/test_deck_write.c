@@ -595,7 +595,9 @@ POOL_TEST(a_list_behind_the_run_up_is_one_option)
 {
     struct deck_edit e;
     struct deck_writer w = {.pool = &test_pool};
-    assert_status(deck_edit_open_flat(&e, &test_pool, "bar.inp", "*FIT, HOLDOUT=RUNUP, 1, STATE:free, MODES=2,3\n"), ROTID_OK);
+    const struct deck_file file = {"bar.inp", "*FIT, HOLDOUT=RUNUP, 1, STATE:free, MODES=2,3\n"};
+    const struct deck_origin origin = {.path = "bar.inp", .nfile = 1, .file = &file};
+    assert_status(deck_edit_open(&e, &test_pool, &origin), ROTID_OK);
     assert_string_equal(deck_edit_option(&e.part[0], "HOLDOUT"), "RUNUP,1,STATE:free");
     deck_edit_set(&e, 0, "HOLDOUT", "RUNUP");
     deck_edit_text(&e, &w);

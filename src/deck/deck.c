@@ -477,13 +477,9 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     struct deck_origin *origin = POOL_NEW(pool, struct deck_origin);
     if (!origin)
         return ROTID_ERROR_MEMORY;
-    *origin = (struct deck_origin){.path = memory ? memory->name : path,
-                                   .directory = memory ? memory->directory : NULL,
-                                   .memory = memory != NULL,
-                                   .nfile = reader.text.nsource,
-                                   .file = reader.text.source,
-                                   .noverride = noverride,
-                                   .override = override};
+    *origin = reader.text.origin;
+    origin->noverride = noverride;
+    origin->override = override;
     job.origin = origin;
     for (int i = 0; i < noverride; i++)
         if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)

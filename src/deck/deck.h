@@ -73,6 +73,24 @@ struct deck_file {
     const char *path, *text;
 };
 
+/* "CARD.OPTION=VALUE" that replaces an option of a deck. */
+struct override {
+    const char *card, *option, *value;
+    const char *text;  /* what stands for the file in messages: "--set CARD.OPTION=VALUE" */
+    const char *given; /* the whole, NULL of one that nobody wrote so */
+};
+
+/* What a deck was read from: whoever writes it again edits these texts. */
+struct deck_origin {
+    const char *path;      /* of the deck, as places name it */
+    const char *directory; /* of a deck from memory, or NULL */
+    int memory;            /* a deck from memory */
+    int nfile;
+    const struct deck_file *file; /* the deck, the last one, and what it includes, as they were read */
+    int noverride;
+    const struct override *override;
+};
+
 struct card_option {
     const char *name, *value; /* value "" where there is no '=' */
     struct place place, value_place;
@@ -97,16 +115,7 @@ struct deck_text {
     const char **file;
     int ntable;
     struct table_text **table; /* read so far: a table may serve several cards */
-    int nsource;               /* the deck and what it includes, as they were read */
-    struct deck_file *source;
-    const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
-};
-
-/* "CARD.OPTION=VALUE" that replaces an option of a deck. */
-struct override {
-    const char *card, *option, *value;
-    const char *text;  /* what stands for the file in messages: "--set CARD.OPTION=VALUE" */
-    const char *given; /* the whole, NULL of one that nobody wrote so */
+    struct deck_origin origin; /* without overrides */
 };
 
 /* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or
@@ -219,8 +228,10 @@ struct deck_reader {
 };
 
 /* Returns 1, as what it is the error of does. */
-int deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+int deck_say(struct deck_reader *reader, enum severity severity, struct place place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+#define deck_error(reader, ...) deck_say((reader), SEVERITY_ERROR, __VA_ARGS__)
+#define deck_note(reader, ...)  ((void)deck_say((reader), SEVERITY_WARNING, __VA_ARGS__))
 
 void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place);
 
@@ -449,17 +460,6 @@ void deck_noise_of_all(const struct job *job, double *frequency, double *shape);
 
 /* The text of a deck in parts that can be changed one by one; what is not changed stays as its user wrote it. */
 
-/* What a deck was read from: whoever writes it again edits these texts. */
-struct deck_origin {
-    const char *path;      /* of the deck */
-    const char *directory; /* of a deck from memory */
-    int memory;            /* a deck from memory */
-    int nfile;
-    const struct deck_file *file; /* the deck and what it includes, as they were read */
-    int noverride;
-    const struct override *override;
-};
-
 /* Whether "NAME.x" names a *BEARING of the machine. */
 int deck_is_of_bearing(const struct deck_reader *reader, const char *name);
 
@@ -483,11 +483,9 @@ struct deck_edit {
     struct deck_part *part;
 };
 
-/* The parts of all files, with the overrides in them. Its status: ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO of an origin
- * that lacks the text of a file. */
+/* The parts of all files, with the overrides in them. An *INCLUDE of a file that the origin lacks is a card. ROTID_OK,
+ * ROTID_ERROR_MEMORY, or ROTID_ERROR_IO of an origin that lacks the deck. */
 int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin);
-/* The same of a text whose included files are left alone. */
-int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path, const char *text);
 
 /* Whether a part is this card. */
 int deck_edit_is(const struct deck_part *part, const char *card);

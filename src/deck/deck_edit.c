@@ -76,32 +76,35 @@ static const char *text_of(const struct deck_edit *e, const char *path)
     return NULL;
 }
 
-/* The parts of a text, and behind each *INCLUDE those of its file. ROTID_OK, or ROTID_ERROR_IO where that is not there. */
-static int gather(struct deck_edit *e, const char *text, const char *file, int depth)
+/* The parts of a text, and behind each *INCLUDE those of its file, where the origin has it. */
+static void gather(struct deck_edit *e, const char *text, const char *file)
 {
     const char *stop = text + strlen(text);
-    int status = ROTID_OK;
-    for (const char *end = text; *text && !status; text = end) {
+    for (const char *end = text; *text; text = end) {
         do
             end += line_length(end, stop);
         while (*end && !begins_card(end, stop));
         struct deck_part part = {.text = text, .file = file, .length = (size_t)(end - text)};
+        if (end[-1] != '\n') { /* the last line of a file may lack its line feed */
+            part.text = pool_format(e->pool, "%s\n", text);
+            part.length++;
+        }
+        if (!part.text)
+            return;
         read_part(e, &part);
         part.include = deck_edit_is(&part, "INCLUDE");
         e->nstate += deck_edit_is(&part, "STATE");
         e->running |= deck_edit_is(&part, "RUNNING");
         part.state = e->running ? DECK_BEHIND_STATES : e->nstate - 1;
+        const char *value = part.include ? deck_edit_option(&part, "FILE") : NULL,
+                   *path = value ? path_from(e, file, value) : NULL, *inside = text_of(e, path);
         int at = e->npart;
         if (POOL_ADD(e->pool, e->part, e->npart, &part))
-            return ROTID_ERROR_MEMORY;
-        if (!part.include || depth < 0)
-            continue;
-        const char *value = deck_edit_option(&part, "FILE"), *path = value ? path_from(e, file, value) : NULL,
-                   *inside = depth < DECK_MOST_INCLUDES ? text_of(e, path) : NULL;
-        status = inside ? gather(e, inside, path, depth + 1) : ROTID_ERROR_IO;
+            return;
+        if (inside)
+            gather(e, inside, path);
         e->part[at].inside = e->npart - 1 - at;
     }
-    return status;
 }
 
 static void replace(struct deck_edit *e, int part, struct deck_writer *w)
@@ -271,39 +274,16 @@ static void apply(struct deck_edit *e, const struct override *o)
         deck_edit_set(e, deck_edit_new(e, at, card->name), o->option, value);
 }
 
-static int open_to(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin, int depth)
+int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin)
 {
     *e = (struct deck_edit){.pool = pool, .origin = origin};
     const char *text = origin ? text_of(e, origin->path) : NULL;
-    int status = text ? gather(e, text, origin->path, depth) : ROTID_ERROR_IO;
-    /* the last line of a file may lack its line feed */
-    for (int i = 0; i < e->npart; i++) {
-        struct deck_part *part = &e->part[i];
-        if (part->length && part->text[part->length - 1] != '\n') {
-            const char *whole = pool_format(pool, "%.*s\n", (int)part->length, part->text);
-            part->length += whole != NULL;
-            part->text = whole ? whole : part->text;
-        }
-    }
-    for (int i = 0; !status && i < origin->noverride; i++)
+    if (!text)
+        return ROTID_ERROR_IO;
+    gather(e, text, origin->path);
+    for (int i = 0; i < origin->noverride; i++)
         apply(e, &origin->override[i]);
-    return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
-}
-
-int deck_edit_open(struct deck_edit *e, struct pool *pool, const struct deck_origin *origin)
-{
-    return open_to(e, pool, origin, 0);
-}
-
-int deck_edit_open_flat(struct deck_edit *e, struct pool *pool, const char *path, const char *text)
-{
-    struct deck_file *file = POOL_NEW(pool, struct deck_file);
-    struct deck_origin *origin = POOL_NEW(pool, struct deck_origin);
-    if (!file || !origin)
-        return ROTID_ERROR_MEMORY;
-    *file = (struct deck_file){path, text};
-    *origin = (struct deck_origin){.path = path, .nfile = 1, .file = file};
-    return open_to(e, pool, origin, -1);
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------ the whole */

@@ -88,7 +88,9 @@ int deck_place(struct pool *pool, const char *from, const char *text, const char
     if (status || find_folder(pool, from, &old) || old.about.st_dev != new.about.st_dev || old.about.st_ino != new.about.st_ino)
         return status;
     *placed = NULL;
-    status = deck_edit_open_flat(&e, pool, to, text);
+    const struct deck_file file = {to, text};
+    const struct deck_origin origin = {.path = to, .nfile = 1, .file = &file};
+    status = deck_edit_open(&e, pool, &origin);
     if (status)
         return status;
     shorten(&e, old.path);

@@ -8,35 +8,20 @@
 #include <string.h>
 #include <strings.h>
 
-static void add(struct deck_reader *reader, enum severity severity, struct place place, const char *format, va_list values)
+int deck_say(struct deck_reader *reader, enum severity severity, struct place place, const char *format, ...)
 {
     char text[1024], cell[TABLE_CELL_LENGTH];
-    int table = 0;
+    const char *name = NULL;
+    va_list values;
+    va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
     for (int i = 0; i < reader->text.ntable; i++)
-        table |= place.file == reader->text.table[i]->path;
-    if (table)
-        message_add(reader->messages, severity, place.file, place.line, place.column, "%s (cell %s)", text,
-                    table_cell_name(place.line, place.column, cell));
-    else
-        message_add(reader->messages, severity, place.file, place.line, place.column, "%s", text);
-}
-
-int deck_error(struct deck_reader *reader, struct place place, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    add(reader, SEVERITY_ERROR, place, format, values);
-    va_end(values);
+        if (place.file == reader->text.table[i]->path)
+            name = table_cell_name(place.line, place.column, cell);
+    message_add(reader->messages, severity, place.file, place.line, place.column, "%s%s%s%s", text, name ? " (cell " : "",
+                name ? name : "", name ? ")" : "");
     return 1;
-}
-
-void deck_note(struct deck_reader *reader, struct place place, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    add(reader, SEVERITY_WARNING, place, format, values);
-    va_end(values);
 }
 
 void deck_add_place(struct deck_reader *reader, enum deck_places which, struct place place)

@@ -168,13 +168,14 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
                            const struct card_option *option, struct message_list *messages)
 {
     const char *here = option->overridden ? NULL : card->place.file;
-    if (text->memory && !text->directory) {
+    if (text->origin.memory && !text->origin.directory) {
         message_add(messages, SEVERITY_ERROR, option->value_place.file, option->value_place.line, option->value_place.column,
                     "%s is a file, and a deck from memory has no directory of its own, expected one beside its text",
                     option->value);
         return NULL;
     }
-    return deck_path_from(pool, option->value, here, text->memory && (!here || here == text->memory) ? text->directory : NULL);
+    return deck_path_from(pool, option->value, here,
+                          text->origin.memory && (!here || here == text->origin.path) ? text->origin.directory : NULL);
 }
 
 static int read_file(struct reader *reader, const char *path, struct place from);
@@ -367,7 +368,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     read_lines(reader, path, text, length <= left ? length : S_ISREG(about.st_mode) ? 0 : left, length > left);
     reader->depth -= from.file != NULL;
     const struct deck_file read = {path, text};
-    (void)POOL_ADD(reader->pool, reader->text->source, reader->text->nsource, &read);
+    (void)POOL_ADD(reader->pool, reader->text->origin.file, reader->text->origin.nfile, &read);
     if (failed)
         text_error(reader, ((struct place){path, reader->text->end.line, 1}), "reading failed: %s", host_error_text(failed, why));
     return ROTID_OK;
@@ -383,7 +384,7 @@ static int conclude(const struct reader *reader, int status)
 int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text)
 {
     struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
-    *text = (struct deck_text){.end = {path, 1, 1}};
+    *text = (struct deck_text){.end = {path, 1, 1}, .origin.path = path};
     return conclude(&reader, read_file(&reader, path, (struct place){NULL, 1, 1}));
 }
 
@@ -393,10 +394,11 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
     struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
     int more = memory->length > DECK_MOST_BYTES;
     const struct deck_file read = {memory->name, pool_copy(pool, memory->text, more ? 0 : memory->length, 1, 1)};
-    *text = (struct deck_text){.end = {memory->name, 1, 1}, .memory = memory->name, .directory = memory->directory};
+    *text = (struct deck_text){.end = {memory->name, 1, 1},
+                               .origin = {.path = memory->name, .directory = memory->directory, .memory = 1}};
     if (read.text)
         read_lines(&reader, memory->name, read.text, more ? 0 : memory->length, more);
-    (void)POOL_ADD(pool, text->source, text->nsource, &read);
+    (void)POOL_ADD(pool, text->origin.file, text->origin.nfile, &read);
     return conclude(&reader, ROTID_OK);
 }
 
