@@ -218,7 +218,6 @@ struct deck_reader {
     int alone;                           /* no other state is read beside it */
     int held_out;                        /* HOLDOUT=STATE: all its modes are */
     int no_section;                      /* the one error is that of a section that cannot be */
-    int unit[DECK_QUANTITIES];           /* of *UNITS: which word, 0: SI */
     const char *likely[DECK_QUANTITIES]; /* that a warning has named, NULL: none yet */
     int nrunning;                        /* cards from *RUNNING on, which are taken out of the text */
     struct card *running;
@@ -249,11 +248,10 @@ int deck_is_usual(double value);
 double deck_unit_factor(const char *si, const char *word);
 /* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
 double deck_in_si(const struct deck_reader *reader, const char *what);
-/* The factors of all quantities, into the job; and of one of them, of a job whose deck has been read. */
-void deck_keep_units(struct deck_reader *reader);
+/* The same of a job. */
 double deck_unit_of(const struct job_units *units, const char *what);
-/* The deck's own unit of it, for messages. */
-const char *deck_unit_name(const struct deck_reader *reader, const char *what);
+/* The deck's own one of lengths, for messages. */
+const char *deck_length_unit(const struct deck_reader *reader);
 /* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
 void deck_check_magnitude(struct deck_reader *reader, struct place place, const char *what, const char *text, double value);
 

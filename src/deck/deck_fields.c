@@ -161,8 +161,8 @@ int deck_position(struct deck_reader *reader, const struct field *field, const c
     /* a coordinate with six digits may end a little beyond the end of the rotor */
     if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5))
         return deck_error(reader, place, "%s %s %s lies outside the rotor, expected 0 to %.6g %s", what, text,
-                          field->in_si > 0 ? "in the unit of its column" : deck_unit_name(reader, "m"), reader->length / in_si,
-                          field->in_si > 0 ? "in that unit" : deck_unit_name(reader, "m"));
+                          field->in_si > 0 ? "in the unit of its column" : deck_length_unit(reader), reader->length / in_si,
+                          field->in_si > 0 ? "in that unit" : deck_length_unit(reader));
     *z = fmin(fmax(*z, 0), reader->length);
     return 0;
 }
@@ -217,18 +217,6 @@ static int parse_word(struct deck_reader *reader, const struct field *field, con
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
 {
     return parse_word(reader, &FIELD_OF(option), option->name, "=", words);
-}
-
-void deck_units(struct deck_reader *reader, const struct card *card)
-{
-    for (int q = 0; q < DECK_QUANTITIES; q++) {
-        const struct card_option *option = card_option(card, deck_units_rows[q].option);
-        int unit = option ? deck_option_word(reader, option, deck_units_rows[q].words) : -1;
-        if (unit >= 0 && reader->unit[q])
-            deck_error(reader, option->place, "the unit of %s is given twice, expected once", deck_units_rows[q].option);
-        if (unit >= 0)
-            reader->unit[q] = unit;
-    }
 }
 
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most)

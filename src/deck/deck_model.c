@@ -329,8 +329,8 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
     if (bars->center - half < -over || bars->center + half > reader->length + over)
         return deck_error(reader, card_option(card, "LENGTH")->value_place,
                           "bars of %.9g %s reach beyond the rotor, expected them inside 0 to %.6g %s",
-                          bars->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"),
-                          reader->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"));
+                          bars->length / deck_in_si(reader, "m"), deck_length_unit(reader),
+                          reader->length / deck_in_si(reader, "m"), deck_length_unit(reader));
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
     hz = 0.5596 * sqrt(bars->material.e / bars->material.rho) * radius / (half * half);
     if (bars->model == BUNDLE_RODS && hz < 5000)

@@ -606,9 +606,6 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                    "HOLDOUT=RUNUP, but the deck has no machine, expected *RUNNING with *RUNUP");
     if (!reader->nrunning)
         return;
-    for (int c = 0; c < reader->text.ncard; c++)
-        if (is(&reader->text.card[c], "UNITS"))
-            deck_units(&own, &reader->text.card[c]);
     own.machine = POOL_NEW(reader->pool, struct machine);
     if (!own.machine)
         return;

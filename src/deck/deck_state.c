@@ -155,7 +155,6 @@ static void read_one(struct deck_reader *reader, const struct division *d, int s
         text_of_state(reader, d, s, &own);
     if (!reader->pool->out_of_memory)
         deck_read_cards(&own);
-    deck_keep_units(&own);
     reader->no_section |= own.no_section;
     reader->text.nfile = own.text.nfile; /* they go on where this one ends */
     reader->text.file = own.text.file;

@@ -52,35 +52,39 @@ double deck_unit_factor(const char *si, const char *word)
     return 0;
 }
 
-double deck_in_si(const struct deck_reader *reader, const char *what)
-{
-    int q = find(what);
-    return q >= 0 && reader->unit[q] ? quantity[q].factor[reader->unit[q]] : 1;
-}
-
-void deck_keep_units(struct deck_reader *reader)
-{
-    for (int q = 0; q < DECK_QUANTITIES; q++)
-        reader->job->units.si[q] = quantity[q].factor[reader->unit[q]];
-    reader->job->units.length = reader->unit[0] ? deck_unit_name(reader, "m") : NULL;
-    reader->job->units.frequency = reader->unit[DECK_QUANTITIES - 1] ? deck_unit_name(reader, "Hz") : NULL;
-}
-
 double deck_unit_of(const struct job_units *units, const char *what)
 {
     int q = find(what);
     return q >= 0 && units->si[q] > 0 ? units->si[q] : 1;
 }
 
-const char *deck_unit_name(const struct deck_reader *reader, const char *what)
+double deck_in_si(const struct deck_reader *reader, const char *what)
 {
-    static const char *const lengths[] = {"m", "cm", "mm", "in"}, *const frequencies[] = {"Hz", "kHz", "rpm", "rad/s"};
-    int q = find(what);
-    return q < 0                      ? what
-           : q == 0                   ? lengths[reader->unit[0]]
-           : q == DECK_QUANTITIES - 1 ? frequencies[reader->unit[q]]
-           : reader->unit[q]          ? quantity[q].word[reader->unit[q]]
-                                      : quantity[q].si;
+    return reader->job ? deck_unit_of(&reader->job->units, what) : 1;
+}
+
+const char *deck_length_unit(const struct deck_reader *reader)
+{
+    return reader->job->units.length ? reader->job->units.length : "m";
+}
+
+void deck_units(struct deck_reader *reader, const struct card *card)
+{
+    static const char *const lengths[] = {NULL, "cm", "mm", "in"}, *const frequencies[] = {NULL, "kHz", "rpm", "rad/s"};
+    struct job_units *units = &reader->job->units;
+    for (int q = 0; q < DECK_QUANTITIES; q++) {
+        const struct card_option *option = card_option(card, quantity[q].option);
+        int unit = option ? deck_option_word(reader, option, quantity[q].word) : -1;
+        if (unit < 0)
+            continue;
+        if (units->si[q] > 0 && units->si[q] != 1)
+            deck_error(reader, option->place, "the unit of %s is given twice, expected once", quantity[q].option);
+        units->si[q] = quantity[q].factor[unit];
+        if (q == 0)
+            units->length = lengths[unit];
+        if (q == DECK_QUANTITIES - 1)
+            units->frequency = frequencies[unit];
+    }
 }
 
 /* The unit in which *value would be from `least` to `most`, nearest to what is typical, and the value in SI then; NULL: none. */
@@ -149,7 +153,7 @@ void deck_check_magnitude(struct deck_reader *reader, struct place place, const 
     if (q < 0)
         deck_note(reader, place, "%s is %s, outside of what rotors have (%.3g to %.3g)", what, text, usual[i].least,
                   usual[i].most);
-    else if (!unit || reader->unit[q])
+    else if (!unit || deck_in_si(reader, si) != 1)
         deck_note(reader, place, "%s is %s, %.4g %s, outside of what rotors have (%.3g to %.3g)", what, text, value, si,
                   usual[i].least, usual[i].most);
     else
