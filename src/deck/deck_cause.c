@@ -113,30 +113,23 @@ static int read_named(struct cause_card *c)
 /* SENSOR=7 or SENSOR=7,6 */
 static int read_sensors(struct cause_card *c)
 {
+    const char *expected = target_of[c->kind->target].expected, *text = deck_option(c->reader, c->card, "SENSOR", expected);
     int wanted = c->kind->target == TARGET_SENSORS ? 2 : 1;
-    const char *text = deck_option(c->reader, c->card, "SENSOR", target_of[c->kind->target].expected);
+    long id[2];
+    char comma = ',', rest;
     if (!text)
         return 1;
     struct place place = card_option(c->card, "SENSOR")->value_place;
-    for (;;) {
-        char *end;
-        long id = strtol(text, &end, 10);
-        int bad = end == text || id < 1 || id > 1000000000 || c->correction.nsensor == wanted;
-        end += strspn(end, " \t");
-        bad |= (*end && *end != ',') || (!*end && c->correction.nsensor + 1 < wanted);
-        if (bad)
-            return deck_error(c->reader, place, "SENSOR=%s is not what TYPE=%s takes, expected %s",
-                              card_option(c->card, "SENSOR")->value, c->kind->id, target_of[c->kind->target].expected);
-        c->effect.target = sensor_find(c->reader->job, (int)id);
+    if (sscanf(text, "%18ld %c%18ld %c", &id[0], &comma, &id[1], &rest) != 2 * wanted - 1 || comma != ',')
+        return deck_error(c->reader, place, "SENSOR=%s is not what TYPE=%s takes, expected %s", text, c->kind->id, expected);
+    for (int i = 0; i < wanted; i++) {
+        c->effect.target = id[i] > 0 && id[i] <= 1000000000 ? sensor_find(c->reader->job, (int)id[i]) : -1;
         if (c->effect.target < 0)
-            return deck_error(c->reader, place, "sensor %ld is not among the sensors, expected one that is", id);
-        c->correction.sensor[c->correction.nsensor++] = (int)id;
-        if (!*end)
-            break;
-        text = end + 1;
+            return deck_error(c->reader, place, "sensor %ld is not among the sensors, expected one that is", id[i]);
+        c->correction.sensor[c->correction.nsensor++] = (int)id[i];
     }
-    if (wanted == 2 && c->correction.sensor[0] == c->correction.sensor[1])
-        return deck_error(c->reader, place, "SENSOR names sensor %d twice, expected two sensors", c->correction.sensor[0]);
+    if (wanted == 2 && id[0] == id[1])
+        return deck_error(c->reader, place, "SENSOR names sensor %ld twice, expected two sensors", id[0]);
     return 0;
 }
 
@@ -311,6 +304,7 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
 static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
 {
+    const struct field *field[EFFECT_MOST_PARAMETERS] = {NULL};
     int bad = 0;
     for (int i = 0; i < c->card->nline; i++) {
         const struct data_line *line = &c->card->line[i];
@@ -320,26 +314,19 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
             deck_error(c->reader, line->field[0].place, "%s is given twice, expected once", known[p].name);
         if (p < 0 || given[p]) {
             bad = 1;
-            continue;
-        }
-        if (bounds) {
+        } else if (bounds) {
             bad |= read_bounds(c, line, p, known);
-            continue;
+        } else {
+            int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
+            bad |= is_place ? deck_position(c->reader, &line->field[1], known[p].name, &value[p])
+                            : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
+            value[p] *= is_place ? 1 : deck_in_si(c->reader, known[p].unit);
+            given[p] = 1;
+            field[p] = &line->field[1];
         }
-        given[p] = 1;
-        int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
-        bad |= is_place ? deck_position(c->reader, &line->field[1], known[p].name, &value[p])
-                        : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
-        if (!is_place)
-            value[p] *= deck_in_si(c->reader, known[p].unit);
     }
-    for (int i = 0; i < c->card->nline && !bad; i++) { /* now: bounds of one parameter may follow another one */
-        const struct data_line *line = &c->card->line[i];
-        int p = find_value(c, &line->field[0], count, known);
-        if (!given[p])
-            continue; /* its bounds */
-        bad |= check_value(c, p, &known[p], &line->field[1], &value[p]);
-    }
+    for (int p = 0, read = !bad; p < count && read; p++) /* now: bounds of one parameter may follow another one */
+        bad |= given[p] && check_value(c, p, &known[p], field[p], &value[p]);
     for (int p = 0; p < count && !c->suspect && !bad; p++)
         if (!given[p])
             bad = deck_error(c->reader, c->card->place, "*CAUSE has no value of %s [%s], expected a line '%s, value'",

@@ -14,14 +14,11 @@
 #include <string.h>
 #include <strings.h>
 
-#define ATTEMPTS 6 /* each difference is of one of five kinds */
-
 struct writing {
     struct pool *pool;
     const struct states *given;
     struct states meant;
     const struct deck_write_options *options;
-    struct message_list *notes;
     struct deck_edit edit;
     unsigned *todo; /* [meant.nstate] of enum deck_difference */
     int *of;        /* [meant.nstate] which *STATE of the text it is, -1: that of a deck without */
@@ -688,27 +685,27 @@ int deck_write(struct pool *pool, const struct states *given, const struct state
                const struct deck_write_options *options, struct message_list *notes, char **text)
 {
     static const struct deck_write_options none = {0};
-    struct writing w = {.pool = pool, .given = given, .options = options ? options : &none, .notes = notes};
-    int status = states_copy(pool, meant, &w.meant), left = 1;
+    struct writing w = {.pool = pool, .given = given, .options = options ? options : &none};
+    int left = 1;
     w.todo = POOL_ARRAY(pool, unsigned, meant->nstate);
     w.of = POOL_ARRAY(pool, int, meant->nstate);
     *text = NULL;
-    if (!w.todo || !w.of || given->nstate != meant->nstate)
-        return w.todo && w.of ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
-    for (int s = 0; s < meant->nstate && !status; s++)
+    if (given->nstate != meant->nstate)
+        return ROTID_ERROR_ARGUMENT;
+    if (!w.todo || !w.of || states_copy(pool, meant, &w.meant))
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < meant->nstate; s++)
         prepare_state(&w, s);
-    if (!status) {
-        share_mesh(&w.meant);
-        name_unknowns(&w);
-        status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
-    }
+    share_mesh(&w.meant);
+    name_unknowns(&w);
+    int status = pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
     const char *path = given->state->job.deck, *card = "";
-    for (int attempt = 0; attempt < ATTEMPTS && !status && left > 0; attempt++) {
+    while (!status && left > 0) { /* there is more to be stated each time */
         struct states read;
         card = "";
         status = compose(&w, text);
         if (!status)
-            status = *text ? deck_read_back(pool, path, *text, ".", notes, &read) : ROTID_ERROR_MEMORY;
+            status = deck_read_back(pool, path, *text, ".", notes, &read);
         left = status ? 1 : compare(&w, &read, &card);
     }
     if (!status && left)
