@@ -128,11 +128,8 @@ static char *dump_record(const struct record *record, const void *result, const 
 {
     char *text;
     size_t length;
-    struct json_tree tree;
     FILE *out = open_memstream(&text, &length);
-    json_open(&tree);
-    record_write(&tree, tree.root, record, result);
-    char *json = json_close(&tree);
+    char *json = record_text(record, result, 1);
     if (!json)
         abort();
     for (const char *line = json; *line; line += strcspn(line, "\n"), line += *line == '\n') {
@@ -141,7 +138,7 @@ static char *dump_record(const struct record *record, const void *result, const 
         if (!time || time > line + columns)
             (void)fprintf(out, "%.*s\n", columns, line);
     }
-    json_free(json);
+    free(json);
     for (int i = 0; i < 2; i++)
         if (fit[i])
             put_fit(out, fit[i]);

@@ -321,9 +321,9 @@ static void read_results(const uint8_t *bytes, size_t count)
         FILE *nowhere = fopen("/dev/null", "wb");
         require(text && nowhere);
         screen_study(&(struct screen){nowhere, &pool, 0, SCREEN_WIDTH}, &summary);
-        require(csv_table(nowhere, runs) == ROTID_OK);
+        table_write_csv(nowhere, runs);
         (void)fclose(nowhere);
-        json_free(text);
+        free(text);
     }
     pool_close(&pool);
     (void)close(descriptor);

@@ -48,7 +48,7 @@ static cJSON *parsed(char *text)
 {
     assert_non_null(text);
     cJSON *json = cJSON_ParseWithOpts(text, NULL, 1);
-    json_free(text);
+    free(text);
     assert_true(cJSON_IsObject(json));
     return json;
 }

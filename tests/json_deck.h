@@ -19,7 +19,7 @@ void json_deck_close(struct json_deck *deck);
 /* What `check` and `identify` say; to be deleted. `baseline` as for rotid_identify; the identification stays in deck->result. */
 cJSON *json_deck_check(struct json_deck *deck);
 cJSON *json_deck_identify(struct json_deck *deck, int baseline);
-/* That identification as JSON again; NULL where memory is out. To be freed with json_free. */
+/* That identification as JSON again; NULL where memory is out. To be freed. */
 char *json_deck_text(const struct json_deck *deck);
 
 /* Item `at` of a list of the object: it has to be there. */

@@ -229,7 +229,7 @@ cJSON *bench_result(const struct study *study, long run)
     cJSON *json = cJSON_Parse(line);
     assert_non_null(json);
     assert_int_equal(line[strlen(line) - 1], '\n');
-    json_free(line);
+    free(line);
     return json;
 }
 

@@ -317,7 +317,7 @@ UNIT_TEST(memory_that_is_out_is_said)
 static void assert_same_modes(const char *path, int expected_deviations, int expected_gaps)
 {
     struct reading a, b;
-    struct csv_universal universal;
+    struct uff_tables universal;
     struct pool pool;
     struct message_list messages;
     const char *failed, *name = folder_path("u"), *file[] = {folder_path("u.modes.csv"), folder_path("u.shapes.csv")};
@@ -325,8 +325,8 @@ static void assert_same_modes(const char *path, int expected_deviations, int exp
     int deviations = 0, gaps = 0;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    assert_status(csv_universal_read(&pool, path, &messages, &universal), ROTID_OK);
-    assert_status(csv_write(&pool, name, csv_universal_parts, &universal, &failed), ROTID_OK);
+    assert_status(uff_tables_read(&pool, path, &messages, &universal), ROTID_OK);
+    assert_status(csv_write(&pool, name, (const char *const[]){"modes", "shapes", NULL}, universal.table, &failed), ROTID_OK);
     (void)snprintf(deck, sizeof deck,
                    MATERIAL "*SHAFT, NAME=core, MATERIAL=steel\n4, 0.1, 0, 400\n*MEASURED, FILE=%s, DIRECTION=%c\n"
                             "*NOISE, FLOOR_FREQUENCY=0, FLOOR_SHAPE=0\n",

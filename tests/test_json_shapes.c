@@ -285,33 +285,6 @@ UNIT_TEST(the_baseline_says_what_it_predicts)
     json_deck_close(&deck);
 }
 
-static long until_failure;
-
-static void *scarce(size_t bytes)
-{
-    return until_failure > 0 && --until_failure == 0 ? NULL : malloc(bytes);
-}
-
-UNIT_TEST(a_result_is_whole_or_not_there)
-{
-    struct json_deck deck;
-    char *text = NULL;
-    json_deck_open(
-        &deck, noisy_deck(NOISE "*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end\n6, 0.008, 0.035, 1e3\n", 0));
-    cJSON_Delete(json_deck_identify(&deck, 0));
-    cJSON_Hooks hooks = {scarce, free};
-    cJSON_InitHooks(&hooks);
-    for (long n = 1; !text; n++) {
-        until_failure = n;
-        text = json_deck_text(&deck);
-        assert_true(!text || until_failure > 0); /* no failure was passed over */
-        assert_true(n < 100000);
-    }
-    json_free(text);
-    cJSON_InitHooks(NULL);
-    json_deck_close(&deck);
-}
-
 /* ---- size */
 
 /* 2,000 elements, 500 sensors, ten modes with shapes. */

@@ -134,7 +134,7 @@ FIXTURE_TEST(the_file_ends_in_order, setup, close_test_pool)
                        stamped(line_of(run, run == 4 ? "failed" : "converged", (double)run)));
     assert_string_equal(text, expected);
     free(text);
-    json_free(first);
+    free(first);
     record = opened(1); /* the failed one again */
     assert_true(record.done == RUNS - 1 && record_take(&record) == 4 && record_take(&record) == -1);
     append(&record, 4, "converged");
@@ -175,7 +175,7 @@ FIXTURE_TEST(a_cut_line_is_removed, setup, close_test_pool)
         free(text);
     }
     free(whole);
-    json_free(first);
+    free(first);
 }
 
 FIXTURE_TEST(other_files_are_left_alone, setup, close_test_pool)
@@ -216,7 +216,7 @@ FIXTURE_TEST(other_files_are_left_alone, setup, close_test_pool)
     refuses(text, ROTID_ERROR_ARGUMENT, "this line does not end in its digest");
     (void)snprintf(text, sizeof text, "%s%s", first, stamped(line_of(6, "converged", 1)));
     refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
-    json_free(first);
+    free(first);
 }
 
 FIXTURE_TEST(what_is_no_file_is_refused, setup, close_test_pool)
@@ -317,7 +317,7 @@ FIXTURE_TEST(a_full_disk_leaves_whole_lines, setup, close_test_pool)
     assert_string_not_equal(left, unordered);
     free(left);
     free(unordered);
-    json_free(first);
+    free(first);
     (void)sigaction(SIGXFSZ, &old, NULL);
 }
 
@@ -396,7 +396,7 @@ FIXTURE_TEST(parts_that_contradict_each_other_are_refused, setup, close_test_poo
     assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_OK);
     assert_true(merge.missing == RUNS - 2 && !merge.failed);
     assert_string_equal(merge.list, "2-5");
-    json_free(first);
+    free(first);
     /* of another study */
     header.seed = 2;
     first = header_text(&header);
@@ -404,7 +404,7 @@ FIXTURE_TEST(parts_that_contradict_each_other_are_refused, setup, close_test_poo
     bench_delete("all.jsonl");
     assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(messages.item[messages.count - 1].text, "not of the same study"));
-    json_free(first);
+    free(first);
 }
 
 /* text with the first `old` in it replaced; old is as long as the replacement, or the line is stamped anew behind it */
@@ -507,7 +507,7 @@ FIXTURE_TEST(a_line_that_is_wrong_is_never_kept, setup, close_test_pool)
     assert_true(record.done == 1 && record_take(&record) == 0 && record_take(&record) == 2);
     record_close(&record);
     free(whole);
-    json_free(first);
+    free(first);
 }
 
 /* Sums by hand. */

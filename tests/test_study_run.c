@@ -1,5 +1,6 @@
 /* Runs: the same whoever computes them, right where the truth is known, failed where they fail. */
 #include <math.h>
+#include <stdlib.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +45,7 @@ POOL_TEST(a_run_does_not_depend_on_the_runs_before_it)
         cJSON *one = cJSON_Parse(line), *other = i % 4 ? NULL : bench_result(&study, run);
         assert_string_equal(word(one, "status"), "converged");
         assert_true(number_of(one, "run") == (double)run);
-        json_free(line);
+        free(line);
         cJSON_DeleteItemFromObject(one, "seconds");
         cJSON_DeleteItemFromObject(other, "seconds");
         assert_true(!other || cJSON_Compare(one, other, 1));
@@ -80,7 +81,7 @@ POOL_TEST(estimates_scatter_as_they_are_said_to)
         char *line;
         assert_status(study_run(&jobs, run, NULL, &line), ROTID_OK);
         cJSON *result = cJSON_Parse(line);
-        json_free(line);
+        free(line);
         for (int p = 0; p < 2; p++) {
             const cJSON *interval = get(cJSON_GetArrayItem(get(result, "parameters"), p), "ci95");
             double truth = bench_truth(result, p), error = bench_number(result, "parameters", p, "value") - truth;
@@ -114,7 +115,7 @@ POOL_TEST(every_start_of_the_paper_reaches_the_minimum)
         char *line;
         assert_status(study_run(&jobs, run, NULL, &line), ROTID_OK);
         cJSON *result = cJSON_Parse(line);
-        json_free(line);
+        free(line);
         assert_close(number_of(result, "objective"), 0.02305273403, 1e-8, 0);
         assert_close(bench_number(result, "parameters", 0, "value"), 1.15706e11, 1e-5, 0);
         /* the way there: from the start to the end, both parameters after each iteration */

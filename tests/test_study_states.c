@@ -1,5 +1,6 @@
 /* Studies of decks with several states: what varies acts on the common part and noise on each state; a run fits all at once. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "json_value.h"
@@ -121,7 +122,7 @@ POOL_TEST(a_run_names_the_state_of_its_modes)
     }
     assert_int_equal((int)number_of(json, "sensors"), 6);
     cJSON_Delete(json);
-    json_free(text);
+    free(text);
     jobs_close(&jobs);
 }
 
@@ -169,7 +170,7 @@ POOL_TEST(all_states_are_diagnosed_together)
         assert_close(number_of(get(json, "truth"), "density.factor"), 1.2, 1e-12, 0);
         assert_true(fabs(number_of(factor, "value") - 1.2) < 4 * number_of(factor, "std"));
         cJSON_Delete(json);
-        json_free(text);
+        free(text);
         jobs_close(&jobs);
     }
 }

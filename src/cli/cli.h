@@ -153,9 +153,9 @@ int command_fit_deck(struct command *command, int wanted, const char *what, stru
 int command_judge_fit(struct command *command, const struct command_fit *fit, const char *done);
 
 /* Refuses --csv where one of its files is read or is that of --json. An exit code, EXIT_DONE to go on. */
-int command_refuse_csv(const struct command *command, const struct csv_part *part);
-/* Writes the tables that --csv asks for; `code` unless that fails. */
-int command_write_csv(struct command *command, const struct csv_part *part, const void *from, int code);
+int command_refuse_csv(const struct command *command, const char *const *name);
+/* Writes the tables that --csv asks for; `code` unless that fails. name: of each, NULL behind the last. */
+int command_write_csv(struct command *command, const char *const *name, struct table *const *table, int code);
 
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);

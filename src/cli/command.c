@@ -1,6 +1,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -120,7 +121,7 @@ int command_write_result(struct command *command, struct result *result, int cod
     result->warnings = message_warnings(&command->messages, &command->pool, &result->nwarnings);
     char *text = result->warnings ? result_json(result) : NULL;
     code = command_write_file(command, command->json, text, code);
-    json_free(text);
+    free(text);
     return code;
 }
 
@@ -151,15 +152,15 @@ rotid_environment command_environment(struct command *command)
 
 /* What --csv writes. */
 
-int command_refuse_csv(const struct command *command, const struct csv_part *part)
+int command_refuse_csv(const struct command *command, const char *const *name)
 {
     struct pool pool;
     int code = EXIT_DONE;
     if (command->csv && command->read && command_state_count(command) > 1)
         return terminal_end(EXIT_USAGE, "rotid: --csv writes the tables of one state, expected --set FIT.STATE=NAME of one\n");
     pool_open(&pool, NULL);
-    for (int i = 0; i < CSV_MOST_FILES && part[i].write && command->csv && !code; i++) {
-        const char *path = csv_path(&pool, command->csv, &part[i]), *wrong = NULL;
+    for (; *name && command->csv && !code; name++) {
+        const char *path = pool_format(&pool, "%s.%s.csv", command->csv, *name), *wrong = NULL;
         if (!path)
             continue; /* writing will say so */
         if (command->json && arguments_same_file(command->json, path))
@@ -176,24 +177,22 @@ int command_refuse_csv(const struct command *command, const struct csv_part *par
     return code;
 }
 
-int command_write_csv(struct command *command, const struct csv_part *part, const void *from, int code)
+int command_write_csv(struct command *command, const char *const *name, struct table *const *table, int code)
 {
     const char *failed = "";
     if (!command->csv)
         return code;
-    int status = csv_write(&command->pool, command->csv, part, from, &failed);
+    int status = csv_write(&command->pool, command->csv, name, table, &failed);
     if (status == ROTID_ERROR_IO)
         return terminal_end(EXIT_INTERNAL, "rotid: cannot write %s: %s; no table was written\n", failed, output_error());
     if (status)
         return command_fail(command, status);
-    for (int i = 0; i < CSV_MOST_FILES && part[i].write && command_wants_table(command); i++) {
-        int last = i + 1 == CSV_MOST_FILES || !part[i + 1].write;
+    for (int i = 0; name[i] && command_wants_table(command); i++)
         (void)fprintf(terminal_out(), "%s%s.%s.csv%s",
-                      !i     ? "\n"
-                      : last ? " and "
-                             : ", ",
-                      command->csv, part[i].suffix, last ? " are written\n" : "");
-    }
+                      !i            ? "\n"
+                      : name[i + 1] ? ", "
+                                    : " and ",
+                      command->csv, name[i], name[i + 1] ? "" : " are written\n");
     return code;
 }
 

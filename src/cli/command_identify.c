@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+static const char *const tables[] = {"parameters", "modes", NULL};
+
 static int show(struct command *command, rotid_identification *found)
 {
     struct result result = {.head = command->head, .identify = found};
@@ -20,7 +22,10 @@ static int show(struct command *command, rotid_identification *found)
     } else if (command_cancelled(NULL)) {
         code = terminal_end(EXIT_DOUBTFUL, "rotid: interrupted; the fit is complete, the rest is not\n");
     }
-    int written = command_write_csv(command, csv_identify_parts, found, code);
+    static const struct result_head none;
+    struct table *table[] = {table_of_parameters(&command->pool, found),
+                             table_of_compared_modes(&command->pool, &none, 0, found, "")};
+    int written = command_write_csv(command, tables, table, code);
     return written == EXIT_INTERNAL ? written : command_write_result(command, &result, code);
 }
 
@@ -32,7 +37,7 @@ int command_identify(struct command *command)
     if (!command->read->nparameter)
         return command_fail(command, message_refuse(&command->messages, ROTID_ERROR_ARGUMENT, command->deck, 1, 1,
                                                     "the deck has no *IDENTIFY, expected the parameters to identify"));
-    int refused = command_refuse_csv(command, csv_identify_parts);
+    int refused = command_refuse_csv(command, tables);
     if (refused)
         return refused;
     int status = rotid_identify(command->read, !command->no_baseline, &environment, failure, &found);

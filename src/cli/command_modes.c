@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+static const char *const tables[] = {"modes", "shapes", NULL};
+
 static void free_all(const struct result *result)
 {
     for (int s = 0; s < result->nstates; s++)
@@ -34,7 +36,7 @@ static int compute(struct command *command, struct result *result)
 int command_modes(struct command *command)
 {
     struct result result = {.head = command->head};
-    int code = command_refuse_csv(command, csv_spectrum_parts);
+    int code = command_refuse_csv(command, tables);
     if (!code && command->compare && command->mode_type > 1 + ROTID_BENDING)
         return arguments_wrong("--compare is of bending, expected it without --type=%s",
                                command->mode_type == 1 + ROTID_TORSION ? "torsion" : "axial");
@@ -47,9 +49,11 @@ int command_modes(struct command *command)
         screen_modes(&to, &result);
         screen_notes(&to, &command->messages);
     }
-    const struct csv_spectrum tables = {result.modes, command->job};
-    if (!code)
-        code = command_write_csv(command, csv_spectrum_parts, &tables, EXIT_DONE);
+    if (!code && command->csv) {
+        struct table *table[] = {table_of_model_modes(&command->pool, result.modes),
+                                 table_of_shapes(&command->pool, &command->job->rotor, result.modes)};
+        code = command_write_csv(command, tables, table, EXIT_DONE);
+    }
     if (!code)
         code = command_write_result(command, &result, EXIT_DONE);
     free_all(&result);

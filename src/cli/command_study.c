@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+static const char *const tables[] = {"cells", "parameters", "runs", NULL};
+
 /* Where standard error is a terminal: a line that is written over. */
 static void show_progress(const struct study_record *now, long computed, double seconds)
 {
@@ -53,8 +55,8 @@ static int report(struct command *command, const char *path, int code)
         return refuse_study(command, status);
     if (command_wants_table(command))
         screen_study(&to, &summary);
-    const struct csv_study tables = {&summary, runs};
-    int written = command_write_csv(command, csv_study_parts, &tables, code);
+    struct table *table[] = {table_of_cells(&command->pool, &summary), table_of_cell_parameters(&command->pool, &summary), runs};
+    int written = command_write_csv(command, tables, table, code);
     if (written == EXIT_INTERNAL)
         return written;
     command->head.seed = header.seed;
@@ -67,7 +69,7 @@ static int report(struct command *command, const char *path, int code)
 int study_prepare(struct command *command, struct study *study)
 {
     struct plan *plan = POOL_NEW(&command->pool, struct plan);
-    int plans = 0, wrong = command_refuse_csv(command, csv_study_parts);
+    int plans = 0, wrong = command_refuse_csv(command, tables);
     if (wrong)
         return wrong;
     if (!plan)
@@ -158,7 +160,7 @@ static int merge(struct command *command)
 int command_study(struct command *command)
 {
     struct study study = {0};
-    int refused = command->study.merge || command->study.summary ? command_refuse_csv(command, csv_study_parts) : EXIT_DONE;
+    int refused = command->study.merge || command->study.summary ? command_refuse_csv(command, tables) : EXIT_DONE;
     if (refused)
         return refused;
     if (command->study.merge)

@@ -2,18 +2,20 @@
 
 #include "cli/cli.h"
 
+static const char *const names[] = {"modes", "shapes", NULL};
+
 /* The modes of the file as the tables of --csv. */
 static int write_tables(struct command *command, int code)
 {
-    struct csv_universal universal;
-    int status = csv_universal_read(&command->pool, command->deck, &command->messages, &universal);
+    struct uff_tables tables;
+    int status = uff_tables_read(&command->pool, command->deck, &command->messages, &tables);
     if (status)
         return command_fail(command, status);
-    if (universal.points)
+    if (tables.points)
         message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
                     "the frequencies at single points stand in no table: *MEASURED reads them from the universal file");
     command_print_messages(command);
-    return command_write_csv(command, csv_universal_parts, &universal, code);
+    return command_write_csv(command, names, tables.table, code);
 }
 
 int command_uff(struct command *command)
@@ -25,7 +27,7 @@ int command_uff(struct command *command)
     const char **summary = NULL;
     if (command->csv && stat(command->deck, &about) == 0 && S_ISFIFO(about.st_mode))
         return arguments_wrong("%s is a pipe, expected a regular file beside --csv, for it is read twice", command->deck);
-    int refused = command_refuse_csv(command, csv_universal_parts);
+    int refused = command_refuse_csv(command, names);
     if (refused)
         return refused;
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);

@@ -119,7 +119,7 @@ static void compute_own(struct office *office, struct jobs *jobs)
         office->status = status;
     if (status == ROTID_OK)
         keep(office, line);
-    json_free(line);
+    free(line);
 }
 
 static int hand_out(void *context, struct command *command, const struct study *study, struct study_record *record)
@@ -185,7 +185,7 @@ static void follow(const struct study *study)
             line = study_run_failed(study, run, rotid_status_text(ROTID_ERROR_MEMORY), 0);
         const char *text = line ? line : "";
         MPI_Send(text, (int)strlen(text), MPI_CHAR, 0, TAG_LINE, MPI_COMM_WORLD);
-        json_free(line);
+        free(line);
     }
     jobs_close(&jobs);
 }
@@ -201,7 +201,7 @@ static int is_one_study(struct command *command, const struct study *study, int 
     int all = 0;
     MPI_Bcast(&first, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
     int same = text && own == first;
-    json_free(text);
+    free(text);
     if (!same)
         terminal_say("rotid-study: rank %d has read other files or is another program than rank 0, expected the same\n", rank);
     MPI_Allreduce(&same, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);

@@ -129,7 +129,7 @@ static void write_study(FILE *out, struct pool *pool, const struct result *resul
     pool->out_of_memory |= !json;
     write_value(out, json, 0);
     cJSON_Delete(json);
-    json_free(text);
+    free(text);
     if (!cJSON_IsArray(result->json))
         return;
     int runs = cJSON_GetArraySize(result->json) - 1, every = runs / RUNS_MOST + 1, i = -1;

@@ -319,16 +319,3 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     if (isfinite(fit->chi2_per_dof))
         (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
 }
-
-static int write_parameters(FILE *out, struct pool *pool, const void *from)
-{
-    return csv_table(out, table_of_parameters(pool, from));
-}
-
-static int write_modes(FILE *out, struct pool *pool, const void *from)
-{
-    static const struct result_head none;
-    return csv_table(out, table_of_compared_modes(pool, &none, 0, from, ""));
-}
-
-const struct csv_part csv_identify_parts[CSV_MOST_FILES] = {{"parameters", write_parameters}, {"modes", write_modes}};

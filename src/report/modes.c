@@ -220,7 +220,7 @@ struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_
 }
 
 /* Without sensors (rotor NULL, or without) the nodes of the axis are numbered from 1. */
-static struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, const rotid_spectrum *s)
+struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, const rotid_spectrum *s)
 {
     struct table *table = table_open(pool, "");
     for (int i = 0; i < s->nsensor_z_m; i++) {
@@ -260,19 +260,6 @@ void screen_modes(const struct screen *to, const struct result *result)
     screen_heading(to, &result->head);
     print_states(to, result, NULL, print_modes);
 }
-
-static int write_modes(FILE *out, struct pool *pool, const void *from)
-{
-    return csv_table(out, table_of_model_modes(pool, ((const struct csv_spectrum *)from)->spectrum));
-}
-
-static int write_shapes(FILE *out, struct pool *pool, const void *from)
-{
-    const struct csv_spectrum *of = from;
-    return csv_table(out, table_of_shapes(pool, &of->job->rotor, of->spectrum));
-}
-
-const struct csv_part csv_spectrum_parts[CSV_MOST_FILES] = {{"modes", write_modes}, {"shapes", write_shapes}};
 
 /* ---- sensitivity */
 

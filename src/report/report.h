@@ -63,49 +63,20 @@ void strip_print(const struct strip *strip, FILE *out, int width, const char *la
 
 /* Results as tables for a spreadsheet: commas, a decimal point, names in the first row, which `FILE=` of a deck reads. */
 
-#define CSV_MOST_FILES 3
-
+/* The files PATH.NAME.csv of the tables, all of them or none; name: NULL behind the last. ROTID_OK, ROTID_ERROR_MEMORY, or
+ * ROTID_ERROR_IO with errno and the file in *failed. */
 struct table;
-
-/* A file NAME.suffix.csv; `from` is handed to `write`. The last ones of a list may have none. */
-struct csv_part {
-    const char *suffix;
-    int (*write)(FILE *out, struct pool *pool, const void *from); /* a status */
-};
-
-/* The modes of the model, and their shapes at the sensors. */
-struct csv_spectrum {
-    const rotid_spectrum *spectrum;
-    const struct job *job;
-};
-extern const struct csv_part csv_spectrum_parts[CSV_MOST_FILES];
-
-/* The parameters, and the modes, of a rotid_identification. */
-extern const struct csv_part csv_identify_parts[CSV_MOST_FILES];
+int csv_write(struct pool *pool, const char *path, const char *const *name, struct table *const *table, const char **failed);
 
 /* The modes of a universal file, and their shapes: real, in the one direction in which they move most. */
-struct csv_universal {
-    int count, nnode, direction; /* direction: of the values of a node, from 0 */
-    int points;                  /* the file has frequencies at single points, which the tables do not have */
-    const struct uff_shape **mode;
-    int *number;           /* [count] */
-    double *frequency_std; /* [count] Hz, NaN where it is not known */
-    double *value, *std;   /* [nnode * count] a mode after the other; std relative to its largest value */
-    struct uff_node *node; /* [nnode] by their ids; coordinates in the unit of the file, NaN where it has none */
+struct uff_tables {
+    struct table *table[2];
+    int direction; /* of the values of a node, from 0 */
+    int points;    /* the file has frequencies at single points, which the tables do not have */
 };
-extern const struct csv_part csv_universal_parts[CSV_MOST_FILES];
 
 /* Reads modes and shapes. Errors go to the list. ROTID_OK, ROTID_ERROR_SYNTAX where the file has none, _IO, _MEMORY. */
-int csv_universal_read(struct pool *pool, const char *path, struct message_list *messages, struct csv_universal *universal);
-
-/* The files of path, all of them or none. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO with errno and the file in *failed. */
-int csv_write(struct pool *pool, const char *path, const struct csv_part part[CSV_MOST_FILES], const void *from,
-              const char **failed);
-/* The name of a file of them; NULL where memory is out. */
-const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part);
-
-/* A table as a part. ROTID_OK or ROTID_ERROR_MEMORY. */
-int csv_table(FILE *out, const struct table *table);
+int uff_tables_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_tables *tables);
 
 /* Cells. A text is quoted where it has to be, and one that a spreadsheet would take for a formula gets an apostrophe in front; a
  * number has the digits that give it back, and is blank where it is not finite. `before`: "" or ",". */
@@ -380,6 +351,8 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
 /* "NLopt (LN_BOBYQA, LD_SLSQP) finds the same minimum", "" where nothing was minimised beside; *lower: it finds a lower one. */
 const char *minimisers_sentence(struct pool *pool, const rotid_identification *fit, int *lower);
 struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spectrum);
+/* The shapes at the sensors, whose ids the rotor has; NULL: they are counted. */
+struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, const rotid_spectrum *spectrum);
 struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);

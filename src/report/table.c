@@ -52,47 +52,6 @@ void csv_number(FILE *out, const char *before, double value)
     (void)fprintf(out, "%s%s", before, isfinite(value) ? deck_number_text(value, text) : "");
 }
 
-int csv_table(FILE *out, const struct table *table)
-{
-    if (!table || table->pool->out_of_memory)
-        return ROTID_ERROR_MEMORY;
-    table_write_csv(out, table);
-    return ROTID_OK;
-}
-
-const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part)
-{
-    return pool_format(pool, "%s.%s.csv", path, part->suffix);
-}
-
-int csv_write(struct pool *pool, const char *path, const struct csv_part part[CSV_MOST_FILES], const void *from,
-              const char **failed)
-{
-    struct output output[CSV_MOST_FILES];
-    const char *name[CSV_MOST_FILES];
-    int files = 0, count = 0, status = ROTID_OK, which = 0;
-    for (; files < CSV_MOST_FILES && part[files].write; files++)
-        ;
-    for (int i = 0; i < files; i++)
-        if (!(name[i] = csv_path(pool, path, &part[i])))
-            return ROTID_ERROR_MEMORY;
-    while (count < files && !status) {
-        *failed = name[count];
-        status = output_open(&output[count], name[count]);
-        if (status)
-            break;
-        status = part[count].write(output[count].stream, pool, from);
-        count++;
-    }
-    for (int i = 0; i < count && status; i++)
-        output_abandon(&output[i]);
-    if (status)
-        return status;
-    status = output_close_all(files, output, &which);
-    *failed = status ? name[which] : NULL;
-    return status;
-}
-
 #define DASH "\xe2\x80\x93" /* of human_fixed */
 
 struct table *table_open(struct pool *pool, const char *caption)
@@ -396,6 +355,29 @@ void table_write_html(FILE *out, const struct table *table, int number)
     (void)fputs("</tbody></table></div>\n", out);
     if (table->note)
         html_element(out, "p class=\"note\"", table->note);
+}
+
+#define CSV_MOST_FILES 3
+
+int csv_write(struct pool *pool, const char *path, const char *const *name, struct table *const *table, const char **failed)
+{
+    struct output output[CSV_MOST_FILES];
+    const char *file[CSV_MOST_FILES];
+    int files = 0, count = 0, status = ROTID_OK, which = 0;
+    for (; name[files]; files++)
+        file[files] = pool_format(pool, "%s.%s.csv", path, name[files]);
+    if (pool->out_of_memory)
+        return ROTID_ERROR_MEMORY;
+    for (; count < files && !(status = output_open(&output[count], file[count])); count++)
+        table_write_csv(output[count].stream, table[count]);
+    for (int i = 0; i < count && status; i++)
+        output_abandon(&output[i]);
+    *failed = status ? file[count] : NULL;
+    if (status)
+        return status;
+    status = output_close_all(files, output, &which);
+    *failed = status ? file[which] : NULL;
+    return status;
 }
 
 void screen_heading(const struct screen *to, const struct result_head *head)

@@ -207,17 +207,26 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
 
 /* ---- modes of a universal file as tables */
 
+struct universal {
+    int count, nnode, direction, points; /* direction, points: as of the tables */
+    const struct uff_shape **mode;
+    int *number;           /* [count] */
+    double *frequency_std; /* [count] Hz, NaN where it is not known */
+    double *value, *std;   /* [nnode * count] a mode after the other; std relative to its largest value */
+    struct uff_node *node; /* [nnode] by their ids; coordinates in the unit of the file, NaN where it has none */
+};
+
 ORDER_BY(by_id, struct uff_node, it->id, 0)
 
 /* Index among the nodes. */
-static int find_node(const struct csv_universal *u, int id)
+static int find_node(const struct universal *u, int id)
 {
     const struct uff_node key = {.id = id}, *found = bsearch(&key, u->node, (size_t)u->nnode, sizeof *u->node, by_id);
     return (int)(found - u->node);
 }
 
 /* Those of all modes, without coordinates where the file has none of them. */
-static int take_nodes(struct pool *pool, const struct uff_file *file, struct csv_universal *u)
+static int take_nodes(struct pool *pool, const struct uff_file *file, struct universal *u)
 {
     size_t count = 0;
     struct uff_node *known = POOL_ARRAY(pool, struct uff_node, file->node_count);
@@ -249,7 +258,7 @@ static int take_nodes(struct pool *pool, const struct uff_file *file, struct csv
 }
 
 /* The value of a node in which all modes together, each to its largest value, move most. */
-static int largest_direction(const struct csv_universal *u)
+static int largest_direction(const struct universal *u)
 {
     double sum[6] = {0};
     int most = 0;
@@ -270,13 +279,13 @@ static int largest_direction(const struct csv_universal *u)
     return most;
 }
 
-static int component_of(const struct csv_universal *u, const struct uff_shape *shape)
+static int component_of(const struct universal *u, const struct uff_shape *shape)
 {
     return shape->component_count == 1 ? 0 : u->direction < shape->component_count ? u->direction : -1;
 }
 
 /* The standard deviations of a mode, relative to its largest value. */
-static void take_std(struct csv_universal *u, const struct uff_shape *set, int component, int k)
+static void take_std(struct universal *u, const struct uff_shape *set, int component, int k)
 {
     double hz, largest = 0, *std = u->std + (ptrdiff_t)k * u->nnode;
     if (!uff_extra_frequency_std(set, &hz) && hz > 0)
@@ -294,7 +303,7 @@ static void take_std(struct csv_universal *u, const struct uff_shape *set, int c
     }
 }
 
-static void take_extra(struct csv_universal *u, const struct uff_shape *set)
+static void take_extra(struct universal *u, const struct uff_shape *set)
 {
     int number, component = component_of(u, set);
     enum uff_extra kind = uff_extra_of(set, &number);
@@ -304,7 +313,7 @@ static void take_extra(struct csv_universal *u, const struct uff_shape *set)
             take_std(u, set, component, k);
 }
 
-static int take_shapes(struct pool *pool, struct csv_universal *u, const struct uff_file *file)
+static int take_shapes(struct pool *pool, struct universal *u, const struct uff_file *file)
 {
     size_t count = (size_t)u->count * (size_t)u->nnode;
     u->value = POOL_ARRAY(pool, double, count);
@@ -328,11 +337,11 @@ static int take_shapes(struct pool *pool, struct csv_universal *u, const struct 
     return ROTID_OK;
 }
 
-int csv_universal_read(struct pool *pool, const char *path, struct message_list *messages, struct csv_universal *u)
+static int read_universal(struct pool *pool, const char *path, struct message_list *messages, struct universal *u)
 {
     struct uff_file file;
     int rigid, conjugates, status = uff_read(pool, path, messages, &file);
-    *u = (struct csv_universal){0};
+    *u = (struct universal){0};
     if (status)
         return status;
     u->mode = POOL_ARRAY(pool, const struct uff_shape *, file.shape_count);
@@ -352,9 +361,8 @@ int csv_universal_read(struct pool *pool, const char *path, struct message_list 
     return status ? status : take_shapes(pool, u, &file);
 }
 
-static int write_modes(FILE *out, struct pool *pool, const void *from)
+static struct table *table_of_modes(struct pool *pool, const struct universal *u)
 {
-    const struct csv_universal *u = from;
     struct table *table = table_open(pool, "");
     for (int k = 0; k < u->count; k++) {
         table_row(table);
@@ -363,12 +371,12 @@ static int write_modes(FILE *out, struct pool *pool, const void *from)
         number_column(table, "damping", NULL, SHOW_DIGITS(4), u->mode[k]->damping > 0 ? u->mode[k]->damping : (double)NAN);
         number_column(table, "std", "Hz", SHOW_DIGITS(2), u->frequency_std[k]);
     }
-    return csv_table(out, table);
+    return table;
 }
 
 /* The axis along which the nodes lie, whose coordinates are positions; -1: several, of which all are written; -2: no node has any
  * coordinates. */
-static int axis_of(const struct csv_universal *u)
+static int axis_of(const struct universal *u)
 {
     int axis = -1, axes = 0, placed = 0;
     for (int n = 0; n < u->nnode; n++)
@@ -383,10 +391,9 @@ static int axis_of(const struct csv_universal *u)
     return !placed ? -2 : axes == 1 ? axis : -1;
 }
 
-static int write_shapes(FILE *out, struct pool *pool, const void *from)
+static struct table *table_of_shapes_at_nodes(struct pool *pool, const struct universal *u)
 {
     static const char *const axes[] = {"x", "y", "z"};
-    const struct csv_universal *u = from;
     int axis = axis_of(u), any_std = 0;
     struct table *table = table_open(pool, "");
     for (ptrdiff_t i = 0; i < (ptrdiff_t)u->nnode * u->count; i++)
@@ -405,10 +412,17 @@ static int write_shapes(FILE *out, struct pool *pool, const void *from)
                               u->std[n + (ptrdiff_t)k * u->nnode]);
         }
     }
-    return csv_table(out, table);
+    return table;
 }
 
-const struct csv_part csv_universal_parts[CSV_MOST_FILES] = {{"modes", write_modes}, {"shapes", write_shapes}};
+int uff_tables_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_tables *tables)
+{
+    struct universal u;
+    int status = read_universal(pool, path, messages, &u);
+    if (!status)
+        *tables = (struct uff_tables){{table_of_modes(pool, &u), table_of_shapes_at_nodes(pool, &u)}, u.direction, u.points};
+    return status;
+}
 
 /* ---- the screen */
 

@@ -174,13 +174,10 @@ int result_has_page(const char *command)
 char *result_json(const struct result *result)
 {
     const struct record *record = result_record(result->head.command);
-    struct json_tree tree;
     for (const struct record_field *field = record->field; field->key; field++)
         if (field->bits & BEHIND_POINTER && !*(void *const *)((const char *)result + field->offset))
             return NULL;
-    json_open(&tree);
-    record_write(&tree, tree.root, record, result);
-    return json_close(&tree);
+    return record_text(record, result, 1);
 }
 
 struct result result_of_state(const struct result *result, int s)

@@ -144,27 +144,6 @@ int json_parse(const char *text, size_t length, const char **rest, cJSON **json)
  * ROTID_ERROR_IO, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY, with the mistake in the messages, at file:line:column. */
 int json_file_read(struct pool *pool, const char *file, struct message_list *messages, cJSON **json, int *is_lines);
 
-/* ------------------------------------------------------------------------------------------------------------- json tree */
-
-/* A JSON object under construction. A failed allocation anywhere is remembered, so that a result is whole or not there. */
-
-struct json_tree {
-    cJSON *root;
-    int failed;
-};
-
-void json_open(struct json_tree *tree);
-/* The text, which ends in a line feed, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
-char *json_close(struct json_tree *tree);
-void json_free(char *text);
-/* The same without a blank, in one line. */
-char *json_close_line(struct json_tree *tree);
-
-/* An array under `key` of `object`, with nine significant digits, for what is drawn and not computed with: an array of the length
- * of a mesh takes a third of the room, and one node of the tree; and the rows of a column-major matrix. */
-void json_digits(struct json_tree *tree, cJSON *object, const char *key, int count, const double *value);
-void json_digit_rows(struct json_tree *tree, cJSON *object, const char *key, int rows, int columns, const double *value);
-
 /* ------------------------------------------------------------------------------------------------------------- judgement */
 
 /* What is judged of a result, made once for tables, pages and sentences. */
@@ -250,8 +229,9 @@ struct json_place place_first(const struct json_place *list, enum place_kind kin
 
 struct record;
 
-/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
-void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
+/* The struct `from`, which `record` describes, as an object of JSON with a line feed at its end; lines: a key a line, else all in
+ * one line. To be freed; NULL where memory is out. */
+char *record_text(const struct record *record, const void *from, int lines);
 
 /* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with
  * its place, reader->status tells at the end. */
@@ -320,7 +300,7 @@ struct result {
 /* Who reads the file of results of a study, which has a value a line. */
 typedef void result_lines_reader(const struct json_place *lines, struct result *result);
 
-/* The result as JSON: a text to be freed with json_free; NULL where memory is out, or was when the part of
+/* The result as JSON: a text to be freed; NULL where memory is out, or was when the part of
  * the command was made and that is NULL. */
 char *result_json(const struct result *result);
 

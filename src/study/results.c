@@ -92,10 +92,7 @@ static int header_shard(const struct study_header *header, int *shard, int *shar
 
 char *header_text(const struct study_header *header)
 {
-    struct json_tree tree;
-    json_open(&tree);
-    record_write(&tree, tree.root, &study_header_record, header);
-    return json_close_line(&tree);
+    return record_text(&study_header_record, header, 0);
 }
 
 const char *header_difference(struct pool *pool, const struct study_header *file, const struct study_header *here,
@@ -397,7 +394,7 @@ int results_write(const char *path, const struct results *file)
         }
         status = output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
     }
-    json_free(first);
+    free(first);
     return status;
 }
 
@@ -574,7 +571,7 @@ int record_open(struct pool *pool, const char *path, const struct study_header *
         status = begin_file(record, first, messages);
     if (!status)
         status = read_lines(pool, record, header, retry_failed, messages);
-    json_free(first);
+    free(first);
     if (status) {
         record_close(record);
         return status;

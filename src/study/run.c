@@ -140,11 +140,8 @@ static struct study_run begin(const struct study *study, long number)
 /* seconds stand last, before the stamp: so two lines can be compared without them. */
 static char *line_of(struct study_run *run, double seconds)
 {
-    struct json_tree tree;
     run->seconds = round(seconds * 1e6) / 1e6;
-    json_open(&tree);
-    record_write(&tree, tree.root, &study_run_record, run);
-    return json_close_line(&tree);
+    return record_text(&study_run_record, run, 0);
 }
 
 /* What acts in the data and not in the fitted model, with the values drawn for it. */

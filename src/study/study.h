@@ -232,7 +232,7 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
 struct study_header header_of(struct pool *pool, const struct study *study, const char *version, const char *commit, int shard,
                               int shards);
 
-/* With the line feed at its end, to be freed with json_free; NULL where memory is out. */
+/* With the line feed at its end, to be freed; NULL where memory is out. */
 char *header_text(const struct study_header *header);
 
 /* The header in a line [length]; texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is none, ROTID_ERROR_MEMORY. */
@@ -251,7 +251,7 @@ const char *header_difference(struct pool *pool, const struct study_header *file
  * study of decks each line carries the digest of its deck with the data, and that of the study knows nothing of them. */
 void stamp_study(const struct study_header *header, char study[DIGEST_LETTERS + 1]);
 
-/* A line that json_close_line made, with its stamp behind the last value; to be freed, NULL where memory is out. */
+/* A line that record_text made, with its stamp behind the last value; to be freed, NULL where memory is out. */
 char *stamp_line(const char study[DIGEST_LETTERS + 1], const char *line);
 
 /* --------------------------------------------------------------------------------------------------------------- results */
@@ -353,7 +353,7 @@ void record_close(struct study_record *record);
 
 /* One run of a study, as one line of JSON: docs/schema/study_line.schema.json. Knows nothing of files, processes or machines. */
 
-/* Computes a run. *line: its text with the line feed at its end, to be freed with json_free; also where the run failed, which is
+/* Computes a run. *line: its text with the line feed at its end, to be freed; also where the run failed, which is
  * a result. ROTID_OK; ROTID_STOP_CANCELLED where the environment ended it, and ROTID_ERROR_MEMORY where there is no room for the
  * text: then there is no line. Uses one thread. */
 int study_run(struct jobs *jobs, long run, const rotid_environment *environment, char **line);
@@ -399,12 +399,6 @@ struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_resu
 /* A row for each parameter of a run, one for a run that failed. */
 void table_add_run(struct table *table, const struct study_run *run);
 void screen_study(const struct screen *to, const struct study_result *summary);
-
-struct csv_study {
-    const struct study_result *summary;
-    const struct table *runs; /* as summary_read has filled it */
-};
-extern const struct csv_part csv_study_parts[CSV_MOST_FILES];
 
 /* What a run says in numbers: the parameters of its fit, then its critical speeds, "forward:1" (mixed ones among them) and
  * "backward:1" [rpm]. NULL where memory is out. */

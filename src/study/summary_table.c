@@ -244,22 +244,3 @@ void screen_study(const struct screen *to, const struct study_result *s)
     if (s->done < s->runs)
         (void)fprintf(out, "\n%d runs are missing\n", s->missing);
 }
-
-static int write_cells(FILE *out, struct pool *pool, const void *from)
-{
-    return csv_table(out, table_of_cells(pool, ((const struct csv_study *)from)->summary));
-}
-
-static int write_parameters(FILE *out, struct pool *pool, const void *from)
-{
-    return csv_table(out, table_of_cell_parameters(pool, ((const struct csv_study *)from)->summary));
-}
-
-static int write_runs(FILE *out, struct pool *pool, const void *from)
-{
-    (void)pool;
-    return csv_table(out, ((const struct csv_study *)from)->runs);
-}
-
-const struct csv_part csv_study_parts[CSV_MOST_FILES] = {
-    {"cells", write_cells}, {"parameters", write_parameters}, {"runs", write_runs}};

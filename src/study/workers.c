@@ -62,7 +62,7 @@ static int work(const struct study *study, int socket, struct workers_options *o
         status = study_run(&jobs, run, &environment, &line);
         if (!status && (fputs(line, answers) < 0 || fflush(answers)))
             status = ROTID_STOP_CANCELLED; /* nobody listens */
-        json_free(line);
+        free(line);
     }
     jobs_close(&jobs);
     return status < 0 ? WORKER_NO_MEMORY : 0;
@@ -159,7 +159,7 @@ static int keep_failure(struct crew *crew, long run, const char *error, double s
 {
     char *line = study_run_failed(crew->study, run, error, seconds);
     int status = line ? keep(crew, line) : ROTID_ERROR_MEMORY;
-    json_free(line);
+    free(line);
     return status;
 }
 
