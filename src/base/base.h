@@ -22,6 +22,7 @@
 #include <complex.h>
 #include <fenv.h>
 #include <locale.h>
+#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -104,6 +105,9 @@ void *pool_copy(struct pool *pool, const void *list, size_t count, size_t more, 
 
 char *pool_copy_text(struct pool *pool, const char *text);
 char *pool_format(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same for what is shown, "" where memory is out, as the pool says. */
+const char *pool_text(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+const char *pool_text_of(struct pool *pool, const char *format, va_list values);
 
 /* ----------------------------------------------------------------------------------------------------------------- entry */
 

@@ -132,16 +132,32 @@ char *pool_copy_text(struct pool *pool, const char *text)
     return pool_copy(pool, text, strlen(text) + 1, 0, 1);
 }
 
-char *pool_format(struct pool *pool, const char *format, ...)
+const char *pool_text_of(struct pool *pool, const char *format, va_list values)
 {
-    va_list first, second;
-    va_start(first, format);
-    va_copy(second, first);
-    int length = vsnprintf(NULL, 0, format, first);
+    va_list again;
+    va_copy(again, values);
+    int length = vsnprintf(NULL, 0, format, values);
     char *text = length < 0 ? NULL : pool_get(pool, (size_t)length + 1, 1);
     if (text)
-        (void)vsnprintf(text, (size_t)length + 1, format, second);
-    va_end(second);
-    va_end(first);
+        (void)vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    return text ? text : "";
+}
+
+const char *pool_text(struct pool *pool, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    const char *text = pool_text_of(pool, format, values);
+    va_end(values);
     return text;
+}
+
+char *pool_format(struct pool *pool, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    const char *text = pool_text_of(pool, format, values);
+    va_end(values);
+    return pool->out_of_memory ? NULL : (char *)text;
 }

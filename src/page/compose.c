@@ -52,11 +52,11 @@ static void section_sensitivity(struct document *document, const struct result *
     struct pool *pool = document->pool;
     const struct sensitivity *s = result->sensitivity;
     const char *at = "";
-    for (int p = 0; p < s->nparameters && at; p++)
-        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
-                         human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
+    for (int p = 0; p < s->nparameters; p++)
+        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
+                       human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
     document_section(document, "dependence", "Sensitivity", NULL);
-    document_paragraph(document, "At %s, reduction %s.", or_nothing(at), s->reduction);
+    document_paragraph(document, "At %s, reduction %s.", at, s->reduction);
     document_figures(document, "sensitivity");
     document_table(document, table_of_sensitivity(pool, s));
 }
@@ -70,11 +70,11 @@ static void section_transfer(struct document *document, const struct result *res
     document_paragraph(document, "%d synthesised %s from modes up to %s with the damping below; %s%s.", out->nfunctions,
                        human_plural(out->nfunctions, "function", "functions"), human_value(pool, out->modes_up_to_hz, "Hz"),
                        out->measured_file ? "measured ones from " : "none was measured", or_nothing(out->measured_file));
-    for (int p = 0; p < out->nparameters && at; p++)
-        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
-                         human_value(pool, out->parameters[p].value, out->parameters[p].unit));
+    for (int p = 0; p < out->nparameters; p++)
+        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
+                       human_value(pool, out->parameters[p].value, out->parameters[p].unit));
     if (out->nparameters)
-        document_paragraph(document, "The model is the identified one: %s.", or_nothing(at));
+        document_paragraph(document, "The model is the identified one: %s.", at);
     if (out->agreement && isfinite(out->agreement->frac))
         document_paragraph(
             document, "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
@@ -108,11 +108,10 @@ const char *answer_of_speeds(struct pool *pool, const rotid_speeds *s)
     if (c)
         return speeds_judgement(pool, c, s);
     if (!s->ncritical_speeds)
-        return pool_format(pool, "No critical speed up to %s rpm",
-                           human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
-    return pool_format(pool, "%d critical %s, the first at %s rpm", s->ncritical_speeds,
-                       human_plural(s->ncritical_speeds, "speed", "speeds"),
-                       human_trimmed(pool, s->critical_speeds[0].speed_rpm, 5));
+        return pool_text(pool, "No critical speed up to %s rpm", human_trimmed(pool, s->campbell[s->ncampbell - 1].speed_rpm, 5));
+    return pool_text(pool, "%d critical %s, the first at %s rpm", s->ncritical_speeds,
+                     human_plural(s->ncritical_speeds, "speed", "speeds"),
+                     human_trimmed(pool, s->critical_speeds[0].speed_rpm, 5));
 }
 
 static void section_speeds(struct document *document, const struct result *result)
@@ -120,8 +119,7 @@ static void section_speeds(struct document *document, const struct result *resul
     const rotid_speeds *s = result->speeds;
     struct pool *pool = document->pool;
     document_section(document, "operation", "The machine in operation", NULL);
-    const char *stability = speeds_stability(pool, s);
-    document_paragraph(document, "%s.", stability ? stability : "");
+    document_paragraph(document, "%s.", speeds_stability(pool, s));
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
     document_table(document, table_of_stability(pool, s));
@@ -166,17 +164,17 @@ static void answer_ema(struct document *document, const struct result *result)
     }
     document->now.tone = doubtful ? TONE_CARE : TONE_GOOD;
     document->now.text =
-        pool_format(pool, "%d %s from %s in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
-                    human_range(pool, ema->modes[0].frequency_hz, ema->modes[ema->nmodes - 1].frequency_hz, "Hz"),
-                    ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
-                    doubtful ? or_nothing(pool_format(pool, "%d of the modes and %d of the channels %s doubtful, see below.",
-                                                      modes, channels, modes + channels == 1 ? "is" : "are"))
-                             : "No mode and no channel is doubtful.");
+        pool_text(pool, "%d %s from %s in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
+                  human_range(pool, ema->modes[0].frequency_hz, ema->modes[ema->nmodes - 1].frequency_hz, "Hz"),
+                  ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
+                  doubtful ? pool_text(pool, "%d of the modes and %d of the channels %s doubtful, see below.", modes, channels,
+                                       modes + channels == 1 ? "is" : "are")
+                           : "No mode and no channel is doubtful.");
     for (int k = 0; k < ema->nmodes && k < TILES_MOST; k++)
-        document_tile(document, pool_format(pool, "mode %d [Hz]", ema->modes[k].mode),
+        document_tile(document, pool_text(pool, "mode %d [Hz]", ema->modes[k].mode),
                       human_digits(pool, ema->modes[k].frequency_hz, 6),
-                      pool_format(pool, "damping %s\xc2\xa0%%%s", human_digits(pool, 100 * ema->modes[k].damping, 3),
-                                  ema->modes[k].doubts ? "; doubtful" : ""));
+                      pool_text(pool, "damping %s\xc2\xa0%%%s", human_digits(pool, 100 * ema->modes[k].damping, 3),
+                                ema->modes[k].doubts ? "; doubtful" : ""));
     document->now.next =
         doubtful ? "Next: look at the doubtful ones in the diagram and in the functions, before a model is fitted to them."
                  : "Next: name the file of the modes in *MEASURED of a deck, and identify the model.";
@@ -286,29 +284,29 @@ static void answer_study(struct document *document, const struct result *result)
     const struct study_result *s = result->study;
     struct shares sum = add_up(s);
     double stuck = not_converged(s);
-    const char *text = pool_format(pool, "%d %s: %s.", s->done, runs_of(s, s->done),
-                                   or_nothing(s->failed > 0 || stuck > 0
-                                                  ? pool_format(pool, "%d failed, %.0f did not converge", s->failed, stuck)
-                                                  : "none failed, all converged"));
-    if (sum.starts > 0 && text)
+    const char *text =
+        pool_text(pool, "%d %s: %s.", s->done, runs_of(s, s->done),
+                  or_nothing(s->failed > 0 || stuck > 0 ? pool_text(pool, "%d failed, %.0f did not converge", s->failed, stuck)
+                                                        : "none failed, all converged"));
+    if (sum.starts > 0)
         text =
             sum.reached == sum.starts
-                ? pool_format(pool, "%s Every start leads to the same minimum in its cell.", text)
-                : pool_format(pool, "%s Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
-                              text, sum.starts, sum.reached);
-    if (sum.intervals > 0 && text)
-        text = pool_format(pool, "%s Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", text, sum.intervals,
-                           human_fixed(pool, 100 * sum.held / sum.intervals, 1));
-    if (sum.scored > 0 && text)
-        text = pool_format(
+                ? pool_text(pool, "%s Every start leads to the same minimum in its cell.", text)
+                : pool_text(pool, "%s Of %.0f iterations from different starts %.0f end at the least functional of their cell.",
+                            text, sum.starts, sum.reached);
+    if (sum.intervals > 0)
+        text = pool_text(pool, "%s Of %.0f 95\xc2\xa0%% intervals %s\xc2\xa0%% hold the truth.", text, sum.intervals,
+                         human_fixed(pool, 100 * sum.held / sum.intervals, 1));
+    if (sum.scored > 0)
+        text = pool_text(
             pool, "%s Of %.0f diagnoses %.0f are right, in the set, or correctly without a cause; %.0f name something else.",
             text, sum.scored, sum.good, sum.false_alarm);
     if (s->plan)
-        document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan));
+        document->title = pool_text(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan);
     document->now.tone = s->done < s->runs || s->failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;
     document->now.headline =
-        s->done < s->runs ? pool_format(pool, "%d of %d runs", s->done, s->runs) : pool_format(pool, "%d runs", s->done);
-    document->now.text = or_nothing(text);
+        s->done < s->runs ? pool_text(pool, "%d of %d runs", s->done, s->runs) : pool_text(pool, "%d runs", s->done);
+    document->now.text = text;
 }
 
 static void section_study(struct document *document, const struct result *result)
@@ -316,11 +314,10 @@ static void section_study(struct document *document, const struct result *result
     const struct study_result *s = result->study;
     struct pool *pool = document->pool;
     document_section(document, "study", "The study", NULL);
-    document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->plan ? s->plan : "Decks as they stand", s->done, s->runs,
-                       runs_of(s, s->runs), s->ncells, human_plural(s->ncells, "cell", "cells"),
-                       isfinite(s->seconds) && s->done > 0
-                           ? or_nothing(pool_format(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)))
-                           : "");
+    document_paragraph(
+        document, "%s: %d of %d %s in %d %s%s.", s->plan ? s->plan : "Decks as they stand", s->done, s->runs, runs_of(s, s->runs),
+        s->ncells, human_plural(s->ncells, "cell", "cells"),
+        isfinite(s->seconds) && s->done > 0 ? pool_text(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)) : "");
     if (!cJSON_IsArray(result->json) && s->done > 0)
         document_paragraph(
             document,
@@ -347,24 +344,24 @@ static const char *noise_of(struct pool *pool, const struct result *result)
     if (!noise || !fit_of_result(result) || !(noise->intervals_from || result->diagnose))
         return NULL;
     const char *frequency = isfinite(noise->frequency)
-                                ? pool_format(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
-                                              noise->frequency_assumed ? " (assumed)" : "")
+                                ? pool_text(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
+                                            noise->frequency_assumed ? " (assumed)" : "")
                                 : "frequencies: not stated",
                *shape = isfinite(noise->shape)
-                            ? pool_format(pool, "shapes %s\xc2\xa0%% of the largest component%s",
-                                          human_digits(pool, 100 * noise->shape, 2), noise->shape_assumed ? " (assumed)" : "")
+                            ? pool_text(pool, "shapes %s\xc2\xa0%% of the largest component%s",
+                                        human_digits(pool, 100 * noise->shape, 2), noise->shape_assumed ? " (assumed)" : "")
                             : "shapes: not stated";
-    return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
+    return pool_text(pool, "%s; %s", frequency, shape);
 }
 
 static const char *records_of(struct pool *pool, const struct ema_source *source)
 {
     const char *impacts = source->from_time_records
-                              ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
+                              ? pool_text(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
                               : "";
-    return pool_format(pool, "%d transfer %s of %d lines from %s%s", source->transfer_functions,
-                       human_plural(source->transfer_functions, "function", "functions"), source->lines,
-                       human_range(pool, source->low_hz, source->high_hz, "Hz"), impacts ? impacts : "");
+    return pool_text(pool, "%d transfer %s of %d lines from %s%s", source->transfer_functions,
+                     human_plural(source->transfer_functions, "function", "functions"), source->lines,
+                     human_range(pool, source->low_hz, source->high_hz, "Hz"), impacts);
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)
@@ -382,12 +379,12 @@ static const char *data_of(struct pool *pool, const struct result *result)
         low = fmin(low, fit->modes[k].measured_hz);
         high = fmax(high, fit->modes[k].measured_hz);
     }
-    const char *text = pool_format(pool, "%d measured %s from %s", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
-                                   human_range(pool, low, high, "Hz"));
-    if (!fit->shapes || !text)
+    const char *text = pool_text(pool, "%d measured %s from %s", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
+                                 human_range(pool, low, high, "Hz"));
+    if (!fit->shapes)
         return text;
-    return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor_id)
-                  : pool_format(pool, "%s, without shapes", text);
+    return shapes ? pool_text(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor_id)
+                  : pool_text(pool, "%s, without shapes", text);
 }
 
 /* Elements along the axis. */
@@ -404,14 +401,14 @@ static const char *model_of(struct pool *pool, const struct result *result)
 {
     const rotid_identification *fit = fit_of_result(result);
     const rotid_geometry *geometry = geometry_of_result(result);
-    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length_m, 4),
-                                              elements_of(geometry), human_plural(elements_of(geometry), "element", "elements"))
+    const char *size = geometry ? pool_text(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length_m, 4),
+                                            elements_of(geometry), human_plural(elements_of(geometry), "element", "elements"))
                                 : "",
-               *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
-                                        *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
-                                        human_trimmed(pool, fit->center_of_mass_m, 4), fit->functional, fit->reduction)
+               *how = fit ? pool_text(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
+                                      *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
+                                      human_trimmed(pool, fit->center_of_mass_m, 4), fit->functional, fit->reduction)
                           : "";
-    return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
+    return geometry || fit ? pool_text(pool, "%s%s", size, how) : NULL;
 }
 
 #define MOST_FACTS 6
@@ -490,24 +487,24 @@ static const char *ids_of(struct pool *pool, const struct result *result)
     for (int r = 0; d && r < d->nrounds; r++) {
         int count;
         const rotid_candidate *candidate = diagnosis_candidates(d, r, &count);
-        for (int i = 0; i < count && text; i++) {
+        for (int i = 0; i < count; i++) {
             const char *id = candidate[i].cause.id,
-                       *pair = strchr(id, '_') ? pool_format(pool, "%s: %s", plain_cause(pool, id), id) : NULL;
+                       *pair = strchr(id, '_') ? pool_text(pool, "%s: %s", plain_cause(pool, id), id) : NULL;
             if (pair && !strstr(text, pair))
-                text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", pair);
+                text = pool_text(pool, "%s%s%s", text, *text ? "; " : "", pair);
         }
     }
-    return text && *text ? text : NULL;
+    return *text ? text : NULL;
 }
 
 static void origin_of(struct pool *pool, const struct result *result, const char *value[MOST_FACTS])
 {
-    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->head.command);
+    value[0] = pool_text(pool, "%s (rotid %s)", result->file, result->head.command);
     value[1] = result->ema ? result->ema->source.file : result->head.deck;
-    value[2] = pool_format(pool, "rotid %s, commit %s", result->head.rotid, result->head.commit);
-    value[3] = result->head.threads ? pool_format(pool, "seed %.0f, %d %s", result->head.seed, result->head.threads,
-                                                  human_plural(result->head.threads, "thread", "threads"))
-                                    : pool_format(pool, "seed %.0f", result->head.seed);
+    value[2] = pool_text(pool, "rotid %s, commit %s", result->head.rotid, result->head.commit);
+    value[3] = result->head.threads ? pool_text(pool, "seed %.0f, %d %s", result->head.seed, result->head.threads,
+                                                human_plural(result->head.threads, "thread", "threads"))
+                                    : pool_text(pool, "seed %.0f", result->head.seed);
     value[4] = *result->head.blas ? result->head.blas : NULL;
     value[5] = ids_of(pool, result);
 }
@@ -564,8 +561,7 @@ static int rank_of(const struct result *result)
 /* "Diagnosis of rotor.inp" */
 static const char *words_of(struct pool *pool, const struct result *result)
 {
-    const char *text = pool_format(pool, "%s of %s", kinds[rank_of(result)].words, page_source(result));
-    return text ? text : "";
+    return pool_text(pool, "%s of %s", kinds[rank_of(result)].words, page_source(result));
 }
 
 /* The first line of the heading that says something; of a deck without one its name. */
@@ -583,19 +579,19 @@ static void name_page(struct document *document, int count, const struct result 
     struct pool *pool = document->pool;
     const char *title = "", *subtitle = "";
     int titles = 0;
-    for (int i = 0; i < count && title && subtitle; i++) {
+    for (int i = 0; i < count; i++) {
         const char *own = title_of(by_rank[i]), *words = words_of(pool, by_rank[i]);
         if (!strstr(subtitle, words))
-            subtitle = pool_format(pool, "%s%s%s", subtitle, *subtitle ? "; " : "", words);
+            subtitle = pool_text(pool, "%s%s%s", subtitle, *subtitle ? "; " : "", words);
         if (strstr(title, own) || (*title && own == page_source(by_rank[i]))) /* a file is no title beside one */
             continue;
         if (titles++ < 2)
-            title = pool_format(pool, "%s%s%s", title, *title ? "; " : "", own);
+            title = pool_text(pool, "%s%s%s", title, *title ? "; " : "", own);
     }
-    if (titles > 2 && title)
-        title = pool_format(pool, "%s; and %d more", title, titles - 2);
-    document->title = title ? plain_text(pool, title) : "";
-    document->subtitle = subtitle ? subtitle : "";
+    if (titles > 2)
+        title = pool_text(pool, "%s; and %d more", title, titles - 2);
+    document->title = plain_text(pool, title);
+    document->subtitle = subtitle;
 }
 
 /* Whether the results are of more than one deck. */
@@ -640,7 +636,7 @@ static void compose_states(struct document *document, const struct result *resul
 {
     for (int s = 0; s < page_state_count(result); s++) {
         const struct result own = page_result_of_state(document->pool, result, s);
-        document->of = pool_format(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", page_state_name(result, s));
+        document->of = pool_text(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", page_state_name(result, s));
         document->state = s;
         if (document->pool->out_of_memory) /* then the state has no result */
             break;

@@ -18,13 +18,13 @@ static const char *words_chance(struct pool *pool, double p)
     if (p < 0.001)
         return "in fewer than 1 of 1,000";
     if (p < 0.01)
-        return or_nothing(pool_format(pool, "in about %.0f of 1,000", 1000 * p));
-    return or_nothing(pool_format(pool, "in about %.0f of 100", 100 * p));
+        return pool_text(pool, "in about %.0f of 1,000", 1000 * p);
+    return pool_text(pool, "in about %.0f of 100", 100 * p);
 }
 
 static const char *sentence_of(struct pool *pool, const char *text)
 {
-    return or_nothing(pool_format(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : ""));
+    return pool_text(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : "");
 }
 
 /* "step_stiffness and added_mass"; all: those that are likely beside what was named, too */
@@ -33,24 +33,24 @@ static const char *names(struct pool *pool, const rotid_diagnosis *d, int all)
     const rotid_verdict *v = &d->verdict;
     const char *text = "";
     int count = v->ncauses + (all ? v->nlikely_causes : 0);
-    for (int i = 0; i < count && text; i++)
-        text = pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", extended_label(pool, d, i));
-    return or_nothing(text);
+    for (int i = 0; i < count; i++)
+        text = pool_text(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", extended_label(pool, d, i));
+    return text;
 }
 
 static const char *headline(struct pool *pool, const rotid_diagnosis *d, const char *shifts)
 {
     switch (d->verdict.kind) {
     case ROTID_ADEQUATE:
-        return *shifts ? pool_format(pool, "Adequate; effects below the detection limits may shift %s", shifts) : "Adequate";
+        return *shifts ? pool_text(pool, "Adequate; effects below the detection limits may shift %s", shifts) : "Adequate";
     case ROTID_NAMED:
-        return pool_format(pool, "Named: %s%s%s", names(pool, d, 0),
-                           *shifts ? "; effects below the detection limits may shift " : "", shifts);
+        return pool_text(pool, "Named: %s%s%s", names(pool, d, 0),
+                         *shifts ? "; effects below the detection limits may shift " : "", shifts);
     case ROTID_AMBIGUOUS:
-        return pool_format(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
+        return pool_text(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
     case ROTID_UNEXPLAINED:
-        return pool_format(pool, "Unexplained: something outside of the catalogue with %s %%",
-                           human_digits(pool, 100 * d->verdict.something_else, 2));
+        return pool_text(pool, "Unexplained: something outside of the catalogue with %s %%",
+                         human_digits(pool, 100 * d->verdict.something_else, 2));
     default:
         return "Interrupted: no verdict";
     }
@@ -60,22 +60,22 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
 static const char *checks(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *text = "";
-    for (int i = 0; i < d->verdict.ncauses && text; i++)
+    for (int i = 0; i < d->verdict.ncauses; i++)
         if (!strstr(text, cause_check(d->verdict.causes[i].id)))
-            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->verdict.causes[i].id));
-    return or_nothing(text);
+            text = pool_text(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->verdict.causes[i].id));
+    return text;
 }
 
 static const char *next(struct pool *pool, const rotid_diagnosis *d, const char *deck)
 {
     const char *text = d->verdict.next_measurement, *look = checks(pool, d);
     if (d->verdict.kind == -1)
-        return pool_format(pool, "Next: run rotid diagnose %s to its end.", deck);
+        return pool_text(pool, "Next: run rotid diagnose %s to its end.", deck);
     if (d->verdict.kind == ROTID_ADEQUATE)
         return "Next: read the detection limits below before you rely on the moduli. Smaller effects may be present.";
     if (d->verdict.kind == ROTID_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
-        text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe the verdict", text ? text : "");
-    return text ? pool_format(pool, "Next: %s.", text) : NULL;
+        text = pool_text(pool, "%s%s%s", look, text ? "; and " : ", before you believe the verdict", text ? text : "");
+    return text ? pool_text(pool, "Next: %s.", text) : NULL;
 }
 
 /* How often chance does what was found, and what that rests on. */
@@ -86,17 +86,14 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
     int assumed = d->noise.frequency_assumed || d->noise.shape_assumed;
     if (round && isfinite(d->verdict.p_value))
         reasons_add(reasons, TONE_NONE,
-                    pool_format(pool,
-                                "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, "
-                                "where a correct model has about %d.",
-                                words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
+                    "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, "
+                    "where a correct model has about %d.",
+                    words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof);
     if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
-        reasons_add(
-            reasons, TONE_NONE,
-            pool_format(pool,
-                        "No cause of the catalogue is expected to lower it by more than %s; chance alone reaches %s in 3 of "
-                        "100 tests.",
-                        human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
+        reasons_add(reasons, TONE_NONE,
+                    "No cause of the catalogue is expected to lower it by more than %s; chance alone reaches %s in 3 of "
+                    "100 tests.",
+                    human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2));
     if (assumed)
         reasons_add(reasons, TONE_NONE,
                     "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
@@ -112,18 +109,15 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
     for (int i = 0; i < d->ncandidates; i++)
         tried += d->candidates[i].refitted;
     for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
-        reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "%s%s%s: probability %s %%.", plain_cause(pool, v->marginals[i].id),
-                                *v->marginals[i].target ? " of " : "", v->marginals[i].target,
-                                human_digits(pool, 100 * v->marginals[i].probability, 3)));
+        reasons_add(reasons, TONE_NONE, "%s%s%s: probability %s %%.", plain_cause(pool, v->marginals[i].id),
+                    *v->marginals[i].target ? " of " : "", v->marginals[i].target,
+                    human_digits(pool, 100 * v->marginals[i].probability, 3));
     if (v->nexplanations && v->something_else > 0.01)
-        reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "Probability of something outside of the catalogue: %s %%.",
-                                human_digits(pool, 100 * v->something_else, 2)));
+        reasons_add(reasons, TONE_NONE, "Probability of something outside of the catalogue: %s %%.",
+                    human_digits(pool, 100 * v->something_else, 2));
     if (tried && v->kind != ROTID_ADEQUATE)
-        reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
-                                human_plural(tried, "cause was", "causes were")));
+        reasons_add(reasons, TONE_NONE, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
+                    human_plural(tried, "cause was", "causes were"));
 }
 
 static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
@@ -131,22 +125,20 @@ static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
     struct pool *pool = reasons->pool;
     const char *moved = "";
     int count = 0;
-    for (int p = 0; p < d->gain.nparameters && moved; p++) {
+    for (int p = 0; p < d->gain.nparameters; p++) {
         double percent = 100 * (d->gain.parameters[p].after / d->gain.parameters[p].before - 1);
         if (isfinite(percent))
-            moved = pool_format(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->gain.parameters[p].name,
-                                human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
+            moved = pool_text(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->gain.parameters[p].name,
+                              human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
-    if (count && moved && d->verdict.kind != -1)
-        reasons_add(reasons, TONE_NONE,
-                    pool_format(pool, "The missing cause had biased the parameters; the extended model moves %s.", moved));
+    if (count && d->verdict.kind != -1)
+        reasons_add(reasons, TONE_NONE, "The missing cause had biased the parameters; the extended model moves %s.", moved);
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameters; p++)
         if (!fit->parameters[p].identifiable)
-            reasons_add(reasons, TONE_NONE,
-                        pool_format(pool, "%s %s.", fit->parameters[p].name,
-                                    fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
-                                                                : "is not determined by these data"));
+            reasons_add(reasons, TONE_NONE, "%s %s.", fit->parameters[p].name,
+                        fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
+                                                    : "is not determined by these data");
 }
 
 /* What the FIT of the deck makes of the parameters beside the full model. */
@@ -158,36 +150,34 @@ static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
     int count = 0;
     if (!today || !final)
         return;
-    for (int p = 0; p < today->nparameters && text; p++)
-        for (int q = 0; q < final->nparameters && text; q++) {
+    for (int p = 0; p < today->nparameters; p++)
+        for (int q = 0; q < final->nparameters; q++) {
             double percent = 100 * (today->parameters[p].value / final->parameters[q].value - 1);
             if (strcmp(today->parameters[p].name, final->parameters[q].name) != 0 || !isfinite(percent))
                 continue;
-            text = pool_format(pool, "%s%s%s = %s, %s\xc2\xa0%%", text, count++ ? "; " : "", today->parameters[p].name,
-                               human_value(pool, today->parameters[p].value, today->parameters[p].unit),
-                               human_signed(pool, percent, 1));
+            text = pool_text(pool, "%s%s%s = %s, %s\xc2\xa0%%", text, count++ ? "; " : "", today->parameters[p].name,
+                             human_value(pool, today->parameters[p].value, today->parameters[p].unit),
+                             human_signed(pool, percent, 1));
         }
-    if (count && text)
-        reasons_add(
-            reasons, TONE_NONE,
-            pool_format(pool,
-                        "The fit as the deck states it (%s, reduction %s) gives %s against the %s here, which is the full "
-                        "model judged by the likelihood.",
-                        today->functional, today->reduction, text, d->extended ? "extended model" : "model"));
+    if (count)
+        reasons_add(reasons, TONE_NONE,
+                    "The fit as the deck states it (%s, reduction %s) gives %s against the %s here, which is the full "
+                    "model judged by the likelihood.",
+                    today->functional, today->reduction, text, d->extended ? "extended model" : "model");
 }
 
 static const char *interrupted(struct pool *pool, const rotid_diagnosis *d)
 {
     if (!d->base)
         return "The diagnosis was interrupted before the model was fitted: there is nothing to judge yet.";
-    return d->verdict.ncauses ? or_nothing(pool_format(
-                                    pool,
-                                    "The diagnosis was interrupted before a verdict. A round that was finished would name %s; "
-                                    "the rounds that did not run may speak against that.",
-                                    names(pool, d, 0)))
-                              : "The diagnosis was interrupted before a verdict. The finished part stands below: it shows where "
-                                "the model misses "
-                                "the measurement, and does not say why.";
+    return d->verdict.ncauses
+               ? pool_text(pool,
+                           "The diagnosis was interrupted before a verdict. A round that was finished would name %s; "
+                           "the rounds that did not run may speak against that.",
+                           names(pool, d, 0))
+               : "The diagnosis was interrupted before a verdict. The finished part stands below: it shows where "
+                 "the model misses "
+                 "the measurement, and does not say why.";
 }
 
 static void tile_pair(struct document *document, const char *name, const rotid_pair *pair, const char *note)
@@ -198,7 +188,7 @@ static void tile_pair(struct document *document, const char *name, const rotid_p
     document_tile(
         document, name,
         isfinite(pair->after) && isfinite(pair->before)
-            ? pool_format(pool, "%s \xe2\x86\x92 %s", human_digits(pool, pair->before, 2), human_digits(pool, pair->after, 2))
+            ? pool_text(pool, "%s \xe2\x86\x92 %s", human_digits(pool, pair->before, 2), human_digits(pool, pair->after, 2))
             : human_digits(pool, isfinite(pair->after) ? pair->after : pair->before, 2),
         note);
 }
@@ -208,8 +198,7 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     const rotid_verdict *v = &d->verdict;
     struct pool *pool = document->pool;
-    const char *both =
-        d->extended ? or_nothing(pool_format(pool, "without \xe2\x86\x92 with %s", plain_text(pool, names(pool, d, 1)))) : NULL;
+    const char *both = d->extended ? pool_text(pool, "without \xe2\x86\x92 with %s", plain_text(pool, names(pool, d, 1))) : NULL;
     for (int p = 0; fit && p < d->base->nparameters && p < TILES_MOST - 3; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         double was = d->base->parameters[p].value;
@@ -222,8 +211,7 @@ static void add_tiles(struct document *document, const rotid_diagnosis *d)
                                                   .identifiable = 1};
             tile_parameter(document, &whole, "averaged over the explanations by their probabilities");
         } else if (value)
-            tile_parameter(document, value,
-                           d->extended ? pool_format(pool, "was %s", human_value(pool, was, value->unit)) : NULL);
+            tile_parameter(document, value, d->extended ? pool_text(pool, "was %s", human_value(pool, was, value->unit)) : NULL);
     }
     tile_pair(document, "error of the frequencies, rms [%]", &d->gain.frequency_rms_percent, both);
     if (isfinite(d->gain.holdout_frequency_rms_percent.before))
@@ -247,10 +235,9 @@ void answer_diagnose(struct document *document, const struct result *result)
     document->now.headline = headline(pool, d, explained && fit ? hidden_in_words(pool, fit, d->nhidden, d->hidden, 0) : "");
     document->now.text =
         d->verdict.kind < 0 || !d->verdict.sentence ? interrupted(pool, d)
-        : d->interrupted
-            ? pool_format(pool, "%s The diagnosis was interrupted afterwards: the rest of this page is not complete.",
-                          d->verdict.sentence)
-            : d->verdict.sentence;
+        : d->interrupted ? pool_text(pool, "%s The diagnosis was interrupted afterwards: the rest of this page is not complete.",
+                                     d->verdict.sentence)
+                         : d->verdict.sentence;
     document->now.next = next(pool, d, result->head.deck ? result->head.deck : "DECK");
     if (d->base && d->verdict.kind >= 0)
         add_tiles(document, d);
@@ -275,9 +262,7 @@ static void section_why(struct document *document, const rotid_diagnosis *d)
 static const char *size_of(struct pool *pool, double size, const char *unit)
 {
     struct human_unit shown = human_unit(size, unit);
-    const char *text =
-        pool_format(pool, "%s%s%s", human_digits(pool, size * shown.factor, 2), *shown.text ? "\xc2\xa0" : "", shown.text);
-    return text ? text : "";
+    return pool_text(pool, "%s%s%s", human_digits(pool, size * shown.factor, 2), *shown.text ? "\xc2\xa0" : "", shown.text);
 }
 
 void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden)
@@ -298,7 +283,7 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
             table, "its size", SHOW_TEXT,
             !strcmp(hidden[i].component, "presence")
                 ? "there or not"
-                : pool_format(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
+                : pool_text(pool, "%s %s", hidden[i].component, size_of(pool, fabs(hidden[i].size), hidden[i].size_unit)));
         number_column(table, "z", "m", SHOW_TRIMMED(3), hidden[i].z_m);
     }
     document_section(document, "hidden", "Possible bias of the parameters", NULL);
@@ -388,14 +373,14 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
                         (j < d->verdict.ncauses ? &d->verdict.causes[j] : &d->verdict.alternative_causes[j - d->verdict.ncauses])
                             ->id) == check;
         if (!seen)
-            text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
+            text[n++] = pool_text(pool, "%s: %s.", cause->id, check);
     }
     if (count && d->verdict.ncauses)
         text[n++] =
-            pool_format(pool,
-                        "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
-                        "cause as a *CAUSE card, and rotid identify better.inp uses it.",
-                        deck);
+            pool_text(pool,
+                      "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
+                      "cause as a *CAUSE card, and rotid identify better.inp uses it.",
+                      deck);
     if (!n)
         return;
     document_section(
@@ -415,7 +400,7 @@ static void section_findings(struct document *document, const rotid_diagnosis *d
                            d->data_findings[i].text ? d->data_findings[i].text : "found", cause_check(d->data_findings[i].id));
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *finding = &d->numerical_findings[i];
-        struct table *table = table_open(pool, pool_format(pool, "%s: its error in each mode", finding->id));
+        struct table *table = table_open(pool, pool_text(pool, "%s: its error in each mode", finding->id));
         document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
         for (int k = 0; k < finding->nmodes; k++) {
             table_row(table);

@@ -255,9 +255,9 @@ void document_section(struct document *document, const char *id, const char *tex
     int taken = 0;
     for (const struct heading *other = document->first; other; other = other->following)
         taken += is_like(other->id, id);
-    id = taken ? pool_format(document->pool, "%s-%d", id, taken + 1) : id;
-    text = document->of ? pool_format(document->pool, "%s: %s", text, document->of) : text;
-    if (!heading || !id || !text)
+    id = taken ? pool_text(document->pool, "%s-%d", id, taken + 1) : id;
+    text = document->of ? pool_text(document->pool, "%s: %s", text, document->of) : text;
+    if (!heading)
         return;
     *heading = (struct heading){.id = id, .text = text};
     *(document->last ? &document->last->following : &document->first) = heading;
@@ -276,19 +276,10 @@ void document_heading(struct document *document, const char *text)
 
 void document_paragraph(struct document *document, const char *format, ...)
 {
-    char *text = NULL;
-    size_t length;
-    FILE *plain = open_memstream(&text, &length);
-    va_list arguments;
-    document->pool->out_of_memory |= !plain;
-    if (!plain)
-        return;
-    va_start(arguments, format);
-    (void)vfprintf(plain, format, arguments);
-    va_end(arguments);
-    if (fclose(plain) == 0)
-        element(document, "p", text);
-    free(text);
+    va_list values;
+    va_start(values, format);
+    element(document, "p", pool_text_of(document->pool, format, values));
+    va_end(values);
 }
 
 void document_list(struct document *document, int count, const char *const text[])
@@ -458,11 +449,8 @@ static const char *what_is_lost(const char *path)
 /* Folders above a path that are not there; what fails is told where the file is opened. */
 static void make_folders(struct pool *pool, const char *path)
 {
-    for (const char *slash = strchr(path + 1, '/'); slash && slash[1]; slash = strchr(slash + 1, '/')) {
-        const char *folder = pool_format(pool, "%.*s", (int)(slash - path), path);
-        if (folder)
-            (void)mkdir(folder, 0777);
-    }
+    for (const char *slash = strchr(path + 1, '/'); slash && slash[1]; slash = strchr(slash + 1, '/'))
+        (void)mkdir(pool_text(pool, "%.*s", (int)(slash - path), path), 0777);
 }
 
 /* The file that a page goes into, its folder made; NULL with a message. */

@@ -112,7 +112,7 @@ const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, 
                             int causes);
 int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
 
-/* ---- why: the reasons of a judgement, the gravest of whose tones is that of all; an empty text is none */
+/* ---- why: the reasons of a judgement, the gravest of whose tones is that of all */
 
 #define REASONS_MOST 16
 
@@ -122,7 +122,7 @@ struct reasons {
     enum tone tone;
     const char *text[REASONS_MOST];
 };
-void reasons_add(struct reasons *reasons, enum tone tone, const char *text);
+void reasons_add(struct reasons *reasons, enum tone tone, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* ---- what a page says of each kind of result: the answer, then the sections */
 

@@ -83,13 +83,12 @@ const char *plain_text(struct pool *pool, const char *text)
     const char *words, *at = text ? next_change(pool, text, ' ', &takes, &words) : NULL, *done = "", *rest = text;
     if (!at)
         return text;
-    while (at && done) {
-        done = pool_format(pool, "%s%.*s%s", done, (int)(at - rest), rest, words);
+    while (at) {
+        done = pool_text(pool, "%s%.*s%s", done, (int)(at - rest), rest, words);
         rest = at + takes;
         at = next_change(pool, rest, rest[-1], &takes, &words);
     }
-    done = done ? pool_format(pool, "%s%s", done, rest) : NULL;
-    return done ? done : text;
+    return pool_text(pool, "%s%s", done, rest);
 }
 
 const char *cause_check(const char *id)
@@ -105,8 +104,8 @@ const char *cause_name(struct pool *pool, const char *id, const char *target)
     if (!*target)
         return name;
     if (target[left])
-        return or_nothing(pool_format(pool, "%s between %.*s and %s", name, left, target, target + left + 1));
-    return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", name, target));
+        return pool_text(pool, "%s between %.*s and %s", name, left, target, target + left + 1);
+    return pool_text(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", name, target);
 }
 
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)
@@ -124,17 +123,17 @@ const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, 
 {
     const char *text = "";
     char figure[32];
-    for (int p = 0; p < fit->nparameters && text; p++) {
+    for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *value = &fit->parameters[p];
         const rotid_hidden *most = hidden_in(count, hidden, value);
         if (!most)
             continue;
-        text = pool_format(pool, "%s%s%s by %s", text, *text ? ", " : "", value->name,
-                           linear_percent_text(100 * fabs(most->shift / value->value), figure));
-        if (causes && text)
-            text = pool_format(pool, "%s (%s)", text, cause_name(pool, most->id, most->target));
+        text = pool_text(pool, "%s%s%s by %s", text, *text ? ", " : "", value->name,
+                         linear_percent_text(100 * fabs(most->shift / value->value), figure));
+        if (causes)
+            text = pool_text(pool, "%s (%s)", text, cause_name(pool, most->id, most->target));
     }
-    return text ? text : "";
+    return text;
 }
 
 int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden)

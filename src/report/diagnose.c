@@ -27,8 +27,8 @@ static const char *before_target(const char *target)
 /* "joint of core|right in state hot" */
 static const char *label_of(struct pool *pool, const rotid_cause *cause, const char *name)
 {
-    return or_nothing(pool_format(pool, "%s%s%s%s%s", name, before_target(cause->target), cause->target,
-                                  cause->state ? " in state " : "", or_nothing(cause->state)));
+    return pool_text(pool, "%s%s%s%s%s", name, before_target(cause->target), cause->target, cause->state ? " in state " : "",
+                     or_nothing(cause->state));
 }
 
 /* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
@@ -45,19 +45,19 @@ static const char *with_interval(struct pool *pool, const rotid_cause_value *val
     const double part[3] = {number, f * value->ci95[0], f * value->ci95[1]};
     for (int i = 0; i < 3; i++)
         text[i] = power ? human_digits(pool, part[i], 3) : human_fixed(pool, part[i], decimals);
-    return or_nothing(pool_format(pool, "%s%s%s (95\xc2\xa0%%: %s to %s)", text[0], space, shown.text, text[1], text[2]));
+    return pool_text(pool, "%s%s%s (95\xc2\xa0%%: %s to %s)", text[0], space, shown.text, text[1], text[2]);
 }
 
 /* "mass 22.22 kg (95 %: 18.96 to 25.48), z 0.8983 m (95 %: 0.8886 to 0.9080)" */
 static const char *values_of(struct pool *pool, const rotid_cause *cause)
 {
     const char *text = "";
-    for (int p = 0; p < cause->nparameters && text; p++) {
+    for (int p = 0; p < cause->nparameters; p++) {
         const rotid_cause_value *value = &cause->parameters[p];
-        text = pool_format(pool, "%s%s%s %s%s", text, p ? ", " : "", value->name, with_interval(pool, value),
-                           value->fixed ? " (given)" : "");
+        text = pool_text(pool, "%s%s%s %s%s", text, p ? ", " : "", value->name, with_interval(pool, value),
+                         value->fixed ? " (given)" : "");
     }
-    return or_nothing(text);
+    return text;
 }
 
 static int same_cause(const rotid_cause *a, const rotid_cause *b)
@@ -78,20 +78,20 @@ const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const ro
 {
     if (is_among(c, d->verdict.ncauses, d->verdict.causes))
         return "named";
-    return c->probability > 0 ? or_nothing(pool_format(pool, c->probability > 0.1 ? "possible (%.0f %%)" : "possible (%.2g %%)",
-                                                       100 * c->probability))
-           : c->refitted      ? "unlikely"
-                              : "not fitted";
+    return c->probability > 0
+               ? pool_text(pool, c->probability > 0.1 ? "possible (%.0f %%)" : "possible (%.2g %%)", 100 * c->probability)
+           : c->refitted ? "unlikely"
+                         : "not fitted";
 }
 
 /* "named; mass 22 kg (95 %: 19 to 25); at a bound" */
 static const char *note_of(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
     const char *values = c->refitted ? values_of(pool, &c->cause) : "", *text = candidate_fate(pool, d, c);
-    text = pool_format(pool, "%s%s%s", text, *values ? ": " : "", values);
-    if (c->at_bound && text)
-        text = pool_format(pool, "%s; at a bound", text);
-    return c->suspect && text ? pool_format(pool, "%s; your suspicion, a %s", text, c->cause.id) : text;
+    text = pool_text(pool, "%s%s%s", text, *values ? ": " : "", values);
+    if (c->at_bound)
+        text = pool_text(pool, "%s; at a bound", text);
+    return c->suspect ? pool_text(pool, "%s; your suspicion, a %s", text, c->cause.id) : text;
 }
 
 /* ---- tables */
@@ -118,8 +118,8 @@ struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, i
         number_column(table, "held out", NULL, SHOW_DIGITS(3), c->holdout_rms);
         row_note(table, note_of(pool, d, c));
     }
-    if (more && table)
-        table->note = pool_format(pool, "%d more with --verbose", more);
+    if (more)
+        table_note(table, "%d more with --verbose", more);
     return table;
 }
 
@@ -144,18 +144,18 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
 {
     const char *text = "";
     char figure[32];
-    for (int i = 0; i < d->nhidden && text; i++) {
+    for (int i = 0; i < d->nhidden; i++) {
         const rotid_hidden *hidden = &d->hidden[i];
         if (strcmp(hidden->parameter, p->name) != 0)
             continue;
-        text = pool_format(pool, "%s%s %s by %s%s%s", text,
-                           *text ? ";" : "possible bias:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure),
-                           hidden->id, before_target(hidden->target), hidden->target);
-        if (isfinite(hidden->z_m) && text)
-            text = pool_format(pool, "%s at z %s", text, human_value(pool, hidden->z_m, "m"));
-        if (strcmp(hidden->component, "presence") != 0 && text)
-            text = pool_format(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size),
-                               layout_gap(hidden->size_unit), layout_unit(hidden->size_unit));
+        text = pool_text(pool, "%s%s %s by %s%s%s", text,
+                         *text ? ";" : "possible bias:", linear_percent_text(100 * fabs(hidden->shift / p->value), figure),
+                         hidden->id, before_target(hidden->target), hidden->target);
+        if (isfinite(hidden->z_m))
+            text = pool_text(pool, "%s at z %s", text, human_value(pool, hidden->z_m, "m"));
+        if (strcmp(hidden->component, "presence") != 0)
+            text = pool_text(pool, "%s (%s %.2g%s%s)", text, hidden->component, fabs(hidden->size), layout_gap(hidden->size_unit),
+                             layout_unit(hidden->size_unit));
     }
     return text;
 }
@@ -164,11 +164,11 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
 static const char *explanation_of(struct pool *pool, const rotid_explanation *e)
 {
     const char *text = "";
-    for (int i = 0; i < e->ncauses && text; i++)
-        text = pool_format(pool, "%s%s%s", text, i ? " with " : "", label_of(pool, &e->causes[i], e->causes[i].id));
+    for (int i = 0; i < e->ncauses; i++)
+        text = pool_text(pool, "%s%s%s", text, i ? " with " : "", label_of(pool, &e->causes[i], e->causes[i].id));
     if (!e->ncauses)
         return e->something_else ? "something outside of the catalogue" : "nothing is wrong";
-    return e->something_else && text ? pool_format(pool, "%s, and something else", text) : text;
+    return e->something_else ? pool_text(pool, "%s, and something else", text) : text;
 }
 
 struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d, int all)
@@ -184,23 +184,22 @@ struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d,
         if (isfinite(v->runup_p))
             number_column(table, "at rest %", NULL, SHOW_FIXED(1), 100 * e->at_rest);
         text_column(table, "explanation", SHOW_TEXT, explanation_of(pool, e));
-        for (int c = 0; c < e->ncauses && values; c++) {
+        for (int c = 0; c < e->ncauses; c++) {
             const char *own = values_of(pool, &e->causes[c]);
-            values = pool_format(pool, "%s%s%s", values, *own && c ? "; " : "", own);
+            values = pool_text(pool, "%s%s%s", values, *own && c ? "; " : "", own);
         }
-        row_note(table, or_nothing(values));
+        row_note(table, values);
     }
-    const char *runup = !isfinite(v->runup_p)
-                            ? NULL
-                            : pool_format(pool,
-                                          "The measured critical speeds count; beside the first explanation the "
-                                          "probability of such ones is %s.",
-                                          text_of_probability(pool, 2, v->runup_p));
-    if (table && shown < v->nexplanations)
-        table->note = pool_format(pool, "%s%s%d more share the rest up to 99 %%: --verbose", runup ? runup : "", runup ? " " : "",
-                                  v->nexplanations - shown);
-    else if (table)
-        table->note = runup;
+    const char *runup = "";
+    if (isfinite(v->runup_p))
+        runup = pool_text(pool,
+                          "The measured critical speeds count; beside the first explanation the probability of such ones is %s.",
+                          text_of_probability(pool, 2, v->runup_p));
+    if (shown < v->nexplanations)
+        table_note(table, "%s%s%d more share the rest up to 99 %%: --verbose", runup, *runup ? " " : "",
+                   v->nexplanations - shown);
+    else
+        table_note(table, "%s", runup);
     return table;
 }
 
@@ -240,8 +239,8 @@ struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *
                                                 .at_bound = !isfinite(by->ci95[0]),
                                                 .identifiable = 1});
         }
-        if (left && table)
-            table->note = pool_format(pool, "%d more with --verbose", left);
+        if (left)
+            table_note(table, "%d more with --verbose", left);
     }
     return table;
 }
@@ -314,12 +313,12 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
 {
     struct table *table = table_open(pool, caption);
     const char *beyond = "";
-    for (int i = 0; i < count && beyond; i++) {
+    for (int i = 0; i < count; i++) {
         const rotid_detectable *d = &list[i];
         double neutral = falls_from(d->id), shown = isfinite(neutral) ? neutral - d->smallest : d->smallest;
         if (d->beyond || !isfinite(d->smallest)) {
-            beyond = pool_format(pool, "%s%s %s%s%s", beyond, *beyond ? ";" : "Not detectable at any physical size:", d->id,
-                                 before_target(d->target), d->target);
+            beyond = pool_text(pool, "%s%s %s%s%s", beyond, *beyond ? ";" : "Not detectable at any physical size:", d->id,
+                               before_target(d->target), d->target);
             continue;
         }
         table_row(table);
@@ -335,8 +334,7 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
                     : isfinite(d->z_m) && !isfinite(d->worst) ? "not everywhere"
                                                               : "");
     }
-    if (table)
-        table->note = beyond && *beyond ? beyond : NULL;
+    table_note(table, "%s", beyond);
     return table;
 }
 
@@ -348,7 +346,7 @@ static struct table *table_of_misfit(struct pool *pool, const rotid_diagnosis *d
     for (int k = 0; k < base->nmodes && k < d->nmodes_standardised; k++)
         if (isfinite(d->modes_standardised[k]))
             scale = fmax(scale, ceil(fabs(d->modes_standardised[k])));
-    const char *head = pool_format(pool, "%-+*.4g0%+*.4g", BAR_HALF, -scale, BAR_HALF, scale);
+    const char *head = pool_text(pool, "%-+*.4g0%+*.4g", BAR_HALF, -scale, BAR_HALF, scale);
     for (int k = 0; k < base->nmodes; k++) {
         const rotid_compared_mode *mode = &base->modes[k];
         double standardised = k < d->nmodes_standardised ? d->modes_standardised[k] : (double)NAN;

@@ -251,10 +251,10 @@ struct table *table_of_test_modes(struct pool *pool, const struct ema_result *em
 static const char *doubts_in_words(struct pool *pool, int doubts, const char *const words[])
 {
     const char *text = "";
-    for (int b = 0; words[b] && text; b++)
+    for (int b = 0; words[b]; b++)
         if (doubts >> b & 1)
-            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", words[b]);
-    return text ? text : "";
+            text = pool_text(pool, "%s%s%s", text, *text ? "; " : "", words[b]);
+    return text;
 }
 
 const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *count)
@@ -268,20 +268,18 @@ const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *co
         const struct ema_mode_result *m = &ema->modes[k];
         int close = m->doubts & EMA_CLOSE && isfinite(m->nearest_hz);
         if (m->doubts)
-            text[(*count)++] = pool_format(pool, "mode %d, %.6g Hz: %s%s", m->mode, m->frequency_hz,
-                                           doubts_in_words(pool, m->doubts, ema_mode_doubts),
-                                           close ? pool_format(pool, " (the nearest at %.6g Hz)", m->nearest_hz) : "");
+            text[(*count)++] = pool_text(pool, "mode %d, %.6g Hz: %s%s", m->mode, m->frequency_hz,
+                                         doubts_in_words(pool, m->doubts, ema_mode_doubts),
+                                         close ? pool_text(pool, " (the nearest at %.6g Hz)", m->nearest_hz) : "");
     }
     for (int c = 0; c < ema->nchannels && text; c++) {
         const struct ema_channel_result *of = &ema->channels[c];
         if (of->doubts)
-            text[(*count)++] = pool_format(pool, "%s at node %d over node %d (FRAC %s)", doubts_in_words(pool, of->doubts, said),
-                                           of->response_node, of->reference_node, human_fixed(pool, of->frac, 4));
+            text[(*count)++] = pool_text(pool, "%s at node %d over node %d (FRAC %s)", doubts_in_words(pool, of->doubts, said),
+                                         of->response_node, of->reference_node, human_fixed(pool, of->frac, 4));
     }
     if (text && !*count && ema->nmodes)
         text[(*count)++] = "No mode and no channel is doubtful.";
-    for (int i = 0; i < *count; i++)
-        text[i] = text[i] ? text[i] : "";
     return text;
 }
 
@@ -346,7 +344,7 @@ static struct table *table_of_mac(struct pool *pool, const struct ema_result *em
         table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, i + 1);
         for (int j = 0; j < count; j++)
-            number_column(table, i ? "" : pool_format(pool, "%d", j + 1), NULL, SHOW_COUNT,
+            number_column(table, i ? "" : pool_text(pool, "%d", j + 1), NULL, SHOW_COUNT,
                           100 * ema->mac[i + (ptrdiff_t)j * ema->nmodes]);
     }
     return table;
@@ -373,8 +371,8 @@ static struct table *table_of_channels(struct pool *pool, const struct ema_resul
     int *order = POOL_ARRAY(pool, int, ema->nchannels), known = order ? by_frac(ema, order) : 0;
     int shown = all || known < WORST ? known : WORST;
     struct table *table =
-        table_open(pool, pool_format(pool, "FRAC of measured and synthesised transfer functions: median %.4f; %s",
-                                     known ? ema->channels[order[known / 2]].frac : 0, shown < known ? "the worst" : "all"));
+        table_open(pool, pool_text(pool, "FRAC of measured and synthesised transfer functions: median %.4f; %s",
+                                   known ? ema->channels[order[known / 2]].frac : 0, shown < known ? "the worst" : "all"));
     for (int i = 0; i < shown && ema->nmodes; i++) {
         const struct ema_channel_result *of = &ema->channels[order[i]];
         table_row(table);

@@ -385,7 +385,7 @@ struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_r
             if (f->beside->at_modes[k].mode == mode->mode)
                 worst = f->beside->at_modes[k].deviation;
         table_row(table);
-        text_column(table, "mode", SHOW_TEXT, mode->rigid ? "rigid" : pool_format(pool, "%d", mode->mode));
+        text_column(table, "mode", SHOW_TEXT, mode->rigid ? "rigid" : pool_text(pool, "%d", mode->mode));
         number_column(table, "model", "Hz", SHOW_FIXED(3), mode->model_hz);
         number_column(table, "measured", "Hz", SHOW_FIXED(3), mode->measured_hz);
         number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * mode->damping);
@@ -395,7 +395,7 @@ struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_r
         number_column(table, "level", "dB", SHOW_SIGNED(2), agrees ? agrees->level_db : (double)NAN);
         number_column(table, "phase", "deg", SHOW_SIGNED(1), agrees ? agrees->phase_deg : (double)NAN);
         number_column(table, "deviation", NULL, SHOW_FIXED(2), worst);
-        text_column(table, "at", SHOW_TEXT, f ? pool_format(pool, "%d over %d", f->response, f->reference) : "");
+        text_column(table, "at", SHOW_TEXT, f ? pool_text(pool, "%d over %d", f->response, f->reference) : "");
     }
     return table;
 }
@@ -405,8 +405,8 @@ static void function_row(struct table *table, const struct transfer_function *f,
     struct pool *pool = table ? table->pool : NULL;
     double gain = agrees->frac_of_conjugate;
     table_row(table);
-    text_column(table, "response", SHOW_TEXT, f ? pool_format(pool, "%d", f->response) : "all");
-    text_column(table, "reference", SHOW_TEXT, f ? pool_format(pool, "%d", f->reference) : "");
+    text_column(table, "response", SHOW_TEXT, f ? pool_text(pool, "%d", f->response) : "all");
+    text_column(table, "reference", SHOW_TEXT, f ? pool_text(pool, "%d", f->reference) : "");
     number_column(table, "FRAC", NULL, SHOW_FIXED(3), agrees->frac);
     number_column(table, "at meas. Hz", NULL, SHOW_FIXED(3), agrees->frac_at_measured_frequencies);
     number_column(table, "scale", NULL, SHOW_DIGITS(4), agrees->scale);
@@ -414,7 +414,7 @@ static void function_row(struct table *table, const struct transfer_function *f,
     text_column(table, "remark", SHOW_TEXT,
                 !f                               ? ""
                 : agrees->scale < 0              ? "opposite sign: check the direction"
-                : gain > agrees->frac + FLIPPED  ? pool_format(pool, "FRAC %.3f with the conjugate: check the sign of time", gain)
+                : gain > agrees->frac + FLIPPED  ? pool_text(pool, "FRAC %.3f with the conjugate: check the sign of time", gain)
                 : f->beside->measured_reciprocal ? "measured the other way round"
                                                  : "");
 }
@@ -448,12 +448,11 @@ static struct table *table_of_functions(struct pool *pool, const struct transfer
     for (int i = 0; i < (many ? WORST : of->nfunctions) && rank; i++)
         function_row(table, &of->functions[rank[i].row], &of->functions[rank[i].row].beside->agreement);
     function_row(table, NULL, of->agreement);
-    if (many && table)
-        table->note =
-            pool_format(pool,
-                        "The %d worst of %d; FRAC from 0.95: %d, from 0.8: %d, from 0.5: %d, below: %d, without values: "
-                        "%d (--verbose: all).",
-                        WORST, of->nfunctions, count[0], count[1], count[2], count[3], none);
+    if (many)
+        table_note(table,
+                   "The %d worst of %d; FRAC from 0.95: %d, from 0.8: %d, from 0.5: %d, below: %d, without values: "
+                   "%d (--verbose: all).",
+                   WORST, of->nfunctions, count[0], count[1], count[2], count[3], none);
     return table;
 }
 

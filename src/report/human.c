@@ -81,7 +81,7 @@ static const char *with_power(struct pool *pool, double value, const char *plus,
     int exponent = 0;
     (void)sscanf(e, "e%d", &exponent); /* NOLINT: of two or three digits */
     *e = 0;
-    return or_nothing(pool_format(pool, "%s%se%d", value < 0 ? MINUS : plus, text, exponent));
+    return pool_text(pool, "%s%se%d", value < 0 ? MINUS : plus, text, exponent);
 }
 
 static const char *fixed(struct pool *pool, double value, int decimals, const char *plus)
@@ -96,7 +96,7 @@ static const char *fixed(struct pool *pool, double value, int decimals, const ch
     }
     (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     int zero = strspn(digits, "0.") == strlen(digits); /* -0.00 is no negative number to people */
-    return or_nothing(pool_format(pool, "%s%s", zero ? "" : value < 0 ? MINUS : plus, digits));
+    return pool_text(pool, "%s%s", zero ? "" : value < 0 ? MINUS : plus, digits);
 }
 
 const char *human_column(struct pool *pool, double value, int decimals, const char *plus)
@@ -105,10 +105,10 @@ const char *human_column(struct pool *pool, double value, int decimals, const ch
     if (!isfinite(value))
         return DASH;
     if (fabs(value) >= WIDEST)
-        return or_nothing(pool_format(pool, "%s%s", value > 0 ? plus : "", human_digits(pool, value, 2)));
+        return pool_text(pool, "%s%s", value > 0 ? plus : "", human_digits(pool, value, 2));
     (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     int zero = strspn(digits, "0.") == strlen(digits);
-    return or_nothing(pool_format(pool, "%s%s", value < 0 && !zero ? MINUS : zero ? "" : plus, digits));
+    return pool_text(pool, "%s%s", value < 0 && !zero ? MINUS : zero ? "" : plus, digits);
 }
 
 const char *human_fixed(struct pool *pool, double value, int decimals)
@@ -152,8 +152,7 @@ const char *human_trimmed(struct pool *pool, double value, int digits)
 const char *human_value(struct pool *pool, double value, const char *unit)
 {
     struct human_unit shown = human_unit(value, unit);
-    return or_nothing(
-        pool_format(pool, "%s%s%s", human_trimmed(pool, value * shown.factor, 4), *shown.text ? NARROW_SPACE : "", shown.text));
+    return pool_text(pool, "%s%s%s", human_trimmed(pool, value * shown.factor, 4), *shown.text ? NARROW_SPACE : "", shown.text);
 }
 
 const char *human_quote(struct pool *pool, double value, const double ci[2], const char *unit)
@@ -168,16 +167,16 @@ const char *human_quote(struct pool *pool, double value, const double ci[2], con
     (void)sscanf(strchr(text, 'e'), "e%d", &exponent); /* NOLINT: of two or three digits */
     int last = *text < '3' ? exponent - 1 : exponent;  /* power of ten of the last digit */
     double whole = pow(10, last);                      /* 123 +- 40 is 120 +- 40, 115.002 +- 0.138 is 115.00 +- 0.14 */
-    return or_nothing(pool_format(
+    return pool_text(
         pool, "%s \xc2\xb1 %s%s%s", human_fixed(pool, round(value * shown.factor / whole) * whole, last < 0 ? -last : 0),
-        human_fixed(pool, round(half / whole) * whole, last < 0 ? -last : 0), *shown.text ? NARROW_SPACE : "", shown.text));
+        human_fixed(pool, round(half / whole) * whole, last < 0 ? -last : 0), *shown.text ? NARROW_SPACE : "", shown.text);
 }
 
 const char *human_range(struct pool *pool, double from, double to, const char *unit)
 {
     struct human_unit shown = human_unit(to, unit);
-    return or_nothing(pool_format(pool, "%s to %s%s%s", human_trimmed(pool, from * shown.factor, 5),
-                                  human_trimmed(pool, to * shown.factor, 5), *shown.text ? NARROW_SPACE : "", shown.text));
+    return pool_text(pool, "%s to %s%s%s", human_trimmed(pool, from * shown.factor, 5), human_trimmed(pool, to * shown.factor, 5),
+                     *shown.text ? NARROW_SPACE : "", shown.text);
 }
 
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit)
@@ -187,9 +186,9 @@ const char *human_interval(struct pool *pool, double value, const double ci[2], 
     if (!isfinite(half))
         return human_value(pool, value, unit);
     int decimals = human_decimals(value * f, half);
-    return or_nothing(pool_format(pool, "%s%s%s (95" NARROW_SPACE "%%: %s to %s)", human_fixed(pool, value * f, decimals),
-                                  *shown.text ? NARROW_SPACE : "", shown.text, human_fixed(pool, ci[0] * f, decimals),
-                                  human_fixed(pool, ci[1] * f, decimals)));
+    return pool_text(pool, "%s%s%s (95" NARROW_SPACE "%%: %s to %s)", human_fixed(pool, value * f, decimals),
+                     *shown.text ? NARROW_SPACE : "", shown.text, human_fixed(pool, ci[0] * f, decimals),
+                     human_fixed(pool, ci[1] * f, decimals));
 }
 
 double human_half_width_percent(double value, const double ci[2])
@@ -201,7 +200,7 @@ const char *human_count(struct pool *pool, int count)
 {
     static const char *const words[] = {"no",    "one",   "two",  "three", "four",   "five",  "six",
                                         "seven", "eight", "nine", "ten",   "eleven", "twelve"};
-    return count >= 0 && count <= 12 ? words[count] : or_nothing(pool_format(pool, "%d", count));
+    return count >= 0 && count <= 12 ? words[count] : pool_text(pool, "%d", count);
 }
 
 const char *human_plural(int count, const char *one, const char *many)
@@ -212,8 +211,8 @@ const char *human_plural(int count, const char *one, const char *many)
 const char *human_seconds(struct pool *pool, double seconds)
 {
     if (seconds < 1)
-        return or_nothing(pool_format(pool, "%s" NARROW_SPACE "ms", human_digits(pool, 1e3 * seconds, 2)));
+        return pool_text(pool, "%s" NARROW_SPACE "ms", human_digits(pool, 1e3 * seconds, 2));
     if (seconds < 120)
-        return or_nothing(pool_format(pool, "%s" NARROW_SPACE "s", human_digits(pool, seconds, 2)));
-    return or_nothing(pool_format(pool, "%.0f" NARROW_SPACE "min", seconds / 60));
+        return pool_text(pool, "%s" NARROW_SPACE "s", human_digits(pool, seconds, 2));
+    return pool_text(pool, "%.0f" NARROW_SPACE "min", seconds / 60);
 }

@@ -44,13 +44,13 @@ struct table *table_of_parameters(struct pool *pool, const rotid_identification 
 {
     struct table *table = table_open(pool, "Parameters");
     const char *quote = "";
-    for (int p = 0; p < fit->nparameters && quote && !fit_is_inadequate(fit); p++) {
+    for (int p = 0; p < fit->nparameters && !fit_is_inadequate(fit); p++) {
         const rotid_fitted_parameter *is = &fit->parameters[p];
         const char *one = is->at_bound || !is->identifiable ? NULL : human_quote(pool, is->value, is->ci95, is->unit);
-        quote = one ? pool_format(pool, "%s%s%s = %s", quote, *quote ? ", " : "", is->name, one) : quote;
+        quote = one ? pool_text(pool, "%s%s%s = %s", quote, *quote ? ", " : "", is->name, one) : quote;
     }
-    if (table && quote && *quote)
-        table->note = pool_format(pool, "%s (95 %%)", quote);
+    if (*quote)
+        table_note(table, "%s (95 %%)", quote);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *is = &fit->parameters[p];
         table_row(table);
@@ -70,8 +70,8 @@ struct table *table_of_parameters(struct pool *pool, const rotid_identification 
                     : !is->identifiable      ? "not determined by these data"
                     : !isfinite(is->ci95[0]) ? "no interval can be stated"
                     : interval_is_wide(is->value, is->ci95[0], is->ci95[1])
-                        ? pool_format(pool, "determined to %s only",
-                                      percent_text(interval_half_percent(is->value, is->ci95[0], is->ci95[1]), (char[32]){""}))
+                        ? pool_text(pool, "determined to %s only",
+                                    percent_text(interval_half_percent(is->value, is->ci95[0], is->ci95[1]), (char[32]){""}))
                         : "");
     }
     return table;
@@ -107,12 +107,12 @@ struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed
         number_column(t, "std", NULL, SHOW_DIGITS(2), list[i].std);
         number_column(t, "model", NULL, SHOW_DIGITS(6), list[i].predicted);
         number_column(t, "z", NULL, SHOW_SIGNED(1), list[i].z);
-        if (!centre && fabs(list[i].z) > ANOTHER_MASS && t)
-            t->note = pool_format(pool,
-                                  "the model is %.2g %% too %s: correct diameters, bores and densities first (rotid check prints "
-                                  "the mass of each group)",
-                                  100 * fabs(list[i].predicted / list[i].measured - 1),
-                                  list[i].predicted > list[i].measured ? "heavy" : "light");
+        if (!centre && fabs(list[i].z) > ANOTHER_MASS)
+            table_note(t,
+                       "the model is %.2g %% too %s: correct diameters, bores and densities first (rotid check prints "
+                       "the mass of each group)",
+                       100 * fabs(list[i].predicted / list[i].measured - 1),
+                       list[i].predicted > list[i].measured ? "heavy" : "light");
     }
     return t;
 }
@@ -123,8 +123,7 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
     for (int b = 0; b <= fit->nbaseline; b++) {
         const rotid_minimiser *other = b ? &fit->baseline[b - 1] : NULL;
         table_row(table);
-        text_column(table, "minimiser", SHOW_TEXT,
-                    other ? pool_format(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
+        text_column(table, "minimiser", SHOW_TEXT, other ? pool_text(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
         number_column(table, "objective", NULL, SHOW_DIGITS(4), other ? other->objective : fit->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(2) | DETAIL, other ? other->gradient : fit->gradient);
         number_column(table, "evaluations", NULL, SHOW_COUNT, other ? other->evaluations : fit->evaluations);
@@ -144,22 +143,23 @@ const char *minimisers_sentence(struct pool *pool, const rotid_identification *f
 {
     double best = INFINITY, furthest = 0;
     const char *names = "";
-    for (int b = 0; b < fit->nbaseline && names; b++) {
+    for (int b = 0; b < fit->nbaseline; b++) {
         if (!fit->baseline[b].usable || !isfinite(fit->baseline[b].objective))
             continue;
         best = fmin(best, fit->baseline[b].objective);
         furthest = fmax(furthest, fabs(fit->baseline[b].objective / fit->objective - 1));
-        names = pool_format(pool, "%s%s%s", names, *names ? ", " : "", fit->baseline[b].algorithm);
+        names = pool_text(pool, "%s%s%s", names, *names ? ", " : "", fit->baseline[b].algorithm);
     }
     *lower = best < fit->objective * (1 - SAME_POINT);
-    return !names || !*names
-               ? ""
-               : or_nothing(
-                     *lower ? pool_format(pool, "NLopt (%s) finds a lower minimum: %s, against %s of this fit", names,
-                                          human_digits(pool, best, 6), human_digits(pool, fit->objective, 6))
-                     : furthest <= SAME_POINT
-                         ? pool_format(pool, "NLopt (%s) finds the same minimum", names)
-                         : pool_format(pool, "NLopt (%s) finds no lower minimum; not all of its minimisers came as far", names));
+    if (!*names)
+        return "";
+    if (*lower)
+        return pool_text(pool, "NLopt (%s) finds a lower minimum: %s, against %s of this fit", names, human_digits(pool, best, 6),
+                         human_digits(pool, fit->objective, 6));
+    return pool_text(pool,
+                     furthest <= SAME_POINT ? "NLopt (%s) finds the same minimum"
+                                            : "NLopt (%s) finds no lower minimum; not all of its minimisers came as far",
+                     names);
 }
 
 static struct table *table_of_history(struct pool *pool, const rotid_identification *fit)
@@ -300,7 +300,7 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {
         const rotid_identification of_state = fit_of_state(fit, s);
         const char *caption =
-            pool_format(to->pool, "state %s%s", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
+            pool_text(to->pool, "state %s%s", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
         screen_table(to, table_of_compared_modes(to->pool, &result->head, first, &of_state, caption));
         print_rms(out, &of_state);
     }

@@ -25,23 +25,23 @@ static const char *target_of(struct pool *pool, const struct rotor *rotor, const
     const struct effect_kind *kind = effect->kind;
     int target = effect->target;
     if (kind->spring && target >= 0 && target < rotor->nspring && rotor->spring[target].name)
-        return pool_format(pool, " at %s", rotor->spring[target].name);
+        return pool_text(pool, " at %s", rotor->spring[target].name);
     if (kind->tierod && target >= 0 && target < rotor->ntierod && rotor->tierod[target].name)
-        return pool_format(pool, " at %s", rotor->tierod[target].name);
+        return pool_text(pool, " at %s", rotor->tierod[target].name);
     if (kind->joint && target >= 0 && target + 1 < rotor_axis_groups(rotor))
-        return pool_format(pool, " between %s and %s", rotor->group[target].name, rotor->group[target + 1].name);
+        return pool_text(pool, " between %s and %s", rotor->group[target].name, rotor->group[target + 1].name);
     if ((kind->field || kind->section) && target >= 0 && target < rotor->ngroup)
-        return pool_format(pool, " in %s", rotor->group[target].name);
+        return pool_text(pool, " in %s", rotor->group[target].name);
     return "";
 }
 
 static const char *effect_text(struct pool *pool, const struct rotor *rotor, const struct effect *effect)
 {
-    const char *text = pool_format(pool, "%s%s", effect->kind->id, target_of(pool, rotor, effect));
-    for (int p = 0; p < effect_parameters(effect) && text; p++) {
+    const char *text = pool_text(pool, "%s%s", effect->kind->id, target_of(pool, rotor, effect));
+    for (int p = 0; p < effect_parameters(effect); p++) {
         const struct effect_parameter_name *parameter = &effect->kind->parameter[p];
-        text = pool_format(pool, "%s, %s %.6g%s%s", text, parameter->name, effect->value[p], layout_gap(parameter->unit),
-                           layout_unit(parameter->unit));
+        text = pool_text(pool, "%s, %s %.6g%s%s", text, parameter->name, effect->value[p], layout_gap(parameter->unit),
+                         layout_unit(parameter->unit));
     }
     return text;
 }
@@ -49,11 +49,10 @@ static const char *effect_text(struct pool *pool, const struct rotor *rotor, con
 static const char *correction_text(struct pool *pool, const struct correction *c)
 {
     const char *text = c->id;
-    for (int s = 0; s < c->nsensor && text; s++)
-        text = pool_format(pool, "%s%s%d", text, s ? " and " : " of sensor ", c->sensor[s]);
-    text = pool_format(pool, "%s%s%s, value %.6g", text, c->block ? " of " : "", c->block ? c->block : "", c->value);
-    return text && same_text(c->id, "sensor_line") ? pool_format(pool, "%s, scale %.6g, flip %.6g", text, c->more[0], c->more[1])
-                                                   : text;
+    for (int s = 0; s < c->nsensor; s++)
+        text = pool_text(pool, "%s%s%d", text, s ? " and " : " of sensor ", c->sensor[s]);
+    text = pool_text(pool, "%s%s%s, value %.6g", text, c->block ? " of " : "", c->block ? c->block : "", c->value);
+    return same_text(c->id, "sensor_line") ? pool_text(pool, "%s, scale %.6g, flip %.6g", text, c->more[0], c->more[1]) : text;
 }
 
 /* The CAUSE cards. */
@@ -165,8 +164,8 @@ struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spec
 {
     const int bends = !spectrum->type || same_text(spectrum->type, "BENDING"); /* older results have no type */
     struct table *table = table_open(pool, bends ? "Modes of the full and of the condensed model"
-                                                 : pool_format(pool, "Modes of the full and of the condensed model: %s",
-                                                               same_text(spectrum->type, "AXIAL") ? "axial" : "torsion"));
+                                                 : pool_text(pool, "Modes of the full and of the condensed model: %s",
+                                                             same_text(spectrum->type, "AXIAL") ? "axial" : "torsion"));
     for (int j = 0; j < spectrum->nmodes; j++) {
         const rotid_model_mode *mode = &spectrum->modes[j];
         const rotid_compared_mode *measured = mode->measured;
@@ -200,7 +199,7 @@ struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_s
         number_column(table, "mesh of solid", "%", SHOW_SIGNED(4), mode->solid_mesh_error_percent);
         number_column(table, "mesh of beam", "%", SHOW_SIGNED(4), mode->beam_mesh_error_percent);
         text_column(table, "remark", SHOW_TEXT,
-                    mode->beam_mode == mode->mode ? "" : pool_format(pool, "mode %d of the beam", mode->beam_mode));
+                    mode->beam_mode == mode->mode ? "" : pool_text(pool, "mode %d of the beam", mode->beam_mode));
     }
     return table;
 }
@@ -228,7 +227,7 @@ struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, cons
         number_column(table, "sensor", NULL, SHOW_COUNT, rotor && rotor->nsensor == s->nsensor_z_m ? rotor->sensor[i].id : i + 1);
         number_column(table, "position", "m", SHOW_FIXED(5), s->sensor_z_m[i]);
         for (int j = 0; j < s->nmodes; j++)
-            number_column(table, i ? "" : pool_format(pool, "mode %d", s->modes[j].mode), NULL, SHOW_FIXED(5),
+            number_column(table, i ? "" : pool_text(pool, "mode %d", s->modes[j].mode), NULL, SHOW_FIXED(5),
                           s->modes[j].nshape > i ? s->modes[j].shape[i] : (double)NAN);
     }
     return table;
@@ -280,12 +279,12 @@ struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *
 static struct table *table_of_quotients(struct pool *pool, const struct result_head *head, const struct sensitivity *s,
                                         const struct sensitivity_parameter *one)
 {
-    const char *quantity = pool_format(pool, "sensitivity %s", one->name);
-    const rotid_reference *paper = quantity ? head_reference(head, quantity) : NULL;
-    struct table *table = table_open(pool, pool_format(pool,
-                                                       "%s: E_k = 1 - R*_k/w_k^2 of the paper for each relative change, by "
-                                                       "steps of %g %% and their limit",
-                                                       one->name, 100 * s->step));
+    const char *quantity = pool_text(pool, "sensitivity %s", one->name);
+    const rotid_reference *paper = head_reference(head, quantity);
+    struct table *table = table_open(pool, pool_text(pool,
+                                                     "%s: E_k = 1 - R*_k/w_k^2 of the paper for each relative change, by "
+                                                     "steps of %g %% and their limit",
+                                                     one->name, 100 * s->step));
     for (int k = 0; k < s->nfrequency_hz; k++) {
         table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, k + 1);
@@ -300,12 +299,12 @@ static struct table *table_of_quotients(struct pool *pool, const struct result_h
 static struct table *table_of_curves(struct pool *pool, const struct sensitivity *s, const struct sensitivity_parameter *one)
 {
     struct table *table =
-        table_open(pool, pool_format(pool, "%s: E_k^2/2 over the relative value (Figure 5 of the paper)", one->name));
+        table_open(pool, pool_text(pool, "%s: E_k^2/2 over the relative value (Figure 5 of the paper)", one->name));
     for (int i = 0; i < s->nrelative_value; i++) {
         table_row(table);
         number_column(table, "value", NULL, SHOW_FIXED(3), s->relative_value[i]);
         for (int k = 0; k < s->nfrequency_hz; k++)
-            number_column(table, i ? "" : pool_format(pool, "mode %d", k + 1), NULL, SHOW_DIGITS(3),
+            number_column(table, i ? "" : pool_text(pool, "mode %d", k + 1), NULL, SHOW_DIGITS(3),
                           one->curves[k + (ptrdiff_t)s->nfrequency_hz * i]);
     }
     return table;

@@ -305,7 +305,7 @@ struct table_cell {
 
 struct table {
     struct pool *pool;
-    const char *caption, *note; /* note: what a reader has to know of it, under the table; NULL: nothing */
+    const char *caption, *note; /* note: under the table */
     int ncolumns, nrows, ncells;
     struct table_column *column;
     struct table_cell *cell; /* by rows */
@@ -323,6 +323,8 @@ void text_column(struct table *table, const char *name, unsigned show, const cha
 void number_column(struct table *table, const char *name, const char *unit, unsigned show, double value);
 /* The same in the unit that suits a typical value of the column. */
 void scaled_column(struct table *table, const char *name, const char *unit, unsigned show, double typical, double value);
+/* What a reader has to know of it, "" for nothing. */
+void table_note(struct table *table, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* What is said of the row that ends here: a line under it; "" for nothing. CSV does not have it. */
 void row_note(struct table *table, const char *text);
 /* The unit of this row, which suits the value; half: half its interval, for the decimals of SHOW_ROW. */

@@ -8,7 +8,7 @@ struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
         table_open(pool, s->harmonic == 1 ? "CRITICAL SPEEDS: Im lambda = speed"
-                                          : pool_format(pool, "CRITICAL SPEEDS: Im lambda = %g times the speed", s->harmonic));
+                                          : pool_text(pool, "CRITICAL SPEEDS: Im lambda = %g times the speed", s->harmonic));
     for (int i = 0; i < s->ncritical_speeds; i++) {
         const rotid_critical_speed *c = &s->critical_speeds[i];
         table_row(t);
@@ -56,7 +56,7 @@ struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
         number_column(t, "2x", "rpm", SHOW_FIXED(0), 30 * own->frequency_hz);
         for (int e = 0; e < s->nexcitation; e++)
             if (s->excitation[e].hz > 0)
-                number_column(t, pool_format(pool, "from %s", s->excitation[e].name), "%", SHOW_SIGNED(1),
+                number_column(t, pool_text(pool, "from %s", s->excitation[e].name), "%", SHOW_SIGNED(1),
                               100 * (own->frequency_hz / s->excitation[e].hz - 1));
     }
     return t;
@@ -111,11 +111,11 @@ static struct table *table_of_peaks(struct pool *pool, const rotid_speeds *s)
 static struct table *table_of_loads(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t =
-        table_open(pool, pool_format(pool, "BEARING LOADS: weight %.5g N, sag %.4g mm", s->weight_n, 1000 * s->sag_m));
+        table_open(pool, pool_text(pool, "BEARING LOADS: weight %.5g N, sag %.4g mm", s->weight_n, 1000 * s->sag_m));
     for (int i = 0; i < s->nbearing_loads; i++) {
         const rotid_bearing_load *load = &s->bearing_loads[i];
         table_row(t);
-        text_column(t, "bearing", SHOW_TEXT, load->bearing ? load->bearing : pool_format(pool, "%d", i + 1));
+        text_column(t, "bearing", SHOW_TEXT, load->bearing ? load->bearing : pool_text(pool, "%d", i + 1));
         number_column(t, "position", "m", SHOW_FIXED(4), load->position_m);
         number_column(t, "load x", "N", SHOW_DIGITS(5), load->load_x_n);
         number_column(t, "load y", "N", SHOW_DIGITS(5), load->load_y_n);
@@ -129,8 +129,8 @@ struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
     int at = 0;
     while (at + 1 < s->ncampbell && !(s->campbell[at].speed_rpm >= s->high_rpm))
         at++;
-    struct table *t = table_open(pool, s->ncampbell ? pool_format(pool, "STABILITY: modes at %.0f rpm", s->campbell[at].speed_rpm)
-                                                    : "STABILITY");
+    struct table *t =
+        table_open(pool, s->ncampbell ? pool_text(pool, "STABILITY: modes at %.0f rpm", s->campbell[at].speed_rpm) : "STABILITY");
     for (int i = 0; s->ncampbell && i < s->campbell[at].nmodes; i++) {
         const rotid_campbell_mode *m = &s->campbell[at].modes[i];
         table_row(t);
@@ -190,49 +190,43 @@ const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *c, c
     const rotid_variance_share *most = c->nvariance_shares ? &c->variance_shares[0] : NULL;
     for (int i = 1; i < c->nvariance_shares; i++)
         most = c->variance_shares[i].share > most->share ? &c->variance_shares[i] : most;
-    const char *band = isfinite(c->ci95[0]) ? pool_format(pool, " (%.0f to %.0f)", c->ci95[0], c->ci95[1]) : "",
-               *peak = c->npeaks ? pool_format(pool, ", peak at %.0f rpm", judged) : "",
+    const char *band = isfinite(c->ci95[0]) ? pool_text(pool, " (%.0f to %.0f)", c->ci95[0], c->ci95[1]) : "",
+               *peak = c->npeaks ? pool_text(pool, ", peak at %.0f rpm", judged) : "",
                *where = c->margin.value < 0 ? "inside the running range"
-                                            : pool_format(pool, "%.0f %% %s the running range", 100 * c->margin.value,
-                                                          judged < s->low_rpm ? "below" : "above"),
+                                            : pool_text(pool, "%.0f %% %s the running range", 100 * c->margin.value,
+                                                        judged < s->low_rpm ? "below" : "above"),
                *kept = "";
     if (isfinite(c->margin.required) && isfinite(c->margin.probability))
-        kept = pool_format(pool, ": the margin of %.0f %% is kept with probability %.2f", 100 * c->margin.required,
-                           c->margin.probability);
+        kept = pool_text(pool, ": the margin of %.0f %% is kept with probability %.2f", 100 * c->margin.required,
+                         c->margin.probability);
     else if (isfinite(c->margin.required))
-        kept = pool_format(pool, ": the margin of %.0f %% is %skept", 100 * c->margin.required,
-                           c->margin.value >= c->margin.required ? "" : "not ");
+        kept = pool_text(pool, ": the margin of %.0f %% is %skept", 100 * c->margin.required,
+                         c->margin.value >= c->margin.required ? "" : "not ");
     const char *doubt =
-        most ? pool_format(pool, "; %.0f %% of the variance of the critical speed: %s", 100 * most->share, most->source) : "";
-    return band && peak && where && kept && doubt ? pool_format(pool, "Critical speed %d, %s, %.0f rpm%s%s, %s%s%s", c->number,
-                                                                c->whirl, c->speed_rpm, band, peak, where, kept, doubt)
-                                                  : NULL;
+        most ? pool_text(pool, "; %.0f %% of the variance of the critical speed: %s", 100 * most->share, most->source) : "";
+    return pool_text(pool, "Critical speed %d, %s, %.0f rpm%s%s, %s%s%s", c->number, c->whirl, c->speed_rpm, band, peak, where,
+                     kept, doubt);
 }
 
 const char *speeds_stability(struct pool *pool, const rotid_speeds *s)
 {
     if (!isfinite(s->stability.onset_rpm))
-        return pool_format(pool, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
+        return pool_text(pool, "No mode is unstable up to %.0f rpm", s->campbell[s->ncampbell - 1].speed_rpm);
     return s->stability.mode == ROTID_NONE
-               ? pool_format(pool,
-                             "Unstable from %.1f rpm on: the bearings do not hold the rotor, which moves away without whirl",
-                             s->stability.onset_rpm)
-               : pool_format(pool, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
+               ? pool_text(pool, "Unstable from %.1f rpm on: the bearings do not hold the rotor, which moves away without whirl",
+                           s->stability.onset_rpm)
+               : pool_text(pool, "Mode %d is unstable from %.1f rpm on", s->stability.mode, s->stability.onset_rpm);
 }
 
 void screen_speeds(const struct screen *to, const struct result *result)
 {
     const rotid_speeds *s = result->speeds;
     screen_heading(to, &result->head);
-    for (int i = 0; i < s->ncritical_speeds; i++) {
-        const char *text =
-            isfinite(s->critical_speeds[i].margin.value) ? speeds_judgement(to->pool, &s->critical_speeds[i], s) : NULL;
-        if (text)
-            screen_say(to, "%s", text);
-    }
-    const char *stability = s->ncampbell ? speeds_stability(to->pool, s) : NULL;
-    if (stability)
-        screen_say(to, "%s", stability);
+    for (int i = 0; i < s->ncritical_speeds; i++)
+        if (isfinite(s->critical_speeds[i].margin.value))
+            screen_say(to, "%s", speeds_judgement(to->pool, &s->critical_speeds[i], s));
+    if (s->ncampbell)
+        screen_say(to, "%s", speeds_stability(to->pool, s));
     if (isfinite(s->stability.probability_stable))
         screen_say(to, "Stable at %.0f rpm with probability %.3f", s->high_rpm, s->stability.probability_stable);
     screen_table(to, table_of_critical_speeds(to->pool, s));

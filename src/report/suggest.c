@@ -14,12 +14,10 @@ static double or_nan(int i, int count, const double *value)
 struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters");
-    if (table)
-        table->note =
-            pool_format(pool,
-                        "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
-                        "frequencies alone (geometric mean).",
-                        s->plan_modes);
+    table_note(table,
+               "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
+               "frequencies alone (geometric mean).",
+               s->plan_modes);
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *p = &s->plans[i];
         table_row(table);
@@ -42,9 +40,9 @@ struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
         number_column(table, "modes", NULL, SHOW_COUNT, m->modes);
         for (int p = 0; p < s->nparameters; p++) {
             const char *name = s->parameters[p].name;
-            number_column(table, i ? "" : pool_format(pool, "%s by frequencies", name), "%", SHOW_DIGITS(3),
+            number_column(table, i ? "" : pool_text(pool, "%s by frequencies", name), "%", SHOW_DIGITS(3),
                           or_nan(p, m->nfrequencies_percent, m->frequencies_percent));
-            number_column(table, i ? "" : pool_format(pool, "%s with shapes", name), "%", SHOW_DIGITS(3),
+            number_column(table, i ? "" : pool_text(pool, "%s with shapes", name), "%", SHOW_DIGITS(3),
                           or_nan(p, m->nshapes_percent, m->shapes_percent));
         }
     }
@@ -62,9 +60,7 @@ struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
         number_column(table, "score", NULL, SHOW_FIXED(2), s->rivals[i].score);
         number_column(table, "share", NULL, SHOW_FIXED(2), s->rivals[i].share);
     }
-    if (table)
-        table->note = pool_format(
-            pool, "The true one is among them with a chance of %.2f; the chances of the tests allow for that.", s->among);
+    table_note(table, "The true one is among them with a chance of %.2f; the chances of the tests allow for that.", s->among);
     return table;
 }
 
@@ -89,13 +85,12 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
     for (int i = 1; i < s->ntests; i++)
         if (s->tests[i].nexpected_percent && s->tests[i].expected_percent[0] < s->tests[narrow].expected_percent[0])
             narrow = i;
-    if (table && s->ntests)
-        table->note =
-            pool_format(pool,
-                        "Sorted by how far the entropy of the shares of the rivals falls (now %.2f); %s is known best after test "
-                        "%d. +-: half of the 95 %% interval, averaged over the rivals; margin: lead of rival 1 that is expected, "
-                        "were it true, over the closest other one; a set-up costs as much as %g points.",
-                        s->entropy, s->nparameters ? s->parameters[0].name : "nothing", narrow + 1, s->set_up_cost);
+    if (s->ntests)
+        table_note(table,
+                   "Sorted by how far the entropy of the shares of the rivals falls (now %.2f); %s is known best after test "
+                   "%d. +-: half of the 95 %% interval, averaged over the rivals; margin: lead of rival 1 that is expected, "
+                   "were it true, over the closest other one; a set-up costs as much as %g points.",
+                   s->entropy, s->nparameters ? s->parameters[0].name : "nothing", narrow + 1, s->set_up_cost);
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         const rotid_expected_margin *m = closest(s, t);
@@ -104,8 +99,8 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
         number_column(table, "wrong", NULL, SHOW_FIXED(2), t->wrong);
         number_column(table, "entropy", NULL, SHOW_FIXED(2), t->entropy);
         for (int p = 0; p < t->nexpected_percent && p < s->nparameters && p < 2; p++) {
-            const char *head = pool_format(pool, "%s +-", s->parameters[p].name);
-            number_column(table, head ? head : "", "%", SHOW_DIGITS(3), t->expected_percent[p]);
+            const char *head = pool_text(pool, "%s +-", s->parameters[p].name);
+            number_column(table, head, "%", SHOW_DIGITS(3), t->expected_percent[p]);
         }
         number_column(table, "cost", NULL, SHOW_TRIMMED(4), t->cost);
         number_column(table, "set-ups", NULL, SHOW_COUNT, t->setups);
@@ -174,10 +169,8 @@ struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table =
         table_open(pool, "Tests at rest: standard deviation of the critical speed that is expected behind each");
-    if (table)
-        table->note = pool_format(pool, "As measured %s rpm, %.0f %% of that variance by the unknowns. In linear prediction.",
-                                  isfinite(s->speed_std) ? pool_format(pool, "%.3g", s->speed_std) : "not known,",
-                                  100 * s->speed_identified);
+    table_note(table, "As measured %s rpm, %.0f %% of that variance by the unknowns. In linear prediction.",
+               isfinite(s->speed_std) ? pool_text(pool, "%.3g", s->speed_std) : "not known,", 100 * s->speed_identified);
     for (int i = 0; i < s->nspeed_tests; i++) {
         table_row(table);
         text_column(table, "test", SHOW_TEXT, s->speed_tests[i].test);

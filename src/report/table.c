@@ -58,7 +58,7 @@ struct table *table_open(struct pool *pool, const char *caption)
 {
     struct table *table = POOL_NEW(pool, struct table);
     if (table)
-        *table = (struct table){.pool = pool, .caption = caption ? caption : "", .row_factor = 1};
+        *table = (struct table){.pool = pool, .caption = caption ? caption : "", .note = "", .row_factor = 1};
     return table;
 }
 
@@ -91,6 +91,15 @@ static struct table_column *next_column(struct table *table, const char *name, c
     if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))
         take_unit(table->pool, &column, human_unit(1, unit));
     return POOL_ADD(table->pool, table->column, table->ncolumns, &column) ? NULL : &table->column[table->ncolumns - 1];
+}
+
+void table_note(struct table *table, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    if (table)
+        table->note = pool_text_of(table->pool, format, values);
+    va_end(values);
 }
 
 void row_note(struct table *table, const char *text)
@@ -191,8 +200,7 @@ int table_column_is_shown(const struct table *table, int column)
 static const char *head_of(const struct table *table, int column, const char *unit)
 {
     const char *name = table->column[column].name;
-    const char *text = unit && *unit ? pool_format(table->pool, "%s [%s]", name, unit) : name;
-    return text ? text : "";
+    return unit && *unit ? pool_text(table->pool, "%s [%s]", name, unit) : name;
 }
 
 void table_write_csv(FILE *out, const struct table *table)
@@ -311,7 +319,7 @@ void table_write_text(FILE *out, const struct table *table, int width)
         if (i >= 0 && cell_at(table, i, 0)->note)
             wrap_text(out, 6, width, "    ", ascii(table->pool, cell_at(table, i, 0)->note));
     }
-    if (table->note)
+    if (*table->note)
         wrap_text(out, 2, width, "", ascii(table->pool, table->note));
 }
 
@@ -353,7 +361,7 @@ void table_write_html(FILE *out, const struct table *table, int number)
     for (int i = 0; i < table_rows(table); i++)
         html_row(out, table, i);
     (void)fputs("</tbody></table></div>\n", out);
-    if (table->note)
+    if (*table->note)
         html_element(out, "p class=\"note\"", table->note);
 }
 
@@ -365,7 +373,7 @@ int csv_write(struct pool *pool, const char *path, const char *const *name, stru
     const char *file[CSV_MOST_FILES];
     int files = 0, count = 0, status = ROTID_OK, which = 0;
     for (; name[files]; files++)
-        file[files] = pool_format(pool, "%s.%s.csv", path, name[files]);
+        file[files] = pool_text(pool, "%s.%s.csv", path, name[files]);
     if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     for (; count < files && !(status = output_open(&output[count], file[count])); count++)
@@ -404,12 +412,11 @@ void screen_notes(const struct screen *to, const struct message_list *notes)
 
 void screen_say(const struct screen *to, const char *format, ...)
 {
-    va_list arguments;
-    char text[512];
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    (void)fprintf(to->out, "%s\n", text);
+    va_list values;
+    va_start(values, format);
+    (void)vfprintf(to->out, format, values);
+    va_end(values);
+    (void)fputc('\n', to->out);
 }
 
 void screen_table(const struct screen *to, const struct table *table)

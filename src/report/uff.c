@@ -405,10 +405,10 @@ static struct table *table_of_shapes_at_nodes(struct pool *pool, const struct un
             if (a == axis || axis == -1)
                 number_column(table, a == axis ? "position" : axes[a], NULL, SHOW_DIGITS(6), u->node[n].x[a]);
         for (int k = 0; k < u->count; k++) {
-            const char *name = n ? "" : pool_format(pool, "mode %d", u->number[k]);
+            const char *name = n ? "" : pool_text(pool, "mode %d", u->number[k]);
             number_column(table, name, NULL, SHOW_FIXED(5), u->value[n + (ptrdiff_t)k * u->nnode]);
             if (any_std)
-                number_column(table, n || !name ? name : pool_format(pool, "%s std", name), NULL, SHOW_DIGITS(2),
+                number_column(table, n ? "" : pool_text(pool, "%s std", name), NULL, SHOW_DIGITS(2),
                               u->std[n + (ptrdiff_t)k * u->nnode]);
         }
     }
@@ -475,18 +475,18 @@ static const char *places_of(struct pool *pool, const struct listing_function *f
     (void)place_text(f->function.response_node, f->function.response_direction, response);
     (void)place_text(g->function.response_node, g->function.response_direction, last);
     (void)place_text(f->function.reference_node, f->function.reference_direction, reference);
-    return pool_format(pool, "%s%s%s%s%s", response, f == g ? "" : " ... ", f == g ? "" : last,
-                       f->function.reference_node ? " / " : "", f->function.reference_node ? reference : "");
+    return pool_text(pool, "%s%s%s%s%s", response, f == g ? "" : " ... ", f == g ? "" : last,
+                     f->function.reference_node ? " / " : "", f->function.reference_node ? reference : "");
 }
 
 /* "complex double, m/s/N, times 0.001 in SI" */
 static const char *values_of(struct pool *pool, const struct listing_function *f)
 {
     const char *above = f->function.numerator.unit, *below = f->function.denominator.unit;
-    return pool_format(pool, "%s%s%s%s%s%s%s%s%s", name_of_ordinate(f->function.ordinate),
-                       f->function.binary.is_binary ? ", binary" : "", *above || *below ? ", " : "", clean(pool, above),
-                       *below ? "/" : "", clean(pool, below), f->si_factor != 1 ? ", times " : "",
-                       f->si_factor != 1 ? IN_DIGITS(6, f->si_factor) : "", f->si_factor != 1 ? " in SI" : "");
+    return pool_text(pool, "%s%s%s%s%s%s%s%s%s", name_of_ordinate(f->function.ordinate),
+                     f->function.binary.is_binary ? ", binary" : "", *above || *below ? ", " : "", clean(pool, above),
+                     *below ? "/" : "", clean(pool, below), f->si_factor != 1 ? ", times " : "",
+                     f->si_factor != 1 ? IN_DIGITS(6, f->si_factor) : "", f->si_factor != 1 ? " in SI" : "");
 }
 
 /* What the sets of a row hold that are no functions. */
@@ -499,18 +499,18 @@ static const char *contents_of(struct pool *pool, const struct listing *listing,
     if (set->set.number == 55 && set->item >= 0) {
         const struct uff_shape *first = &listing->shape[set->item].shape;
         const struct uff_shape *last = &listing->shape[listing->set[row.last].item].shape;
-        const char *what = pool_format(pool, "%s, %d points, %s, %s", name_of_analysis(first->analysis_type), first->node_count,
-                                       first->is_complex ? "complex" : "real", IN_DIGITS(6, first->frequency_hz));
+        const char *what = pool_text(pool, "%s, %d points, %s, %s", name_of_analysis(first->analysis_type), first->node_count,
+                                     first->is_complex ? "complex" : "real", IN_DIGITS(6, first->frequency_hz));
         if (row.first == row.last)
-            return pool_format(pool, "%s Hz, damping %s", what ? what : "", IN_DIGITS(4, first->damping));
-        return pool_format(pool, "%s to %s Hz", what ? what : "", IN_DIGITS(6, last->frequency_hz));
+            return pool_text(pool, "%s Hz, damping %s", what, IN_DIGITS(4, first->damping));
+        return pool_text(pool, "%s to %s Hz", what, IN_DIGITS(6, last->frequency_hz));
     }
     if (set->set.number == 164 && listing->units)
-        return pool_format(pool, "%s %s", name_of_units(listing->units->code), clean(pool, listing->units->description));
+        return pool_text(pool, "%s %s", name_of_units(listing->units->code), clean(pool, listing->units->description));
     if (set->set.number == 151 && listing->header)
         return clean(pool, listing->header->model);
     if (set->is_read)
-        return pool_format(pool, "%lld in all", size);
+        return pool_text(pool, "%lld in all", size);
     return name_of_set(set->set.number) && !set->is_faulty ? "read over" : "";
 }
 
@@ -532,7 +532,7 @@ static struct table *table_of_sets(struct pool *pool, const struct listing *list
         }
         table_row(table);
         number_column(table, "line", NULL, SHOW_COUNT, set->set.line);
-        text_column(table, "set", SHOW_TEXT, pool_format(pool, "%d%s", set->set.number, set->set.is_binary ? "b" : ""));
+        text_column(table, "set", SHOW_TEXT, pool_text(pool, "%d%s", set->set.number, set->set.is_binary ? "b" : ""));
         number_column(table, "count", NULL, SHOW_COUNT, row.last - row.first + 1);
         text_column(table, "what", SHOW_TEXT, set->is_faulty ? "MALFORMED" : name ? name : "not known");
         text_column(table, "response / reference", SHOW_TEXT, f ? places_of(pool, f, g) : "");
@@ -544,8 +544,8 @@ static struct table *table_of_sets(struct pool *pool, const struct listing *list
         number_column(table, "rms", NULL, SHOW_DIGITS(4), f ? rms : NAN);
         text_column(table, "contents", SHOW_TEXT, f ? values_of(pool, f) : contents_of(pool, listing, row));
     }
-    if (table && next < listing->set_count)
-        table->note = pool_format(pool, "... and %d more sets; --verbose shows each", listing->set_count - next);
+    if (next < listing->set_count)
+        table_note(table, "... and %d more sets; --verbose shows each", listing->set_count - next);
     return table;
 }
 

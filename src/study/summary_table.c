@@ -74,15 +74,15 @@ static void axes_columns(struct table *table, const struct study_result *all, co
 static const char *common(struct pool *pool, const struct study_result *s)
 {
     const char *text = "";
-    for (const struct axis *axis = axes; axis < axes + AXES && s->ncells && text; axis++) {
+    for (const struct axis *axis = axes; axis < axes + AXES && s->ncells; axis++) {
         const struct study_axes *cell = &s->cells[0].cell;
         const char *value = axis->is_number ? NULL : text_at(axis, cell);
         if (axis->is_number && isfinite(number_at(axis, cell)))
-            value = pool_format(pool, "%g", number_at(axis, cell));
+            value = pool_text(pool, "%g", number_at(axis, cell));
         if (value && !cells_differ(axis, s))
-            text = pool_format(pool, "%s%s%s %s", text, *text ? ", " : "; ", axis->name, value);
+            text = pool_text(pool, "%s%s%s %s", text, *text ? ", " : "; ", axis->name, value);
     }
-    return text ? text : "";
+    return text;
 }
 
 static double above_rounding(double value, double rounding)
@@ -93,7 +93,7 @@ static double above_rounding(double value, double rounding)
 struct table *table_of_cells(struct pool *pool, const struct study_result *s)
 {
     struct table *table =
-        table_open(pool, pool_format(pool, "Cells: runs that differ in replicate and start alone%s", common(pool, s)));
+        table_open(pool, pool_text(pool, "Cells: runs that differ in replicate and start alone%s", common(pool, s)));
     int starts = 0;
     for (int i = 0; i < s->ncells; i++)
         starts |= s->cells[i].reached_best != ROTID_NONE;
@@ -113,8 +113,7 @@ struct table *table_of_cells(struct pool *pool, const struct study_result *s)
         number_column(table, "chi2/dof", NULL, SHOW_DIGITS(3) | DETAIL, cell->chi2_per_dof);
         number_column(table, "evaluations", NULL, SHOW_DIGITS(3) | DETAIL, cell->evaluations);
     }
-    if (table)
-        table->note = "rms: error of the fitted frequencies; at best: runs that came to the best objective of their replicate";
+    table_note(table, "rms: error of the fitted frequencies; at best: runs that came to the best objective of their replicate");
     return table;
 }
 
@@ -140,10 +139,9 @@ struct table *table_of_cell_parameters(struct pool *pool, const struct study_res
             number_column(table, "min", ROW_UNIT, SHOW_DIGITS(6) | DETAIL, q->min);
             number_column(table, "max", ROW_UNIT, SHOW_DIGITS(6) | DETAIL, q->max);
         }
-    if (table)
-        table->note =
-            "std: scatter of the runs, about the truth where it is known; stated: mean standard deviation of the fits; bias: "
-            "mean difference to the truth; in95%: share of the 95 % intervals that hold it";
+    table_note(table,
+               "std: scatter of the runs, about the truth where it is known; stated: mean standard deviation of the fits; bias: "
+               "mean difference to the truth; in95%%: share of the 95 %% intervals that hold it");
     return table;
 }
 
@@ -151,8 +149,8 @@ struct table *table_of_cell_parameters(struct pool *pool, const struct study_res
 static const char *named(struct pool *pool, const struct cell_diagnoses *d)
 {
     const char *text = "";
-    for (int k = 0; k < d->nnamed && text; k++)
-        text = pool_format(pool, "%s%s%s %.0f", text, k ? ", " : "", d->named[k].name, d->named[k].value);
+    for (int k = 0; k < d->nnamed; k++)
+        text = pool_text(pool, "%s%s%s %.0f", text, k ? ", " : "", d->named[k].name, d->named[k].value);
     return text;
 }
 
