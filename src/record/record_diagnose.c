@@ -14,8 +14,7 @@ PART_TABLE(cause_value_record, rotid_cause_value) = {
 };
 
 TABLE(cause_record, rotid_cause) = {
-    TEXT(rotid_cause, id, 0),
-    TEXT(rotid_cause, target, 0),
+    KEYS(rotid_cause, 0, id, target),
     TEXT(rotid_cause, name, MAY_BE_NULL),
     TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
     STRUCTS(rotid_cause, parameters, 0, cause_value_record),
@@ -33,20 +32,18 @@ PART_TABLE(explanation_record, rotid_explanation) = {
 };
 
 PART_TABLE(marginal_record, rotid_marginal) = {
-    TEXT(rotid_marginal, id, 0),
-    TEXT(rotid_marginal, target, 0),
-    TEXT(rotid_marginal, state, MAY_BE_NULL),
-    NUMBER(rotid_marginal, z_m, MAY_BE_NULL),
+    KEYS(rotid_marginal, 0, id, target),
+    KEYS(rotid_marginal, MAY_BE_NULL, state, z_m),
     NUMBER(rotid_marginal, probability, PROBABILITY),
     {0},
 };
 
 PART_TABLE(averaged_record, rotid_averaged_parameter) = {
-    TEXT(rotid_averaged_parameter, name, 0),     TEXT(rotid_averaged_parameter, unit, 0),
-    NUMBER(rotid_averaged_parameter, value, 0),  NUMBER(rotid_averaged_parameter, std, FROM_0),
-    INTERVAL(rotid_averaged_parameter, ci95, 0), {0},
+    KEYS(rotid_averaged_parameter, 0, name, unit, value),
+    NUMBER(rotid_averaged_parameter, std, FROM_0),
+    INTERVAL(rotid_averaged_parameter, ci95, 0),
+    {0},
 };
-
 TABLE(verdict_record, rotid_verdict) = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
     FLAG(rotid_verdict, adequate_after, 0),
@@ -56,16 +53,12 @@ TABLE(verdict_record, rotid_verdict) = {
     TEXTS(rotid_verdict, alternatives, 0),
     STRUCTS(rotid_verdict, alternative_causes, 0, cause_record),
     INTEGERS(rotid_verdict, alternative_sets, SINCE_LATER),
-    TEXT(rotid_verdict, next_measurement, MAY_BE_NULL),
-    TEXT(rotid_verdict, sentence, MAY_BE_NULL),
+    KEYS(rotid_verdict, MAY_BE_NULL, next_measurement, sentence),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
     FLAG(rotid_verdict, confident, SINCE_LATER),
     STRUCTS(rotid_verdict, explanations, SINCE_LATER, explanation_record),
     STRUCTS(rotid_verdict, marginals, SINCE_LATER, marginal_record),
-    NUMBER(rotid_verdict, nothing, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_verdict, nothing_prior, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_verdict, something_else, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_verdict, runup_p, SINCE_LATER | MAY_BE_NULL | PROBABILITY),
+    KEYS(rotid_verdict, SINCE_LATER | MAY_BE_NULL | PROBABILITY, nothing, nothing_prior, something_else, runup_p),
     {0},
 };
 
@@ -74,11 +67,7 @@ TABLE(data_finding_record, rotid_data_finding) = {
     INTEGERS(rotid_data_finding, sensors, 0),
     INTEGERS(rotid_data_finding, modes, 0),
     TEXT_OF(rotid_data_finding, block, MAY_BE_NULL, blocks),
-    NUMBER(rotid_data_finding, value, MAY_BE_NULL),
-    TEXT(rotid_data_finding, unit, MAY_BE_NULL),
-    NUMBER(rotid_data_finding, std, MAY_BE_NULL),
-    NUMBER(rotid_data_finding, chi2_drop, MAY_BE_NULL),
-    TEXT(rotid_data_finding, text, MAY_BE_NULL),
+    KEYS(rotid_data_finding, MAY_BE_NULL, value, unit, std, chi2_drop, text),
     TEXT(rotid_data_finding, state, MAY_BE_NULL | SINCE_LATER),
     STRUCTS(rotid_data_finding, parameters, SINCE_LATER, cause_value_record),
     {0},
@@ -95,68 +84,48 @@ PART_TABLE(numerical_finding_record, rotid_numerical_finding) = {
 
 PART_TABLE(round_record, rotid_round) = {
     INTEGER(rotid_round, round, FROM_1),
-    NUMBER(rotid_round, chi2, MAY_BE_NULL),
-    NUMBER(rotid_round, chi2_frequency, MAY_BE_NULL),
+    KEYS(rotid_round, MAY_BE_NULL, chi2, chi2_frequency),
     INTEGER(rotid_round, dof, 0),
     INTEGER(rotid_round, frequencies, FROM_0),
-    NUMBER(rotid_round, largest, MAY_BE_NULL),
-    NUMBER(rotid_round, threshold, MAY_BE_NULL),
-    NUMBER(rotid_round, p_scan, MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_round, p_frequency, MAY_BE_NULL | PROBABILITY),
-    NUMBER(rotid_round, p_total, MAY_BE_NULL | PROBABILITY),
+    KEYS(rotid_round, MAY_BE_NULL, largest, threshold),
+    KEYS(rotid_round, MAY_BE_NULL | PROBABILITY, p_scan, p_frequency, p_total),
     {0},
 };
 
 PART_TABLE(candidate_record, rotid_candidate) = {
     INTEGER(rotid_candidate, round, FROM_1),
     INLINE(rotid_candidate, cause, 0, cause_record),
-    FLAG(rotid_candidate, suspect, 0),
-    FLAG(rotid_candidate, refitted, 0),
-    NUMBER(rotid_candidate, predicted_drop, MAY_BE_NULL),
-    NUMBER(rotid_candidate, chi2, MAY_BE_NULL),
-    NUMBER(rotid_candidate, chi2_frequency, MAY_BE_NULL),
-    NUMBER(rotid_candidate, chi2_drop, MAY_BE_NULL),
-    NUMBER(rotid_candidate, holdout_rms, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_candidate, sensor_out_rms, MAY_BE_NULL | FROM_0),
+    FLAGS(rotid_candidate, 0, suspect, refitted),
+    KEYS(rotid_candidate, MAY_BE_NULL, predicted_drop, chi2, chi2_frequency, chi2_drop),
+    KEYS(rotid_candidate, MAY_BE_NULL | FROM_0, holdout_rms, sensor_out_rms),
     FLAG(rotid_candidate, at_bound, 0),
     NUMBER(rotid_candidate, probability, PROBABILITY),
     {0},
 };
 
 PART_TABLE(pair_record, rotid_pair) = {
-    NUMBER(rotid_pair, before, MAY_BE_NULL),
-    NUMBER(rotid_pair, after, MAY_BE_NULL),
+    KEYS(rotid_pair, MAY_BE_NULL, before, after),
     {0},
 };
 
 PART_TABLE(changed_parameter_record, rotid_changed_parameter) = {
-    TEXT(rotid_changed_parameter, name, 0),
-    TEXT(rotid_changed_parameter, unit, 0),
-    NUMBER(rotid_changed_parameter, before, MAY_BE_NULL),
-    NUMBER(rotid_changed_parameter, after, MAY_BE_NULL),
+    KEYS(rotid_changed_parameter, 0, name, unit),
+    KEYS(rotid_changed_parameter, MAY_BE_NULL, before, after),
     INTERVAL(rotid_changed_parameter, before_ci95, 0),
     INTERVAL(rotid_changed_parameter, after_ci95, 0),
     {0},
 };
 
 PART_TABLE(gain_record, rotid_gain) = {
-    STRUCT(rotid_gain, frequency_rms_percent, 0, pair_record),
-    STRUCT(rotid_gain, frequency_max_percent, 0, pair_record),
-    STRUCT(rotid_gain, shape_rms, 0, pair_record),
-    STRUCT(rotid_gain, chi2_per_dof, 0, pair_record),
-    STRUCT(rotid_gain, nco_min, 0, pair_record),
-    STRUCT(rotid_gain, holdout_frequency_rms_percent, 0, pair_record),
-    STRUCT(rotid_gain, holdout_shape_rms, 0, pair_record),
-    STRUCT(rotid_gain, mode_out_frequency_rms_percent, 0, pair_record),
-    STRUCT(rotid_gain, mode_out_shape_rms, 0, pair_record),
-    STRUCT(rotid_gain, sensor_out_shape_rms, 0, pair_record),
+    RECORDS(rotid_gain, pair_record, frequency_rms_percent, frequency_max_percent, shape_rms, chi2_per_dof, nco_min,
+            holdout_frequency_rms_percent, holdout_shape_rms, mode_out_frequency_rms_percent, mode_out_shape_rms,
+            sensor_out_shape_rms),
     STRUCTS(rotid_gain, parameters, 0, changed_parameter_record),
     {0},
 };
 
 PART_TABLE(sensor_residual_record, rotid_sensor_residual) = {
-    INTEGER(rotid_sensor_residual, id, 0),
-    NUMBER(rotid_sensor_residual, z_m, 0),
+    KEYS(rotid_sensor_residual, 0, id, z_m),
     NUMBER(rotid_sensor_residual, rms, MAY_BE_NULL | FROM_0),
     TEXT(rotid_sensor_residual, state, MAY_BE_NULL | SINCE_LATER),
     {0},
@@ -169,13 +138,8 @@ PART_TABLE(localisation_record, rotid_localisation) = {
 };
 
 TABLE(detectable_record, rotid_detectable) = {
-    TEXT(rotid_detectable, id, 0),
-    TEXT(rotid_detectable, target, 0),
-    TEXT(rotid_detectable, parameter, 0),
-    NUMBER(rotid_detectable, smallest, MAY_BE_NULL),
-    TEXT(rotid_detectable, unit, MAY_BE_NULL),
-    NUMBER(rotid_detectable, z_m, MAY_BE_NULL),
-    NUMBER(rotid_detectable, worst, MAY_BE_NULL),
+    KEYS(rotid_detectable, 0, id, target, parameter),
+    KEYS(rotid_detectable, MAY_BE_NULL, smallest, unit, z_m, worst),
     FLAG(rotid_detectable, beyond, 0),
     {0},
 };
@@ -188,8 +152,7 @@ PART_TABLE(step_record, rotid_step) = {
 
 TABLE(diagnosis_record, rotid_diagnosis) = {
     FLAG(rotid_diagnosis, interrupted, 0),
-    TEXT(rotid_diagnosis, before, MAY_BE_NULL | SINCE_LATER),
-    TEXT(rotid_diagnosis, after, MAY_BE_NULL | SINCE_LATER),
+    KEYS(rotid_diagnosis, MAY_BE_NULL | SINCE_LATER, before, after),
     STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
     STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
     STRUCTS(rotid_diagnosis, numerical_findings, 0, numerical_finding_record),

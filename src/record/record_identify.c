@@ -10,16 +10,10 @@ static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NU
 static const char *const grounds[] = {"noise", "residuals", NULL};
 
 TABLE(fitted_parameter_record, rotid_fitted_parameter) = {
-    TEXT(rotid_fitted_parameter, name, 0),
-    TEXT(rotid_fitted_parameter, unit, 0),
-    NUMBER(rotid_fitted_parameter, value, 0),
-    NUMBER(rotid_fitted_parameter, start, 0),
-    NUMBER(rotid_fitted_parameter, lower, 0),
-    NUMBER(rotid_fitted_parameter, upper, 0),
+    KEYS(rotid_fitted_parameter, 0, name, unit, value, start, lower, upper),
     NUMBER(rotid_fitted_parameter, std, MAY_BE_NULL | FROM_0),
     INTERVAL(rotid_fitted_parameter, ci95, 0),
-    FLAG(rotid_fitted_parameter, at_bound, 0),
-    FLAG(rotid_fitted_parameter, identifiable, 0),
+    FLAGS(rotid_fitted_parameter, 0, at_bound, identifiable),
     {0},
 };
 
@@ -30,8 +24,7 @@ TABLE(compared_mode_record, rotid_compared_mode) = {
     NUMBER(rotid_compared_mode, frequency_std, MAY_BE_NULL | ABOVE_0 | SINCE_LATER),
     NUMBER(rotid_compared_mode, predicted_hz, FROM_0),
     NUMBER(rotid_compared_mode, error_percent, 0),
-    NUMBER(rotid_compared_mode, mac, MAY_BE_NULL | CORRELATION),
-    NUMBER(rotid_compared_mode, nco, MAY_BE_NULL | CORRELATION),
+    KEYS(rotid_compared_mode, MAY_BE_NULL | CORRELATION, mac, nco),
     TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
     FLAG(rotid_compared_mode, holdout, 0),
     NUMBER(rotid_compared_mode, residual, 0),
@@ -67,10 +60,7 @@ PART_TABLE(shapes_record, rotid_shapes) = {
 };
 
 PART_TABLE(history_record, rotid_history_entry) = {
-    INTEGER(rotid_history_entry, iteration, FROM_0),
-    NUMBER(rotid_history_entry, objective, FROM_0),
-    NUMBER(rotid_history_entry, gradient, FROM_0),
-    NUMBER(rotid_history_entry, mu, FROM_0),
+    KEYS(rotid_history_entry, FROM_0, iteration, objective, gradient, mu),
     NUMBER(rotid_history_entry, gain_ratio, MAY_BE_NULL),
     NUMBER(rotid_history_entry, step, FROM_0),
     NUMBER(rotid_history_entry, seconds, FROM_0 | SINCE_LATER),
@@ -82,20 +72,16 @@ PART_TABLE(minimiser_record, rotid_minimiser) = {
     TEXT_OF(rotid_minimiser, algorithm, 0, algorithms),
     TEXT(rotid_minimiser, result, 0),
     FLAG(rotid_minimiser, usable, 0),
-    NUMBER(rotid_minimiser, objective, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_minimiser, gradient, MAY_BE_NULL | FROM_0),
-    INTEGER(rotid_minimiser, evaluations, FROM_0),
-    NUMBER(rotid_minimiser, seconds, FROM_0),
+    KEYS(rotid_minimiser, MAY_BE_NULL | FROM_0, objective, gradient),
+    KEYS(rotid_minimiser, FROM_0, evaluations, seconds),
     NUMBERS(rotid_minimiser, x, 0),
     NUMBERS(rotid_minimiser, predicted_hz, ELEMENTS_MAY_BE_NULL | FROM_0 | SINCE_LATER),
     {0},
 };
 
 TABLE(noise_record, rotid_noise) = {
-    NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
-    FLAG(rotid_noise, frequency_assumed, 0),
-    FLAG(rotid_noise, shape_assumed, 0),
+    KEYS(rotid_noise, MAY_BE_NULL | FROM_0, frequency, shape),
+    FLAGS(rotid_noise, 0, frequency_assumed, shape_assumed),
     TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
     {0},
 };
@@ -107,8 +93,7 @@ TABLE(weighed_record, rotid_weighed) = {
     TEXT(rotid_weighed, state, IF_KNOWN),
     NUMBER(rotid_weighed, measured, 0),
     NUMBER(rotid_weighed, std, ABOVE_0),
-    NUMBER(rotid_weighed, predicted, 0),
-    NUMBER(rotid_weighed, z, 0),
+    KEYS(rotid_weighed, 0, predicted, z),
     {0},
 };
 
@@ -142,10 +127,8 @@ TABLE(identification_record, rotid_identification) = {
     TEXT_OF(rotid_identification, derivative, 0, derivative_words),
     FLAG(rotid_identification, shapes_fitted, SINCE_LATER),
     NUMBER(rotid_identification, bijection_chi, ABOVE_0 | SINCE_LATER),
-    NUMBER(rotid_identification, objective, FROM_0),
-    NUMBER(rotid_identification, gradient, FROM_0),
-    NUMBER(rotid_identification, chi2, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_identification, chi2_per_dof, MAY_BE_NULL | FROM_0),
+    KEYS(rotid_identification, FROM_0, objective, gradient),
+    KEYS(rotid_identification, MAY_BE_NULL | FROM_0, chi2, chi2_per_dof),
     INTEGER(rotid_identification, dof, 0),
     INTEGER(rotid_identification, iterations, FROM_0),
     INTEGER(rotid_identification, evaluations, FROM_1),
@@ -179,16 +162,8 @@ TABLE(identification_record, rotid_identification) = {
 };
 
 TABLE(hidden_cause_record, rotid_hidden) = {
-    TEXT(rotid_hidden, parameter, 0),
-    NUMBER(rotid_hidden, shift, 0),
-    TEXT(rotid_hidden, unit, 0),
-    TEXT(rotid_hidden, id, 0),
-    TEXT(rotid_hidden, target, 0),
-    TEXT(rotid_hidden, component, 0),
-    NUMBER(rotid_hidden, size, 0),
-    TEXT(rotid_hidden, size_unit, 0),
-    NUMBER(rotid_hidden, z_m, MAY_BE_NULL),
-    NUMBER(rotid_hidden, width_m, MAY_BE_NULL),
+    KEYS(rotid_hidden, 0, parameter, shift, unit, id, target, component, size, size_unit),
+    KEYS(rotid_hidden, MAY_BE_NULL, z_m, width_m),
     FLAG(rotid_hidden, beyond, 0),
     {0},
 };

@@ -6,8 +6,7 @@ PART_TABLE(measured_record, rotid_compared_mode) = {
     NUMBER(rotid_compared_mode, frequency_std, ABOVE_0 | MAY_BE_NULL | SINCE_LATER),
     NUMBER(rotid_compared_mode, predicted_hz, FROM_0),
     NUMBER(rotid_compared_mode, error_percent, 0),
-    NUMBER(rotid_compared_mode, mac, CORRELATION | MAY_BE_NULL),
-    NUMBER(rotid_compared_mode, nco, CORRELATION | MAY_BE_NULL),
+    KEYS(rotid_compared_mode, CORRELATION | MAY_BE_NULL, mac, nco),
     TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
     FLAG(rotid_compared_mode, holdout, 0),
     TEXT_OF(rotid_compared_mode, type, SINCE_LATER, mode_type_words),
@@ -25,8 +24,7 @@ PART_TABLE(mode_record, rotid_model_mode) = {
     INTEGER(rotid_model_mode, mode, FROM_1),
     NUMBER(rotid_model_mode, full_hz, FROM_0),
     NUMBER(rotid_model_mode, reduced_hz, FROM_0 | MAY_BE_NULL),
-    NUMBER(rotid_model_mode, reduction_error_percent, MAY_BE_NULL),
-    NUMBER(rotid_model_mode, mesh_error_percent, MAY_BE_NULL),
+    KEYS(rotid_model_mode, MAY_BE_NULL, reduction_error_percent, mesh_error_percent),
     NUMBERS(rotid_model_mode, shape, 0),
     INLINE(rotid_model_mode, measured, IF_KNOWN | BEHIND_POINTER, measured_record),
     STRUCT(rotid_model_mode, meridian, IF_KNOWN | BEHIND_POINTER, meridian_mode_record),
@@ -47,22 +45,17 @@ PART_TABLE(meridian_record, rotid_meridian) = {
 };
 
 PART_TABLE(beside_mode_record, rotid_beside_mode) = {
-    INTEGER(rotid_beside_mode, mode, FROM_1),
-    INTEGER(rotid_beside_mode, beam_mode, FROM_1),
-    NUMBER(rotid_beside_mode, solid_hz, ABOVE_0),
-    NUMBER(rotid_beside_mode, beam_hz, ABOVE_0),
+    KEYS(rotid_beside_mode, FROM_1, mode, beam_mode),
+    KEYS(rotid_beside_mode, ABOVE_0, solid_hz, beam_hz),
     NUMBER(rotid_beside_mode, difference_percent, 0),
-    NUMBER(rotid_beside_mode, nco, CORRELATION | MAY_BE_NULL),
-    NUMBER(rotid_beside_mode, mac, CORRELATION | MAY_BE_NULL),
-    NUMBER(rotid_beside_mode, solid_mesh_error_percent, MAY_BE_NULL),
-    NUMBER(rotid_beside_mode, beam_mesh_error_percent, MAY_BE_NULL),
+    KEYS(rotid_beside_mode, CORRELATION | MAY_BE_NULL, nco, mac),
+    KEYS(rotid_beside_mode, MAY_BE_NULL, solid_mesh_error_percent, beam_mesh_error_percent),
     {0},
 };
 
 PART_TABLE(beside_modulus_record, rotid_beside_modulus) = {
     TEXT(rotid_beside_modulus, name, 0),
-    NUMBER(rotid_beside_modulus, stated_pa, ABOVE_0),
-    NUMBER(rotid_beside_modulus, found_pa, ABOVE_0),
+    KEYS(rotid_beside_modulus, ABOVE_0, stated_pa, found_pa),
     NUMBER(rotid_beside_modulus, change_percent, 0),
     {0},
 };
@@ -89,8 +82,7 @@ TABLE(spectrum_record, rotid_spectrum) = {
 };
 
 TABLE(message_record, rotid_message) = {
-    TEXT(rotid_message, file, 0),
-    TEXT(rotid_message, text, 0),
+    KEYS(rotid_message, 0, file, text),
     {0},
 };
 
@@ -102,18 +94,17 @@ TABLE(spectrum_whole_record, rotid_spectrum) = {
 };
 
 PART_TABLE(solid_mesh_record, rotid_solid_mesh) = {
-    INTEGER(rotid_solid_mesh, unknowns, FROM_1),  INTEGER(rotid_solid_mesh, half_band, FROM_1),
-    INTEGER(rotid_solid_mesh, slices, FROM_1),    NUMBER(rotid_solid_mesh, corner_m, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_solid_mesh, largest_m, ABOVE_0), {0},
+    KEYS(rotid_solid_mesh, FROM_1, unknowns, half_band, slices),
+    NUMBER(rotid_solid_mesh, corner_m, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_solid_mesh, largest_m, ABOVE_0),
+    {0},
 };
-
 TABLE(check_record, rotid_check) = {
     NUMBER(rotid_check, length_m, ABOVE_0),
     NUMBER(rotid_check, mass_kg, ABOVE_0),
     NUMBER(rotid_check, center_of_mass_m, 0),
     NUMBER(rotid_check, inertia_kg_m2, ABOVE_0),
-    INTEGER(rotid_check, nodes, FROM_1),
-    INTEGER(rotid_check, elements, FROM_1),
+    KEYS(rotid_check, FROM_1, nodes, elements),
     STRUCT(rotid_check, solid, IF_KNOWN | BEHIND_POINTER, solid_mesh_record),
     INTEGER(rotid_check, rigid_modes, FROM_0),
     NUMBERS(rotid_check, rigid_hz, FROM_0),

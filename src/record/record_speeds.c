@@ -25,16 +25,13 @@ PART_TABLE(share_record, rotid_variance_share) = {
 };
 
 PART_TABLE(speed_sensitivity_record, rotid_speed_sensitivity) = {
-    TEXT(rotid_speed_sensitivity, parameter, 0),
-    NUMBER(rotid_speed_sensitivity, speed, 0),
-    NUMBER(rotid_speed_sensitivity, log_decrement, 0),
+    KEYS(rotid_speed_sensitivity, 0, parameter, speed, log_decrement),
     NUMBER(rotid_speed_sensitivity, amplitude, MAY_BE_NULL),
     {0},
 };
 
 PART_TABLE(critical_record, rotid_critical_speed) = {
-    INTEGER(rotid_critical_speed, number, FROM_1),
-    INTEGER(rotid_critical_speed, mode, FROM_1),
+    KEYS(rotid_critical_speed, FROM_1, number, mode),
     NUMBER(rotid_critical_speed, speed_rpm, ABOVE_0),
     NUMBER(rotid_critical_speed, std, MAY_BE_NULL | FROM_0),
     RECORD_ROW(rotid_critical_speed, ci95, FIELD_NUMBER, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = 2),
@@ -59,8 +56,7 @@ PART_TABLE(campbell_mode_record, rotid_campbell_mode) = {
     INTEGER(rotid_campbell_mode, mode, FROM_1),
     NUMBER(rotid_campbell_mode, frequency_hz, ABOVE_0),
     RECORD_ROW(rotid_campbell_mode, ci95, FIELD_NUMBER, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = 2),
-    NUMBER(rotid_campbell_mode, damping_ratio, 0),
-    NUMBER(rotid_campbell_mode, log_decrement, 0),
+    KEYS(rotid_campbell_mode, 0, damping_ratio, log_decrement),
     INTERVAL(rotid_campbell_mode, log_decrement_ci95, ELEMENTS_MAY_BE_NULL),
     TEXT_OF(rotid_campbell_mode, whirl, 0, whirl_words),
     {0},
@@ -92,8 +88,7 @@ PART_TABLE(response_record, rotid_probe_response) = {
 PART_TABLE(load_record, rotid_bearing_load) = {
     TEXT(rotid_bearing_load, bearing, MAY_BE_NULL),
     NUMBER(rotid_bearing_load, position_m, FROM_0),
-    NUMBER(rotid_bearing_load, load_x_n, 0),
-    NUMBER(rotid_bearing_load, load_y_n, 0),
+    KEYS(rotid_bearing_load, 0, load_x_n, load_y_n),
     {0},
 };
 
@@ -107,16 +102,14 @@ PART_TABLE(map_record, rotid_map_row) = {
 
 PART_TABLE(excitation_record, rotid_excitation) = {
     TEXT(rotid_excitation, name, 0),
-    NUMBER(rotid_excitation, per_revolution, FROM_0),
-    NUMBER(rotid_excitation, hz, FROM_0),
+    KEYS(rotid_excitation, FROM_0, per_revolution, hz),
     {0},
 };
 
 TABLE(runup_record, rotid_runup_speed) = {
     INTEGER(rotid_runup_speed, number, FROM_1),
     TEXT_OF(rotid_runup_speed, whirl, 0, whirl_words),
-    NUMBER(rotid_runup_speed, measured_rpm, ABOVE_0),
-    NUMBER(rotid_runup_speed, measured_std, ABOVE_0),
+    KEYS(rotid_runup_speed, ABOVE_0, measured_rpm, measured_std),
     NUMBER(rotid_runup_speed, predicted_rpm, MAY_BE_NULL | ABOVE_0),
     NUMBER(rotid_runup_speed, predicted_std, MAY_BE_NULL | FROM_0),
     NUMBER(rotid_runup_speed, z, MAY_BE_NULL),
@@ -132,8 +125,7 @@ PART_TABLE(torsion_record, rotid_torsional_frequency) = {
 };
 
 TABLE(speeds_record, rotid_speeds) = {
-    NUMBER(rotid_speeds, low_rpm, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_speeds, high_rpm, MAY_BE_NULL | ABOVE_0),
+    KEYS(rotid_speeds, MAY_BE_NULL | ABOVE_0, low_rpm, high_rpm),
     NUMBER(rotid_speeds, harmonic, ABOVE_0),
     INTEGER(rotid_speeds, draws, FROM_0),
     NUMBER(rotid_speeds, basis_error, MAY_BE_NULL | FROM_0),
@@ -142,8 +134,7 @@ TABLE(speeds_record, rotid_speeds) = {
     STRUCTS(rotid_speeds, campbell, 0, campbell_record),
     STRUCTS(rotid_speeds, excitation, 0, excitation_record),
     STRUCTS(rotid_speeds, unbalance, 0, response_record),
-    NUMBER(rotid_speeds, weight_n, FROM_0),
-    NUMBER(rotid_speeds, sag_m, FROM_0),
+    KEYS(rotid_speeds, FROM_0, weight_n, sag_m),
     STRUCTS(rotid_speeds, bearing_loads, 0, load_record),
     STRUCTS(rotid_speeds, map, 0, map_record),
     STRUCTS(rotid_speeds, runup, SINCE_LATER, runup_record),

@@ -29,32 +29,41 @@ PART_TABLE(count_record, rotid_sensor_count) = {
 
 PART_TABLE(place_record, rotid_sensor_place) = {
     NUMBER(rotid_sensor_place, z_m, 0),
-    NUMBER(rotid_sensor_place, worth_percent, MAY_BE_NULL),
-    NUMBER(rotid_sensor_place, margin_percent, MAY_BE_NULL),
+    KEYS(rotid_sensor_place, MAY_BE_NULL, worth_percent, margin_percent),
     {0},
 };
 
 PART_TABLE(rival_record, rotid_rival) = {
-    TEXT(rotid_rival, label, 0),        STRUCTS(rotid_rival, causes, 0, cause_record), NUMBER(rotid_rival, chi2, FROM_0),
-    NUMBER(rotid_rival, score, FROM_0), NUMBER(rotid_rival, share, PROBABILITY),       {0},
+    TEXT(rotid_rival, label, 0),
+    STRUCTS(rotid_rival, causes, 0, cause_record),
+    KEYS(rotid_rival, FROM_0, chi2, score),
+    NUMBER(rotid_rival, share, PROBABILITY),
+    {0},
 };
 
 PART_TABLE(margin_record, rotid_expected_margin) = {
-    INTEGER(rotid_expected_margin, truth, FROM_0),      INTEGER(rotid_expected_margin, rival, FROM_0),
-    NUMBER(rotid_expected_margin, before, 0),           NUMBER(rotid_expected_margin, distance, FROM_0),
-    NUMBER(rotid_expected_margin, expected, 0),         NUMBER(rotid_expected_margin, refitted, MAY_BE_NULL),
-    NUMBER(rotid_expected_margin, chance, PROBABILITY), {0},
+    KEYS(rotid_expected_margin, FROM_0, truth, rival),
+    NUMBER(rotid_expected_margin, before, 0),
+    NUMBER(rotid_expected_margin, distance, FROM_0),
+    NUMBER(rotid_expected_margin, expected, 0),
+    NUMBER(rotid_expected_margin, refitted, MAY_BE_NULL),
+    NUMBER(rotid_expected_margin, chance, PROBABILITY),
+    {0},
 };
-
 PART_TABLE(test_record, rotid_suggested_test) = {
-    TEXT_OF(rotid_suggested_test, id, 0, tests),        TEXT(rotid_suggested_test, text, 0),
-    NUMBER(rotid_suggested_test, cost, FROM_0),         INTEGER(rotid_suggested_test, setups, FROM_0),
-    INTEGER(rotid_suggested_test, points, FROM_1),      INTEGER(rotid_suggested_test, modes, FROM_1),
-    NUMBERS(rotid_suggested_test, sensors_m, 0),        NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),     NUMBER(rotid_suggested_test, chance, PROBABILITY),
-    NUMBER(rotid_suggested_test, wrong, PROBABILITY),   NUMBER(rotid_suggested_test, entropy, FROM_0),
-    NUMBERS(rotid_suggested_test, expected_percent, 0), STRUCTS(rotid_suggested_test, margins, 0, margin_record),
-    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),     {0},
+    TEXT_OF(rotid_suggested_test, id, 0, tests),
+    TEXT(rotid_suggested_test, text, 0),
+    KEYS(rotid_suggested_test, FROM_0, cost, setups),
+    KEYS(rotid_suggested_test, FROM_1, points, modes),
+    NUMBERS(rotid_suggested_test, sensors_m, 0),
+    NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),
+    KEYS(rotid_suggested_test, PROBABILITY, chance, wrong),
+    NUMBER(rotid_suggested_test, entropy, FROM_0),
+    NUMBERS(rotid_suggested_test, expected_percent, 0),
+    STRUCTS(rotid_suggested_test, margins, 0, margin_record),
+    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),
+    {0},
 };
 
 PART_TABLE(speed_test_record, rotid_speed_test) = {
@@ -69,8 +78,7 @@ TABLE(suggestion_record, rotid_suggestion) = {
     STRUCTS(rotid_suggestion, parameters, 0, fitted_parameter_record),
     STRUCT(rotid_suggestion, noise, 0, noise_record),
     NUMBER(rotid_suggestion, wanted_percent, ABOVE_0),
-    INTEGER(rotid_suggestion, modes_needed, MAY_BE_NULL | FROM_1),
-    INTEGER(rotid_suggestion, sensors_needed, MAY_BE_NULL | FROM_1),
+    KEYS(rotid_suggestion, MAY_BE_NULL | FROM_1, modes_needed, sensors_needed),
     INTEGER(rotid_suggestion, plan_modes, FROM_1),
     STRUCTS(rotid_suggestion, modes, 0, modes_record),
     STRUCTS(rotid_suggestion, plans, 0, plan_record),
@@ -87,8 +95,7 @@ TABLE(suggestion_record, rotid_suggestion) = {
     TEXT(rotid_suggestion, sentence, 0),
     STRUCT(rotid_suggestion, geometry, BEHIND_POINTER, geometry_record),
     NUMBER(rotid_suggestion, speed_rpm, MAY_BE_NULL | ABOVE_0 | SINCE_LATER),
-    NUMBER(rotid_suggestion, speed_std, MAY_BE_NULL | FROM_0 | SINCE_LATER),
-    NUMBER(rotid_suggestion, speed_identified, MAY_BE_NULL | FROM_0 | SINCE_LATER),
+    KEYS(rotid_suggestion, MAY_BE_NULL | FROM_0 | SINCE_LATER, speed_std, speed_identified),
     STRUCTS(rotid_suggestion, speed_tests, SINCE_LATER, speed_test_record),
     {0},
 };

@@ -12,6 +12,28 @@
 #define NUMBER(S, M, BITS)    RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
 #define INTEGER(S, M, BITS)   RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
 #define FLAG(S, M, BITS)      RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
+/* Members of one description: numbers, integers and texts, as their types are; flags; structs in place. */
+#define KEYS(S, BITS, ...)      EACH(KEY_ROW, S, BITS, __VA_ARGS__)
+#define FLAGS(S, BITS, ...)     EACH(FLAG, S, BITS, __VA_ARGS__)
+#define RECORDS(S, RECORD, ...) EACH(RECORD_IN, S, RECORD, __VA_ARGS__)
+#define KEY_ROW(S, M, BITS)                                                                                                      \
+    RECORD_ROW(S, M, _Generic(((S *)0)->M, double: FIELD_NUMBER, int: FIELD_INTEGER, const char *: FIELD_TEXT), SHAPE_ONE, BITS, \
+               .fixed = 0)
+#define RECORD_IN(S, M, RECORD)    STRUCT(S, M, 0, RECORD)
+#define EACH_1(ROW, S, A, M)       ROW(S, M, A)
+#define EACH_2(ROW, S, A, M, ...)  ROW(S, M, A), EACH_1(ROW, S, A, __VA_ARGS__)
+#define EACH_3(ROW, S, A, M, ...)  ROW(S, M, A), EACH_2(ROW, S, A, __VA_ARGS__)
+#define EACH_4(ROW, S, A, M, ...)  ROW(S, M, A), EACH_3(ROW, S, A, __VA_ARGS__)
+#define EACH_5(ROW, S, A, M, ...)  ROW(S, M, A), EACH_4(ROW, S, A, __VA_ARGS__)
+#define EACH_6(ROW, S, A, M, ...)  ROW(S, M, A), EACH_5(ROW, S, A, __VA_ARGS__)
+#define EACH_7(ROW, S, A, M, ...)  ROW(S, M, A), EACH_6(ROW, S, A, __VA_ARGS__)
+#define EACH_8(ROW, S, A, M, ...)  ROW(S, M, A), EACH_7(ROW, S, A, __VA_ARGS__)
+#define EACH_9(ROW, S, A, M, ...)  ROW(S, M, A), EACH_8(ROW, S, A, __VA_ARGS__)
+#define EACH_10(ROW, S, A, M, ...) ROW(S, M, A), EACH_9(ROW, S, A, __VA_ARGS__)
+#define EACH(ROW, S, A, ...)                                                                                                     \
+    EACH_COUNT(__VA_ARGS__, EACH_10, EACH_9, EACH_8, EACH_7, EACH_6, EACH_5, EACH_4, EACH_3, EACH_2, EACH_1, )                   \
+    (ROW, S, A, __VA_ARGS__)
+#define EACH_COUNT(A, B, C, D, E, F, G, H, I, J, COUNT, ...) COUNT
 /* Of the member is_KEY, where the key is a word of C. */
 #define FLAG_IS(S, KEY, BITS)                                                                                                    \
     {                                                                                                                            \

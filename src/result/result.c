@@ -70,9 +70,7 @@ PART_TABLE(reference_record, rotid_reference) = {
 
 TABLE(provenance_record, struct result_head) = {
     INTEGER(struct result_head, schema, FROM_1),
-    TEXT(struct result_head, rotid, 0),
-    TEXT(struct result_head, commit, 0),
-    TEXT(struct result_head, blas, 0),
+    KEYS(struct result_head, 0, rotid, commit, blas),
     NUMBER(struct result_head, seed, FROM_0 | WHOLE),
     INTEGER(struct result_head, threads, FROM_1),
     TEXT(struct result_head, command, 0),
@@ -83,8 +81,7 @@ TABLE(deck_record, struct result_head) = {
     TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
     STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
-    TEXT(struct result_head, length_unit, IF_KNOWN),
-    TEXT(struct result_head, frequency_unit, IF_KNOWN),
+    KEYS(struct result_head, IF_KNOWN, length_unit, frequency_unit),
     {0},
 };
 

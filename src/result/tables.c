@@ -106,8 +106,7 @@ PART_TABLE(parameter_record, struct sensitivity_parameter) = {
 PART_TABLE(line_record, struct growth_line) = {
     COUNT_OF(struct growth_line, nepsilon_squared, struct growth, nepsilon_squared),
     NUMBERS_BY(struct growth_line, objective, GROWING, nepsilon_squared, "epsilon_squared"),
-    NUMBER(struct growth_line, slope, MAY_BE_NULL),
-    NUMBER(struct growth_line, intercept, MAY_BE_NULL),
+    KEYS(struct growth_line, MAY_BE_NULL, slope, intercept),
     {0},
 };
 
@@ -132,9 +131,7 @@ TABLE(sensitivity_record, struct sensitivity) = {
 /* ---- the line of a run of a study: rows of the result of its command */
 
 PART_TABLE(run_value_record, struct run_value) = {
-    TEXT(struct run_value, name, 0),
-    TEXT(struct run_value, unit, 0),
-    NUMBER(struct run_value, value, 0),
+    KEYS(struct run_value, 0, name, unit, value),
     {0},
 };
 
@@ -146,8 +143,7 @@ PART_TABLE(hidden_record, struct run_hidden) = {
 
 /* Lines differ in nothing but their last seconds: no times of steps and of other minimisers. */
 PART_TABLE(run_step_record, rotid_history_entry) = {
-    INTEGER(rotid_history_entry, iteration, FROM_0),
-    NUMBER(rotid_history_entry, objective, FROM_0),
+    KEYS(rotid_history_entry, FROM_0, iteration, objective),
     NUMBERS(rotid_history_entry, x, 0),
     {0},
 };
@@ -171,9 +167,7 @@ PART_TABLE(run_state_record, rotid_identified_state) = {
 PART_TABLE(fit_record, rotid_identification) = {
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
-    NUMBER(rotid_identification, objective, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_identification, chi2, MAY_BE_NULL | FROM_0),
-    NUMBER(rotid_identification, chi2_per_dof, MAY_BE_NULL | FROM_0),
+    KEYS(rotid_identification, MAY_BE_NULL | FROM_0, objective, chi2, chi2_per_dof),
     INTEGER(rotid_identification, dof, 0),
     INTEGER(rotid_identification, iterations, FROM_0),
     INTEGER(rotid_identification, evaluations, FROM_1),
@@ -211,16 +205,14 @@ PART_TABLE(speeds_record_of_run, rotid_speeds) = {
 };
 
 PART_TABLE(stamp_record, struct study_run) = {
-    TEXT(struct study_run, study, 0),
-    TEXT(struct study_run, digest, 0),
+    KEYS(struct study_run, 0, study, digest),
     {0},
 };
 
 TABLE(study_run_record, struct study_run) = {
     INTEGER(struct study_run, run, FROM_0),
     STRUCT(struct study_run, cell, 0, study_axes_record),
-    INTEGER(struct study_run, replicate, FROM_0),
-    INTEGER(struct study_run, start, FROM_0),
+    KEYS(struct study_run, FROM_0, replicate, start),
     WORD(struct study_run, status, 0, study_status_words),
     TEXT(struct study_run, error, MAY_BE_NULL),
     INTEGER(struct study_run, sensors, IF_KNOWN | FROM_0),
