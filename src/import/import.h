@@ -97,29 +97,38 @@ int values_are_same(const struct values *a, const struct values *b);
 
 struct listing_function {
     struct uff_function function;
-    struct values values;
+    struct values values;          /* min, max, rms NaN without any */
     double si_factor, x_si_factor; /* a value, an abscissa times this is in SI */
     int group;                     /* of functions that differ in their places alone, from 0 */
+    /* as it is told: type and ordinate in words, places as place_text has them; */
+    const char *kind, *ordinate, *response, *reference;
+    int is_time;
+    double count, step, rate_hz; /* NaN of an uneven abscissa; rate_hz also where it is no time */
+    int nends;                   /* numbers of the first value and of the last one, 0 without values */
+    const double *first, *last;
 };
 
 /* As in the file; node, real, imag only where the values are kept. */
 struct listing_shape {
     struct uff_shape shape;
+    const char *analysis; /* its type in words */
+    int nvalues;
     double sum[2], rms; /* of all components */
 };
 
 struct listing_set {
     struct uff_set set;
-    int is_read;    /* else it is malformed or was read over */
-    int is_faulty;  /* malformed */
-    long long size; /* nodes or values that it holds */
-    int item;       /* number of the function or the shape, from 0; -1 */
+    const char *name;  /* what it holds, NULL where that is not known */
+    const char *state; /* "read", "read_over" (known and not used), "not_known", "malformed" */
+    int is_read, is_faulty;
+    double size; /* nodes or values that it holds */
+    int item;    /* number of the function or the shape, from 0; -1 */
 };
 
 /* A doubtful place: what it is, as a word for programs, and a sentence. */
 struct listing_finding {
     const char *kind, *text;
-    int line; /* of the set it concerns, 0 for the file */
+    int line; /* of the set it concerns, ROTID_NONE for the file */
 };
 
 struct listing {

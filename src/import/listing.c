@@ -194,7 +194,7 @@ static void check_sets(struct search *search)
             add(search, "unknown_set", set->set.line, "sets %d are not known here and were read over", set->set.number);
     }
     if (!listing->units && (listing->function_count || listing->node_count))
-        add(search, "no_units", 0, "no set 164 tells the units: values are taken as they are, as if in SI");
+        add(search, "no_units", ROTID_NONE, "no set 164 tells the units: values are taken as they are, as if in SI");
     if (listing->units_line)
         add(search, "unit", listing->units_line, "a set 164 with other factors than one before");
 }
@@ -253,7 +253,7 @@ static void check_nodes(struct search *search)
                 f->reference_node);
     }
     if (!count && (listing->function_count || listing->shape_count))
-        add(search, "no_coordinates", 0, "no set 15 or 2411 tells where the nodes are");
+        add(search, "no_coordinates", ROTID_NONE, "no set 15 or 2411 tells where the nodes are");
 }
 
 /* Functions are named by their number and place. */
@@ -447,7 +447,7 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     if (status)
         return status;
     values_close(&entry.values);
-    set->size = function->count;
+    set->size = (double)function->count;
     set->item = listing->function_count;
     return POOL_ADD(job->pool, listing->function, listing->function_count, &entry) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
@@ -559,6 +559,40 @@ static void find_groups(struct listing *listing)
     }
 }
 
+static int tell(struct pool *pool, struct listing *listing)
+{
+    char place[PLACE_MOST];
+    for (int i = 0; i < listing->set_count; ++i) {
+        struct listing_set *set = &listing->set[i];
+        set->name = name_of_set(set->set.number);
+        set->state = set->is_faulty ? "malformed" : set->is_read ? "read" : set->name ? "read_over" : "not_known";
+    }
+    for (int i = 0; i < listing->function_count; ++i) {
+        struct listing_function *told = &listing->function[i];
+        const struct uff_function *f = &told->function;
+        struct values *v = &told->values;
+        told->kind = name_of_function(f->type, 0);
+        told->ordinate = name_of_ordinate(f->ordinate);
+        told->response = pool_copy_text(pool, place_text(f->response_node, f->response_direction, place));
+        told->reference = pool_copy_text(pool, place_text(f->reference_node, f->reference_direction, place));
+        told->is_time = has_time_axis(f);
+        told->count = (double)f->count;
+        told->step = f->is_even ? f->step : (double)NAN;
+        told->rate_hz = told->is_time ? 1 / (told->step * told->x_si_factor) : (double)NAN;
+        told->nends = v->count ? 2 : 0;
+        told->first = v->first;
+        told->last = v->last;
+        if (!v->count)
+            v->min = v->max = v->rms = NAN;
+    }
+    for (int i = 0; i < listing->shape_count; ++i) {
+        struct listing_shape *told = &listing->shape[i];
+        told->analysis = name_of_analysis(told->shape.analysis_type);
+        told->nvalues = told->shape.component_count * told->shape.node_count;
+    }
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
 int listing_read(struct pool *pool, const char *path, const struct listing_options *options, struct message_list *messages,
                  struct listing *listing)
 {
@@ -578,7 +612,8 @@ int listing_read(struct pool *pool, const char *path, const struct listing_optio
         return status;
     apply_units(listing);
     find_groups(listing);
-    return listing_find_doubts(pool, listing);
+    status = listing_find_doubts(pool, listing);
+    return status ? status : tell(pool, listing);
 }
 
 /* ---- the sentences a listing begins with */
@@ -628,10 +663,9 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
     const char *places = range_text(pool, count, response);
     if (!places)
         return NULL;
-    int time = has_time_axis(f);
+    int time = first->is_time;
     const char *unit = time ? "s" : f->abscissa.specific_type == 18 || !f->abscissa.specific_type ? "Hz" : f->abscissa.unit;
-    const char *rate =
-        time && f->is_even && f->step > 0 ? pool_format(pool, " at %.6g Hz", 1 / (f->step * first->x_si_factor)) : "";
+    const char *rate = time && f->step > 0 && f->is_even ? pool_format(pool, " at %.6g Hz", first->rate_hz) : "";
     const char *reference = f->reference_node && !references ? pool_format(pool, ", reference %d", f->reference_node) : "";
     const char *responses = pool_format(pool, ", response%s %s", several ? "s" : "", places);
     if (!rate || !reference || !responses)

@@ -47,6 +47,8 @@ enum field_kind {
     FIELD_INTEGER, /* int */
     FIELD_FLAG,    /* int, 0 or 1 */
     FIELD_TEXT,    /* const char *; with words: one of them */
+    FIELD_CHARS,   /* char [], a text in place, "": null; written and not read, as the next one is */
+    FIELD_NAME,    /* int, of which `name` tells the text */
     FIELD_WORD,    /* int, the index of one of the words; below 0: null */
     FIELD_RECORD,  /* a struct, in place or behind a pointer */
     FIELD_INLINE,  /* the same, its keys beside those of this struct; behind a pointer that is NULL they are left out */
@@ -88,11 +90,13 @@ struct record_field {
     enum field_kind kind;
     enum field_shape shape;
     unsigned bits;
-    size_t offset, count, columns; /* of members of the struct; FIELD_COUNT: count of one of the struct above */
+    size_t offset, count, columns; /* of members of the struct; FIELD_COUNT: count of one of the struct above; columns of a list
+                                      of FIELD_CHARS: its bytes */
     int fixed;
     const char *counted_by;      /* SHAPE_LIST: key of the list whose length this one has, NULL: its own */
     const struct record *record; /* of FIELD_RECORD and FIELD_INLINE */
     const char *const *words;    /* ends with NULL */
+    const char *(*name)(int);
 };
 
 struct record {

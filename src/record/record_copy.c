@@ -13,6 +13,8 @@ size_t record_element_size(const struct record_field *field)
         return field->record->size;
     case FIELD_MAP:
         return sizeof(rotid_component);
+    case FIELD_CHARS:
+        return field->columns;
     default:
         return sizeof(int);
     }

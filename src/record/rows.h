@@ -59,6 +59,14 @@
 /* EACH: member with the number of components of each */
 #define MAPS(S, M, BITS, EACH)                                                                                                   \
     RECORD_ROW(S, M, FIELD_MAP, SHAPE_LIST, BITS, .count = offsetof(S, n##M), .columns = offsetof(S, EACH))
+/* Of a member of another name than its key, or of a part of a member; behind the bits what the kind needs besides. */
+#define AT(KIND, S, KEY, M, ...)                                                                                                 \
+    {                                                                                                                            \
+        .key = #KEY, .kind = FIELD_##KIND, .offset = offsetof(S, M), .bits = __VA_ARGS__                                         \
+    }
+#define AT_LIST(KIND, S, KEY, M, COUNT, ...) AT(KIND, S, KEY, M, __VA_ARGS__, .shape = SHAPE_LIST, .count = offsetof(S, COUNT))
+#define AT_FIXED(KIND, S, KEY, M, N, BITS)                                                                                       \
+    AT(KIND, S, KEY, M, BITS, .shape = SHAPE_FIXED, .fixed = (N), .columns = sizeof *((S *)0)->M)
 /* Rows of the same struct in a table of their own, whose keys stand together or not at all: IF_KNOWN, told by the first one. */
 #define ROWS(BITS, RECORD)                                                                                                       \
     {                                                                                                                            \

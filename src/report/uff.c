@@ -5,115 +5,6 @@
 
 #include "report/report.h"
 
-static const char *text_or_null(const char *text)
-{
-    return *text ? text : NULL;
-}
-
-static struct listed_axis axis(const struct uff_axis *axis)
-{
-    return (struct listed_axis){axis->specific_type, text_or_null(axis->label), text_or_null(axis->unit)};
-}
-
-/* NULL: memory is out; of all below. */
-static struct listed_set *sets(struct pool *pool, const struct listing *listing)
-{
-    struct listed_set *list = POOL_ARRAY(pool, struct listed_set, listing->set_count);
-    for (int i = 0; i < listing->set_count && list; ++i) {
-        const struct listing_set *set = &listing->set[i];
-        list[i] = (struct listed_set){.line = set->set.line,
-                                      .set = set->set.number,
-                                      .binary = set->set.is_binary,
-                                      .name = name_of_set(set->set.number),
-                                      .state = set->is_faulty                 ? "malformed"
-                                               : set->is_read                 ? "read"
-                                               : name_of_set(set->set.number) ? "read_over"
-                                                                              : "not_known",
-                                      .count = (double)set->size};
-    }
-    return list;
-}
-
-static struct listed_function *functions(struct pool *pool, const struct listing *listing)
-{
-    struct listed_function *list = POOL_ARRAY(pool, struct listed_function, listing->function_count);
-    for (int i = 0; i < listing->function_count && list; ++i) {
-        const struct uff_function *f = &listing->function[i].function;
-        const struct values *v = &listing->function[i].values;
-        int timed = has_time_axis(f);
-        char place[2][PLACE_MOST];
-        list[i] = (struct listed_function){
-            .line = f->line,
-            .type = f->type,
-            .kind = name_of_function(f->type, 0),
-            .response = pool_copy_text(pool, place_text(f->response_node, f->response_direction, place[0])),
-            .reference = pool_copy_text(pool, place_text(f->reference_node, f->reference_direction, place[1])),
-            .response_node = f->response_node,
-            .response_direction = f->response_direction,
-            .reference_node = f->reference_node,
-            .reference_direction = f->reference_direction,
-            .ordinate = f->ordinate,
-            .ordinate_name = name_of_ordinate(f->ordinate),
-            .binary = f->binary.is_binary,
-            .count = (double)f->count,
-            .even = f->is_even,
-            .start = v->x_first,
-            .step = f->is_even ? f->step : NAN,
-            .end = v->x_last,
-            .time = timed,
-            .sampling_rate_hz = timed && f->is_even ? 1 / (f->step * listing->function[i].x_si_factor) : NAN,
-            .abscissa = axis(&f->abscissa),
-            .numerator = axis(&f->numerator),
-            .denominator = axis(&f->denominator),
-            .si_factor = listing->function[i].si_factor,
-            .abscissa_si_factor = listing->function[i].x_si_factor,
-            .min = v->count ? v->min : NAN,
-            .max = v->count ? v->max : NAN,
-            .rms = v->count ? v->rms : NAN,
-            .nfirst = v->count ? 2 : 0,
-            .nlast = v->count ? 2 : 0,
-            .first = v->first,
-            .last = v->last,
-            .sum = {v->sum[0], v->sum[1]},
-        };
-        for (int k = 0; k < LISTED_ID_LINES; ++k)
-            list[i].id[k] = text_or_null(f->id[k]);
-        if (!list[i].response || !list[i].reference)
-            return NULL;
-    }
-    return list;
-}
-
-static struct listed_shape *shapes(struct pool *pool, const struct listing *listing)
-{
-    struct listed_shape *list = POOL_ARRAY(pool, struct listed_shape, listing->shape_count);
-    for (int i = 0; i < listing->shape_count && list; ++i) {
-        const struct listing_shape *entry = &listing->shape[i];
-        const struct uff_shape *s = &entry->shape;
-        int values = s->component_count * s->node_count;
-        list[i] = (struct listed_shape){.line = s->line,
-                                        .analysis_type = s->analysis_type,
-                                        .analysis = name_of_analysis(s->analysis_type),
-                                        .mode = s->number,
-                                        .frequency_hz = s->frequency_hz,
-                                        .damping = s->damping,
-                                        .is_complex = s->is_complex,
-                                        .components = s->component_count,
-                                        .node_count = s->node_count,
-                                        .sum = {entry->sum[0], entry->sum[1]},
-                                        .rms = entry->rms,
-                                        .nnodes = s->node_count,
-                                        .nodes = s->node,
-                                        .nreal = values,
-                                        .real = s->real,
-                                        .nimag = s->imag ? values : 0,
-                                        .imag = s->imag};
-        for (int k = 0; k < LISTED_ID_LINES; ++k)
-            list[i].id[k] = text_or_null(s->id[k]);
-    }
-    return list;
-}
-
 /* 0: memory is out. */
 static int add_nodes(struct pool *pool, const struct listing *listing, int all, struct listed_nodes *out)
 {
@@ -139,46 +30,14 @@ static int add_nodes(struct pool *pool, const struct listing *listing, int all, 
     return 1;
 }
 
-static int add_doubts(struct pool *pool, const struct listing *listing, struct uff_result *out)
-{
-    out->doubtful = POOL_ARRAY(pool, struct listed_doubt, listing->finding_count);
-    for (int i = 0; i < listing->finding_count && out->doubtful; ++i) {
-        const struct listing_finding *doubt = &listing->doubt[i];
-        out->doubtful[out->ndoubtful++] =
-            (struct listed_doubt){doubt->kind, doubt->line > 0 ? doubt->line : ROTID_NONE, doubt->text};
-    }
-    return out->doubtful != NULL;
-}
-
 /* What stopped the reader in malformed sets, with its place. */
 static int add_errors(struct pool *pool, const struct message_list *messages, struct uff_result *out)
 {
-    out->errors = POOL_ARRAY(pool, struct listed_error, messages->count);
-    for (size_t i = 0; i < messages->count && out->errors; ++i) {
-        const rotid_message *message = &messages->item[i];
-        if (message->severity == SEVERITY_ERROR)
-            out->errors[out->nerrors++] = (struct listed_error){message->line, message->column, message->text};
-    }
+    out->errors = POOL_ARRAY(pool, rotid_message, messages->count);
+    for (size_t i = 0; i < messages->count && out->errors; ++i)
+        if (messages->item[i].severity == SEVERITY_ERROR)
+            out->errors[out->nerrors++] = messages->item[i];
     return out->errors != NULL;
-}
-
-static struct listed_header *header(struct pool *pool, const struct uff_header *h)
-{
-    struct listed_header *out = POOL_NEW(pool, struct listed_header);
-    if (out)
-        *out = (struct listed_header){text_or_null(h->model),   text_or_null(h->description), text_or_null(h->program),
-                                      text_or_null(h->created), text_or_null(h->saved),       text_or_null(h->written_by),
-                                      text_or_null(h->written)};
-    return out;
-}
-
-static struct listed_units *units(struct pool *pool, const struct uff_units *u)
-{
-    struct listed_units *out = POOL_NEW(pool, struct listed_units);
-    if (out)
-        *out = (struct listed_units){u->code,  name_of_units(u->code), text_or_null(u->description), u->length,
-                                     u->force, u->temperature,         u->temperature_offset};
-    return out;
 }
 
 const struct uff_result *uff_result_of(struct pool *pool, const char *path, const struct listing *listing, int summary_count,
@@ -187,22 +46,8 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
     struct uff_result *out = POOL_NEW(pool, struct uff_result);
     if (!out)
         return NULL;
-    *out = (struct uff_result){.file = path,
-                               .nsummary = summary_count,
-                               .summary = summary,
-                               .nsets = listing->set_count,
-                               .nfunctions = listing->function_count,
-                               .nshapes = listing->shape_count,
-                               .header = listing->header ? header(pool, listing->header) : NULL,
-                               .units = listing->units ? units(pool, listing->units) : NULL,
-                               .sets = sets(pool, listing),
-                               .functions = functions(pool, listing),
-                               .shapes = shapes(pool, listing)};
-    int whole =
-        (out->header || !listing->header) && (out->units || !listing->units) && out->sets && out->functions && out->shapes;
-    whole =
-        whole && add_nodes(pool, listing, all, &out->nodes) && add_doubts(pool, listing, out) && add_errors(pool, messages, out);
-    return whole ? out : NULL;
+    *out = (struct uff_result){.file = path, .nsummary = summary_count, .summary = summary, .listing = listing};
+    return add_nodes(pool, listing, all, &out->nodes) && add_errors(pool, messages, out) ? out : NULL;
 }
 
 /* ---- modes of a universal file as tables */
@@ -471,35 +316,31 @@ static const char *clean(struct pool *pool, const char *text)
 /* "1:+X ... 19:+X / 1:+X": response and reference. */
 static const char *places_of(struct pool *pool, const struct listing_function *f, const struct listing_function *g)
 {
-    char response[PLACE_MOST], last[PLACE_MOST], reference[PLACE_MOST];
-    (void)place_text(f->function.response_node, f->function.response_direction, response);
-    (void)place_text(g->function.response_node, g->function.response_direction, last);
-    (void)place_text(f->function.reference_node, f->function.reference_direction, reference);
-    return pool_text(pool, "%s%s%s%s%s", response, f == g ? "" : " ... ", f == g ? "" : last,
-                     f->function.reference_node ? " / " : "", f->function.reference_node ? reference : "");
+    return pool_text(pool, "%s%s%s%s%s", f->response, f == g ? "" : " ... ", f == g ? "" : g->response,
+                     f->function.reference_node ? " / " : "", f->function.reference_node ? f->reference : "");
 }
 
 /* "complex double, m/s/N, times 0.001 in SI" */
 static const char *values_of(struct pool *pool, const struct listing_function *f)
 {
     const char *above = f->function.numerator.unit, *below = f->function.denominator.unit;
-    return pool_text(pool, "%s%s%s%s%s%s%s%s%s", name_of_ordinate(f->function.ordinate),
-                     f->function.binary.is_binary ? ", binary" : "", *above || *below ? ", " : "", clean(pool, above),
-                     *below ? "/" : "", clean(pool, below), f->si_factor != 1 ? ", times " : "",
-                     f->si_factor != 1 ? IN_DIGITS(6, f->si_factor) : "", f->si_factor != 1 ? " in SI" : "");
+    return pool_text(pool, "%s%s%s%s%s%s%s%s%s", f->ordinate, f->function.binary.is_binary ? ", binary" : "",
+                     *above || *below ? ", " : "", clean(pool, above), *below ? "/" : "", clean(pool, below),
+                     f->si_factor != 1 ? ", times " : "", f->si_factor != 1 ? IN_DIGITS(6, f->si_factor) : "",
+                     f->si_factor != 1 ? " in SI" : "");
 }
 
 /* What the sets of a row hold that are no functions. */
 static const char *contents_of(struct pool *pool, const struct listing *listing, struct row row)
 {
     const struct listing_set *set = &listing->set[row.first];
-    long long size = 0;
+    double size = 0;
     for (int i = row.first; i <= row.last; ++i)
         size += listing->set[i].size;
     if (set->set.number == 55 && set->item >= 0) {
         const struct uff_shape *first = &listing->shape[set->item].shape;
         const struct uff_shape *last = &listing->shape[listing->set[row.last].item].shape;
-        const char *what = pool_text(pool, "%s, %d points, %s, %s", name_of_analysis(first->analysis_type), first->node_count,
+        const char *what = pool_text(pool, "%s, %d points, %s, %s", listing->shape[set->item].analysis, first->node_count,
                                      first->is_complex ? "complex" : "real", IN_DIGITS(6, first->frequency_hz));
         if (row.first == row.last)
             return pool_text(pool, "%s Hz, damping %s", what, IN_DIGITS(4, first->damping));
@@ -510,8 +351,8 @@ static const char *contents_of(struct pool *pool, const struct listing *listing,
     if (set->set.number == 151 && listing->header)
         return clean(pool, listing->header->model);
     if (set->is_read)
-        return pool_text(pool, "%lld in all", size);
-    return name_of_set(set->set.number) && !set->is_faulty ? "read over" : "";
+        return pool_text(pool, "%.0f in all", size);
+    return set->name && !set->is_faulty ? "read over" : "";
 }
 
 static struct table *table_of_sets(struct pool *pool, const struct listing *listing, int all)
@@ -522,7 +363,7 @@ static struct table *table_of_sets(struct pool *pool, const struct listing *list
         row = take_row(listing, next, all);
         const struct listing_set *set = &listing->set[row.first];
         const struct listing_function *f = function_of(listing, row.first), *g = function_of(listing, row.last);
-        const char *name = f ? name_of_function(f->function.type, row.last > row.first) : name_of_set(set->set.number);
+        const char *name = f ? name_of_function(f->function.type, row.last > row.first) : set->name;
         double min = INFINITY, max = -INFINITY, rms = 0;
         for (int i = row.first; i <= row.last && f; ++i) {
             const struct values *v = &function_of(listing, i)->values;
@@ -536,9 +377,9 @@ static struct table *table_of_sets(struct pool *pool, const struct listing *list
         number_column(table, "count", NULL, SHOW_COUNT, row.last - row.first + 1);
         text_column(table, "what", SHOW_TEXT, set->is_faulty ? "MALFORMED" : name ? name : "not known");
         text_column(table, "response / reference", SHOW_TEXT, f ? places_of(pool, f, g) : "");
-        number_column(table, "values", NULL, SHOW_COUNT, f ? (double)f->function.count : NAN);
+        number_column(table, "values", NULL, SHOW_COUNT, f ? f->count : NAN);
         number_column(table, "from", NULL, SHOW_DIGITS(6), f ? f->values.x_first * f->x_si_factor : NAN);
-        number_column(table, "step", NULL, SHOW_DIGITS(6), f && f->function.is_even ? f->function.step * f->x_si_factor : NAN);
+        number_column(table, "step", NULL, SHOW_DIGITS(6), f ? f->step * f->x_si_factor : NAN);
         number_column(table, "min", NULL, SHOW_DIGITS(4), f ? min : NAN);
         number_column(table, "max", NULL, SHOW_DIGITS(4), f ? max : NAN);
         number_column(table, "rms", NULL, SHOW_DIGITS(4), f ? rms : NAN);
@@ -568,7 +409,7 @@ void screen_uff(const struct screen *to, const char *path, const struct listing 
     for (int i = 0; i < listing->finding_count; ++i) {
         const struct listing_finding *doubt = &listing->doubt[i];
         char head[32] = "  ";
-        if (doubt->line)
+        if (doubt->line != ROTID_NONE)
             (void)snprintf(head, sizeof head, "  line %d: ", doubt->line);
         wrap_text(out, 4, WIDTH, head, doubt->text);
     }

@@ -172,6 +172,12 @@ static void write_value(struct json_writer *to, const char *key, const struct re
     case FIELD_TEXT:
         write_text(to, key, *(const char *const *)value);
         break;
+    case FIELD_CHARS:
+        write_text(to, key, *(const char *)value ? value : NULL);
+        break;
+    case FIELD_NAME:
+        write_text(to, key, field->name(*integer));
+        break;
     case FIELD_WORD:
         write_text(to, key, *integer < 0 ? NULL : field->words[*integer]);
         break;

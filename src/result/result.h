@@ -40,7 +40,6 @@ int cause_place(const rotid_geometry *geometry, const rotid_cause *cause, struct
 
 enum { STUDY_CONVERGED, STUDY_AT_BOUND, STUDY_NOT_CONVERGED, STUDY_FAILED };
 enum { STUDY_VERDICTS = 4, STUDY_SCORES = 8 };
-#define LISTED_ID_LINES 5
 
 /* Words of their JSON; NULL behind the last. Of enum ema_method, of the bits of enum ema_quality_flag and enum
  * ema_channel_quality_flag; of enum export_format; of the enum above, and of enum score; of enum frf_quantity, twice, and enum
@@ -59,6 +58,8 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define PART(KIND, S, M, B, T) MEMBER_##KIND(M, T)
 #define TOGETHER(B, R)
 #define ROW(...)
+#define OF(S, T) extern const struct record S##_record;
+#define DONE
 #define MEMBER(TYPE, M)           TYPE M;
 #define MEMBER_NUMBER(M, B)       double M;
 #define MEMBER_INTEGER(M, B)      int M;
@@ -70,7 +71,6 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define MEMBER_COUNTS(M, B, W, N) int M[N];
 #define MEMBER_INTERVAL(M, B)     double M[2];
 #define MEMBER_NUMBER_3(M)        double M[3];
-#define MEMBER_ID(M)              const char *M[LISTED_ID_LINES];
 #define MEMBER_LIST(TYPE, M)                                                                                                     \
     int n##M;                                                                                                                    \
     TYPE M;
@@ -93,6 +93,8 @@ struct record;
 #undef PART
 #undef TOGETHER
 #undef ROW
+#undef OF
+#undef DONE
 #undef MEMBER
 
 /* ------------------------------------------------------------------------------------------------------------------ head */

@@ -1,4 +1,5 @@
 /* The tables of the results that only the program has: those of results.def, those of src/run, the line of a run of a study. */
+#include "import/import.h"
 #include "record/rows.h"
 #include "result/result.h"
 #include "run/run.h"
@@ -57,13 +58,6 @@ PART_TABLE(listed_nodes_every_node_record, struct listed_nodes) = {
     {0},
 };
 
-PART_TABLE(listed_shape_every_value_record, struct listed_shape) = {
-    INTEGERS(struct listed_shape, nodes, 0),
-    NUMBERS(struct listed_shape, real, 0),
-    NUMBERS(struct listed_shape, imag, 0),
-    {0},
-};
-
 /* ---- results.def */
 
 #define BEGIN(S) TABLE(S##_record, struct S) = {
@@ -73,13 +67,17 @@ PART_TABLE(listed_shape_every_value_record, struct listed_shape) = {
     }                                                                                                                            \
     }                                                                                                                            \
     ;
+#define OF(S, T)                                                                                                                 \
+    extern const struct record_field S##_rows[];                                                                                 \
+    const struct record S##_record = {.name = "struct " #S, .size = sizeof(T), .field = S##_rows};                               \
+    const struct record_field S##_rows[] = {
+#define DONE                      END()
 #define KEY(KIND, S, ...)         KIND(struct S, __VA_ARGS__),
 #define PART(KIND, S, M, BITS, T) KIND(struct S, M, BITS, T##_record),
 #define TOGETHER(BITS, R)         ROWS(BITS, R),
 #define MEMBER(TYPE, M)
 #define ROW(...)                 __VA_ARGS__,
 #define NUMBER_3(S, M)           RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, 0, .fixed = 3)
-#define ID(S, M)                 RECORD_ROW(S, M, FIELD_TEXT, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = LISTED_ID_LINES)
 #define STRUCT_IN(S, M, BITS, R) STRUCT(S, M, BITS, R)
 #define STRUCT_AT(S, M, BITS, R) STRUCT(S, M, (BITS) | BEHIND_POINTER, R)
 #define INLINE_IN(S, M, BITS, R) INLINE(S, M, BITS, R)

@@ -118,19 +118,21 @@ static int add_above(struct comments *comments, const char *header, const char *
     return add(comments, structure, NULL, clean(comments->pool, open + 2, line - 3));
 }
 
-/* Of src/result/results.def: BEGIN(struct), then a line a member, KEY(kind, struct, member, ...), PART alike or MEMBER(type,
- * member), each with its comment behind. */
+/* Of src/result/results.def: BEGIN(struct) or OF(struct, ...), then a line a member, KEY(kind, struct, member, ...), PART and AT
+ * alike or MEMBER(type, member), each with its comment behind. */
 static int add_described(struct comments *comments, const char *text)
 {
     char structure[NAME_MOST] = "", member[NAME_MOST];
     int status = ROTID_OK;
     for (const char *line = text, *after; *line && !status; line += strcspn(line, "\n"), line += *line == '\n') {
-        if (sscanf(line, "BEGIN(%127[a-z_0-9])", structure) == 1) {
+        if (sscanf(line, "BEGIN(%127[a-z_0-9])", structure) == 1 || sscanf(line, "OF(%127[a-z_0-9]", structure) == 1) {
             status = add_above(comments, text, line, structure);
             continue;
         }
         int found = sscanf(line, "KEY(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
                     sscanf(line, "PART(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "ROW(AT%*[A-Z_](%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "ROW(AT(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
                     sscanf(line, "MEMBER(%*[^,], %127[a-z_0-9]", member) == 1;
         const char *comment = found ? strstr(line, "/*") : NULL, *end = line + strcspn(line, "\n");
         while (*end && end[1] == ' ') /* a line that goes on */

@@ -77,8 +77,9 @@ static void put_counts(FILE *out, const struct record_field *field, int null)
 /* What one value is; null: it may be that. */
 static void put_value(struct schema *schema, const struct record_field *field, int null)
 {
-    static const char *const types[] = {[FIELD_NUMBER] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
-                                        [FIELD_TEXT] = "string",   [FIELD_WORD] = "string",     [FIELD_MAP] = "object"};
+    static const char *const types[] = {
+        [FIELD_NUMBER] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean", [FIELD_TEXT] = "string",
+        [FIELD_CHARS] = "string",  [FIELD_NAME] = "string",     [FIELD_WORD] = "string",  [FIELD_MAP] = "object"};
     const char *type = field->bits & WHOLE ? "integer" : field->kind <= FIELD_MAP ? types[field->kind] : "";
     FILE *out = schema->out;
     if (field->kind == FIELD_RECORD) {
