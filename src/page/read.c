@@ -15,18 +15,17 @@ static void read_lines(const struct json_place *lines, struct result *result)
         place_wrong(lines, "has a value a line and is no file of results, expected one of rotid study, or one result");
         return;
     }
-    result->head = (struct result_head){.schema = RESULT_SCHEMA,
-                                        .command = "study",
-                                        .rotid = place_string(&head, "rotid"),
-                                        .commit = place_string(&head, "commit"),
-                                        .seed = place_number(&head, "seed"),
-                                        .blas = ""};
-    if (reader->status)
-        return;
     int status = study ? summary_read(reader->pool, reader->file, reader->messages, &header, NULL, study) : ROTID_ERROR_MEMORY;
-    result->study = study;
     if (status)
         reader->status = status == ROTID_ERROR_MEMORY ? status : ROTID_ERROR_SYNTAX;
+    else
+        result->head = (struct result_head){.schema = RESULT_SCHEMA,
+                                            .command = "study",
+                                            .rotid = header.rotid,
+                                            .commit = header.commit,
+                                            .seed = header.seed,
+                                            .blas = ""};
+    result->study = study;
 }
 
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result)

@@ -107,21 +107,9 @@ static int look_up(const struct json_place *above, const char *key, enum place_k
     return 0;
 }
 
-/* As place_need, but a missing key or null is nothing wrong. */
-static int place_find(const struct json_place *above, const char *key, enum place_kind kind, struct json_place *at)
-{
-    return look_up(above, key, kind, 0, at);
-}
-
 int place_need(const struct json_place *above, const char *key, enum place_kind kind, struct json_place *at)
 {
     return look_up(above, key, kind, 1, at);
-}
-
-double place_number(const struct json_place *above, const char *key)
-{
-    struct json_place at;
-    return place_need(above, key, PLACE_NUMBER, &at) ? at.json->valuedouble : (double)NAN;
 }
 
 static const char *keep(const struct json_place *at)
@@ -169,53 +157,7 @@ static int place_count(const struct json_place *list)
     return list->json ? cJSON_GetArraySize(list->json) : 0;
 }
 
-/* The numbers of a list, `stride` apart: their count. */
-static int copy_numbers(const struct json_place *list, double *value, int stride)
-{
-    struct json_place item = {.reader = list->reader, .above = list};
-    for (item.json = list->json->child; item.json; item.json = item.json->next, item.index++)
-        value[(ptrdiff_t)item.index * stride] = place_is(&item, PLACE_NUMBER) ? item.json->valuedouble : (double)NAN;
-    return item.index;
-}
-
-/* Rows of the same length as a column-major matrix (pool): 1, or 0 where it is not there or empty. expected: the rows and columns
- * there have to be, NULL: any number. */
-static int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,
-                        double **value)
-{
-    struct json_place list;
-    *rows = *columns = 0;
-    *value = NULL;
-    if (!look_up(above, key, PLACE_LIST, need, &list))
-        return 0;
-    int m = place_count(&list), n = m ? cJSON_GetArraySize(list.json->child) : 0;
-    if (expected && (m != expected[0] || (m && n != expected[1]))) {
-        place_wrong(&list, "has %d rows of %d values, expected %d of %d", m, n, expected[0], expected[1]);
-        return 0;
-    }
-    if (!m || !n)
-        return 0;
-    double *a = POOL_ARRAY(above->reader->pool, double, (size_t)m *(size_t)n);
-    if (!a) {
-        above->reader->status = ROTID_ERROR_MEMORY;
-        return 0;
-    }
-    for (struct json_place row = place_first(&list, PLACE_LIST); row.json; row = place_next(&row, PLACE_LIST)) {
-        if (place_count(&row) != n) {
-            place_wrong(&row, "has %d values, expected %d as in the first row", place_count(&row), n);
-            return 0;
-        }
-        (void)copy_numbers(&row, a + row.index, m);
-    }
-    *rows = m;
-    *columns = n;
-    *value = a;
-    return 1;
-}
-
 /* ---- the rows of a table */
-
-#define WORDS_MOST 512
 
 static void *member(void *to, size_t offset)
 {
@@ -264,34 +206,22 @@ static void read_integer(const struct json_place *at, const struct record_field 
 }
 
 /* "a, b or c" */
-static const char *list_words(const char *const *word, char text[WORDS_MOST])
+static const char *list_words(struct pool *pool, const char *const *word)
 {
-    size_t used = 0;
-    for (int i = 0; word[i] && used < WORDS_MOST; i++)
-        used += (size_t)snprintf(text + used, WORDS_MOST - used, "%s%s", !i ? "" : word[i + 1] ? ", " : " or ", word[i]);
+    const char *text = "";
+    for (int i = 0; word[i]; i++)
+        text = pool_text(pool, "%s%s%s", text, !i ? "" : word[i + 1] ? ", " : " or ", word[i]);
     return text;
 }
 
 /* The index of the text among the words, -1 with a mistake told where it is none. */
 static int read_word(const struct json_place *at, const char *const *word)
 {
-    char text[WORDS_MOST];
     for (int i = 0; word[i]; i++)
         if (!strcmp(word[i], at->json->valuestring))
             return i;
-    place_wrong(at, "is '%s', expected %s", at->json->valuestring, list_words(word, text));
+    place_wrong(at, "is '%s', expected %s", at->json->valuestring, list_words(at->reader->pool, word));
     return -1;
-}
-
-static void read_text(const struct json_place *at, const struct record_field *field, const char **to)
-{
-    const char *text = pool_copy_text(at->reader->pool, at->json->valuestring);
-    if (!text)
-        at->reader->status = ROTID_ERROR_MEMORY;
-    else
-        *to = text;
-    if (field->words)
-        (void)read_word(at, field->words);
 }
 
 static enum place_kind kind_of_field(const struct record_field *field)
@@ -369,7 +299,9 @@ static void read_value(const struct json_place *at, const struct record_field *f
         *(int *)to = cJSON_IsTrue(at->json);
         break;
     case FIELD_TEXT:
-        read_text(at, field, to);
+        *(const char **)to = keep(at);
+        if (field->words)
+            (void)read_word(at, field->words);
         break;
     case FIELD_COUNTS:
         read_counts(at, field, to);
@@ -386,9 +318,8 @@ static void read_value(const struct json_place *at, const struct record_field *f
 static int find_field(const struct json_place *above, const struct record_field *field, enum place_kind kind,
                       struct json_place *at)
 {
-    if (field->bits & (IF_KNOWN | SINCE_LATER) || (field->bits & MAY_BE_NULL && place_has(above, field->key)))
-        return place_find(above, field->key, kind, at);
-    return place_need(above, field->key, kind, at);
+    int may_lack = field->bits & (IF_KNOWN | SINCE_LATER) || (field->bits & MAY_BE_NULL && place_has(above, field->key));
+    return look_up(above, field->key, kind, !may_lack, at);
 }
 
 /* A value of another kind is told, and becomes an unknown one. */
@@ -492,16 +423,34 @@ static void read_maps(const struct json_place *above, const struct record_field 
     *count = length;
 }
 
+/* Rows of the same length as a column-major matrix. Of a square one the size stands before it. */
 static void read_matrix(const struct json_place *above, const struct record_field *field, void *record)
 {
-    int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
-    int is_square = rows == columns, known = is_square || size[0] || size[1]; /* of a square one the size stands before it */
+    int *rows = member(record, field->count), *columns = member(record, field->columns);
+    int known = rows == columns || *rows || *columns;
     struct json_place list;
-    if (find_field(above, field, PLACE_LIST, &list) &&
-        place_matrix(above, field->key, 0, known ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
-        *rows = found[0];
-        *columns = found[1];
+    if (!find_field(above, field, PLACE_LIST, &list))
+        return;
+    int m = place_count(&list), n = m ? cJSON_GetArraySize(list.json->child) : 0;
+    if (known && (m != *rows || (m && n != *columns))) {
+        place_wrong(&list, "has %d rows of %d values, expected %d of %d", m, n, *rows, *columns);
+        return;
     }
+    double *a = m && n ? room_for(above, (size_t)m * (size_t)n, sizeof *a) : NULL;
+    if (!a)
+        return;
+    for (struct json_place row = place_first(&list, PLACE_LIST); row.json; row = place_next(&row, PLACE_LIST)) {
+        if (place_count(&row) != n) {
+            place_wrong(&row, "has %d values, expected %d as in the first row", place_count(&row), n);
+            return;
+        }
+        struct json_place item = {.reader = list.reader, .above = &row, .json = row.json->child};
+        for (; item.json; item.json = item.json->next, item.index++)
+            a[row.index + (ptrdiff_t)item.index * m] = place_is(&item, PLACE_NUMBER) ? item.json->valuedouble : (double)NAN;
+    }
+    *rows = m;
+    *columns = n;
+    *(double **)member(record, field->offset) = a;
 }
 
 static void read_one(const struct json_place *above, const struct record_field *field, void *record)

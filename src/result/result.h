@@ -218,8 +218,7 @@ int place_has(const struct json_place *above, const char *key);
  * kind, which is told. Of an object that is not there nothing is there. */
 int place_need(const struct json_place *above, const char *key, enum place_kind kind, struct json_place *at);
 
-/* A key that has to be there. null is NaN of a number, "" of a text, 0 of a flag. Texts are copies in the pool. */
-double place_number(const struct json_place *above, const char *key);
+/* A text that has to be there, a copy in the pool; null is "". */
 const char *place_string(const struct json_place *above, const char *key);
 
 /* The first element of a list that is of the kind. Elements of another kind are wrong and passed over; null counts as one. */

@@ -143,7 +143,7 @@ static void add_value(struct sums *s, struct cell_sums *cell, const rotid_fitted
     if (i == cell->nparameter) {
         const struct parameter_sums none = {
             .name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY};
-        if (POOL_ADD(s->pool, cell->parameter, cell->nparameter, &none) || s->pool->out_of_memory)
+        if (s->pool->out_of_memory || POOL_ADD(s->pool, cell->parameter, cell->nparameter, &none)) /* without a name it is none */
             return;
     }
     struct parameter_sums *p = &cell->parameter[i];
