@@ -14,10 +14,8 @@ static void section_agreement(struct document *document, const struct result *re
     document_figures(document, "agreement");
     document_figures(document, "matrices");
     document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
-    if (result->identify->nweighed)
-        document_table(document, table_of_weighed(document->pool, result->identify->nweighed, result->identify->weighed));
-    if (result->identify->nrunup)
-        document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
+    document_table(document, table_of_weighed(document->pool, result->identify->nweighed, result->identify->weighed));
+    document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
 }
 
 static void section_identify(struct document *document, const struct result *result)
@@ -123,14 +121,10 @@ static void section_speeds(struct document *document, const struct result *resul
     document_figures(document, "speeds");
     document_table(document, table_of_critical_speeds(pool, s));
     document_table(document, table_of_stability(pool, s));
-    if (s->nrunup)
-        document_table(document, table_of_runup(pool, s->nrunup, s->runup));
-    if (s->ntorsion)
-        document_table(document, table_of_torsion(pool, s));
-    if (s->ncritical_speeds && s->critical_speeds[0].nvariance_shares)
-        document_table(document, table_of_shares(pool, s));
-    if (s->ncritical_speeds && s->critical_speeds[0].nsensitivities)
-        document_table(document, table_of_sensitivities(pool, s));
+    document_table(document, table_of_runup(pool, s->nrunup, s->runup));
+    document_table(document, table_of_torsion(pool, s));
+    document_table(document, table_of_shares(pool, s));
+    document_table(document, table_of_sensitivities(pool, s));
 }
 
 /* ---- modal analysis */

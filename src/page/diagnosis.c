@@ -302,10 +302,8 @@ static void section_parameters(struct document *document, const rotid_diagnosis 
         return;
     document_section(document, "verdict-parameters", "Parameters of the verdict", "correlation");
     document_table(document, table_of_verdict_values(document->pool, d, 1));
-    if (fit->nweighed)
-        document_table(document, table_of_weighed(document->pool, fit->nweighed, fit->weighed));
-    if (fit->nrunup)
-        document_table(document, table_of_runup(document->pool, fit->nrunup, fit->runup));
+    document_table(document, table_of_weighed(document->pool, fit->nweighed, fit->weighed));
+    document_table(document, table_of_runup(document->pool, fit->nrunup, fit->runup));
     if (d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after)
         section_hidden(document, fit, d->nhidden, d->hidden);
 }
@@ -407,8 +405,7 @@ static void section_findings(struct document *document, const rotid_diagnosis *d
             number_column(table, "mode", NULL, SHOW_COUNT, finding->modes[k]);
             number_column(table, "error of the frequency", "%", SHOW_SIGNED(3), finding->error_percent[k]);
         }
-        if (finding->nmodes)
-            document_table(document, table);
+        document_table(document, table);
     }
 }
 

@@ -64,23 +64,6 @@ static void take_references(struct pool *pool, struct result_head *head, int fir
     head->references = reference;
 }
 
-static rotid_identification *identification_of_state(struct pool *pool, const rotid_identification *fit, int s, int first)
-{
-    rotid_identification *own = POOL_NEW(pool, rotid_identification);
-    rotid_minimiser *baseline = POOL_ARRAY(pool, rotid_minimiser, fit->nbaseline);
-    if (!own || !baseline)
-        return NULL;
-    *own = fit_of_state(fit, s);
-    for (int b = 0; b < fit->nbaseline; b++) {
-        baseline[b] = fit->baseline[b];
-        baseline[b].npredicted_hz = baseline[b].predicted_hz ? own->nmodes : 0;
-        baseline[b].predicted_hz = baseline[b].predicted_hz ? baseline[b].predicted_hz + first : NULL;
-    }
-    own->nbaseline = fit->nbaseline;
-    own->baseline = baseline;
-    return own;
-}
-
 struct result page_result_of_state(struct pool *pool, const struct result *result, int s)
 {
     struct result own = *result;
@@ -92,6 +75,7 @@ struct result page_result_of_state(struct pool *pool, const struct result *resul
     own.nstates = 0;
     own.states = NULL;
     take_references(pool, &own.head, first);
-    own.identify = identification_of_state(pool, result->identify, s, first);
+    if ((own.identify = POOL_NEW(pool, rotid_identification)))
+        *own.identify = fit_of_state(pool, result->identify, s);
     return own;
 }

@@ -517,20 +517,12 @@ static void print_parameters(const struct screen *to, const rotid_diagnosis *d)
     print_bare(to, table_of_verdict_values(to->pool, d, to->verbose));
 }
 
-static void print_heading(const struct screen *to, const struct result_head *head)
-{
-    for (int i = 0; i < head->nheading; i++)
-        wrap_text(to->out, 0, to->width, "", head->heading[i]);
-    if (!head->nheading)
-        wrap_text(to->out, 0, to->width, "", head->deck);
-}
-
 static void print_verdict(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
     const rotid_noise *noise = &d->noise;
     struct wrap wrap;
-    (void)fprintf(to->out, "\nVERDICT  ");
+    (void)fputs("VERDICT  ", to->out);
     for (const char *c = v->sentence ? rotid_verdict_name(v->kind) : "none"; *c; c++)
         (void)fputc(toupper((unsigned char)*c), to->out);
     (void)fputc('\n', to->out);
@@ -727,15 +719,15 @@ static void print_detection_limits(const struct screen *to, const rotid_diagnosi
 void screen_diagnose(const struct screen *to, const struct result *result)
 {
     const rotid_diagnosis *d = result->diagnose;
-    print_heading(to, &result->head);
+    screen_heading(to, &result->head);
     print_verdict(to, d);
     print_shares(to, d);
     print_parameters(to, d);
     const rotid_identification *last = d->extended ? d->extended : d->base;
-    if (last && last->nweighed)
+    if (last) {
         screen_table(to, table_of_weighed(to->pool, last->nweighed, last->weighed));
-    if (last && last->nrunup)
         screen_table(to, table_of_runup(to->pool, last->nrunup, last->runup));
+    }
     print_today(to, d);
     print_numerical(to, d);
     print_data(to, d);

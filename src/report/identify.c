@@ -81,7 +81,7 @@ struct table *table_of_states(struct pool *pool, const rotid_identification *fit
 {
     struct table *table = table_open(pool, "States: one set of parameters for all, each with its own model and modes");
     for (int s = 0; s < fit->nstates; s++) {
-        const rotid_identification own = fit_of_state(fit, s);
+        const rotid_identification own = fit_of_state(pool, fit, s);
         table_row(table);
         text_column(table, "state", SHOW_TEXT, fit->states[s].name);
         number_column(table, "modes", NULL, SHOW_COUNT, own.nmodes);
@@ -298,7 +298,7 @@ void screen_identify(const struct screen *to, const struct result *result, int b
     if (to->verbose)
         screen_table(to, table_of_history(to->pool, fit));
     for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {
-        const rotid_identification of_state = fit_of_state(fit, s);
+        const rotid_identification of_state = fit_of_state(to->pool, fit, s);
         const char *caption =
             pool_text(to->pool, "state %s%s", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
         screen_table(to, table_of_compared_modes(to->pool, &result->head, first, &of_state, caption));

@@ -391,9 +391,9 @@ int csv_write(struct pool *pool, const char *path, const char *const *name, stru
 void screen_heading(const struct screen *to, const struct result_head *head)
 {
     for (int i = 0; i < head->nheading; i++)
-        (void)fprintf(to->out, "%s\n", head->heading[i]);
+        wrap_text(to->out, 0, to->width, "", head->heading[i]);
     if (!head->nheading)
-        (void)fprintf(to->out, "%s\n", head->deck);
+        wrap_text(to->out, 0, to->width, "", head->deck);
     (void)fputc('\n', to->out);
 }
 

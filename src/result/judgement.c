@@ -76,8 +76,11 @@ const char *fit_state_of_mode(const rotid_identification *fit, int k)
     return s < fit->nstates ? fit->states[s].name : NULL;
 }
 
-rotid_identification fit_of_state(const rotid_identification *fit, int s)
+rotid_identification fit_of_state(struct pool *pool, const rotid_identification *fit, int s)
 {
+    int first = 0;
+    for (int before = 0; before < s; before++)
+        first += fit->states[before].nmodes;
     const rotid_identified_state *state = &fit->states[s];
     rotid_identification out = *fit;
     out.shapes_fitted = state->shapes_fitted;
@@ -98,7 +101,13 @@ rotid_identification fit_of_state(const rotid_identification *fit, int s)
     out.matrix_columns = state->matrix_columns;
     out.noise = state->noise;
     out.geometry = state->geometry;
-    out.nbaseline = 0; /* which predicts the modes of all */
+    out.nbaseline = POOL_LIST(pool, out.baseline, fit->nbaseline);
+    for (int b = 0; b < out.nbaseline; b++) {
+        rotid_minimiser *own = &out.baseline[b];
+        *own = fit->baseline[b]; /* which predicts the modes of all */
+        own->predicted_hz = own->predicted_hz ? own->predicted_hz + first : NULL;
+        own->npredicted_hz = own->predicted_hz ? out.nmodes : 0;
+    }
     out.nstates = 0;
     out.states = NULL;
     return out;

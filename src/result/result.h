@@ -165,7 +165,7 @@ int fit_is_inadequate(const rotid_identification *fit);
  * chi2/2, the mode whose mesh error is the most times its noise; else -1. */
 int fit_mode_of_mesh(const rotid_identification *fit);
 /* The fit as one of its states has it: what that has for itself in place of what all have. */
-rotid_identification fit_of_state(const rotid_identification *fit, int s);
+rotid_identification fit_of_state(struct pool *pool, const rotid_identification *fit, int s);
 /* The name of the state that entry k of modes is of; NULL where the deck is one state. */
 const char *fit_state_of_mode(const rotid_identification *fit, int k);
 /* The parameter of this name, or NULL; fit may be NULL. */

@@ -90,7 +90,7 @@ static void check_fit(const struct json_place *at, const rotid_identification *f
 static void check_states(const struct json_place *root, const rotid_identification *fit)
 {
     for (int s = 0; s < fit->nstates; s++) {
-        const rotid_identification of_state = fit_of_state(fit, s);
+        const rotid_identification of_state = fit_of_state(root->reader->pool, fit, s);
         check_fit(root, &of_state);
         check_geometry(root, of_state.geometry);
     }
