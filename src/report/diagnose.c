@@ -277,26 +277,20 @@ struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d)
 
 static struct table *table_of_change(struct pool *pool, const rotid_diagnosis *d)
 {
-    static const rotid_fitted_parameter none = {.value = NAN, .ci95 = {NAN, NAN}};
     struct table *table = table_open(pool, "");
     for (int i = 0; i < d->gain.nparameters && d->extended; i++) {
-        const char *name = d->gain.parameters[i].name;
-        const rotid_fitted_parameter *before = fit_parameter(d->base, name), *after = fit_parameter(d->extended, name),
-                                     *one = after    ? after
-                                            : before ? before
-                                                     : &none;
-        before = before ? before : &none;
-        after = after ? after : &none;
+        const rotid_changed_parameter *p = &d->gain.parameters[i];
+        const double *ci = isfinite(p->after) ? p->after_ci95 : p->before_ci95;
         table_row(table);
-        text_column(table, "parameter", MAY_BE_CUT, name);
-        unit_column(table, one->value, (one->ci95[1] - one->ci95[0]) / 2, one->unit);
-        number_column(table, "before", ROW_UNIT, SHOW_ROW, before->value);
-        number_column(table, "lower", ROW_UNIT, SHOW_ROW, before->ci95[0]);
-        number_column(table, "upper", ROW_UNIT, SHOW_ROW, before->ci95[1]);
-        number_column(table, "after", ROW_UNIT, SHOW_ROW, after->value);
-        number_column(table, "lower", ROW_UNIT, SHOW_ROW, after->ci95[0]);
-        number_column(table, "upper", ROW_UNIT, SHOW_ROW, after->ci95[1]);
-        number_column(table, "change", "%", SHOW_SIGNED(1), 100 * (after->value / before->value - 1));
+        text_column(table, "parameter", MAY_BE_CUT, p->name);
+        unit_column(table, isfinite(p->after) ? p->after : p->before, (ci[1] - ci[0]) / 2, p->unit);
+        number_column(table, "before", ROW_UNIT, SHOW_ROW, p->before);
+        number_column(table, "lower", ROW_UNIT, SHOW_ROW, p->before_ci95[0]);
+        number_column(table, "upper", ROW_UNIT, SHOW_ROW, p->before_ci95[1]);
+        number_column(table, "after", ROW_UNIT, SHOW_ROW, p->after);
+        number_column(table, "lower", ROW_UNIT, SHOW_ROW, p->after_ci95[0]);
+        number_column(table, "upper", ROW_UNIT, SHOW_ROW, p->after_ci95[1]);
+        number_column(table, "change", "%", SHOW_SIGNED(1), 100 * (p->after / p->before - 1));
     }
     return table;
 }

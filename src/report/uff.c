@@ -63,41 +63,34 @@ struct universal {
 
 ORDER_BY(by_id, struct uff_node, it->id, 0)
 
-/* Index among the nodes. */
-static int find_node(const struct universal *u, int id)
+/* NULL where no mode has it. */
+static struct uff_node *node_of(const struct universal *u, int id)
 {
-    const struct uff_node key = {.id = id}, *found = bsearch(&key, u->node, (size_t)u->nnode, sizeof *u->node, by_id);
-    return (int)(found - u->node);
+    const struct uff_node key = {.id = id};
+    return u->nnode ? bsearch(&key, u->node, (size_t)u->nnode, sizeof *u->node, by_id) : NULL;
 }
 
 /* Those of all modes, without coordinates where the file has none of them. */
 static int take_nodes(struct pool *pool, const struct uff_file *file, struct universal *u)
 {
     size_t count = 0;
-    struct uff_node *known = POOL_ARRAY(pool, struct uff_node, file->node_count);
     for (int k = 0; k < u->count; k++)
         count += (size_t)u->mode[k]->node_count;
-    u->node = POOL_ARRAY(pool, struct uff_node, count);
-    if (!known || !u->node)
+    if (!(u->node = POOL_ARRAY(pool, struct uff_node, count)))
         return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < file->node_count; i++)
-        known[i] = file->node[i];
-    if (file->node_count)
-        qsort(known, (size_t)file->node_count, sizeof *known, by_id);
     count = 0;
     for (int k = 0; k < u->count; k++)
         for (int i = 0; i < u->mode[k]->node_count; i++)
-            u->node[count++].id = u->mode[k]->node[i];
+            u->node[count++] = (struct uff_node){.id = u->mode[k]->node[i], .x = {NAN, NAN, NAN}};
     if (count)
         qsort(u->node, count, sizeof *u->node, by_id);
     for (size_t i = 0; i < count; i++)
         if (!u->nnode || u->node[i].id != u->node[u->nnode - 1].id)
-            u->node[u->nnode++].id = u->node[i].id;
-    for (int n = 0; n < u->nnode; n++) {
-        const struct uff_node *at =
-            file->node_count ? bsearch(&u->node[n], known, (size_t)file->node_count, sizeof *known, by_id) : NULL;
-        for (int a = 0; a < 3; a++)
-            u->node[n].x[a] = at ? at->x[a] : NAN;
+            u->node[u->nnode++] = u->node[i];
+    for (int i = 0; i < file->node_count; i++) {
+        struct uff_node *at = node_of(u, file->node[i].id);
+        if (at)
+            *at = file->node[i];
     }
     return ROTID_OK;
 }
@@ -138,7 +131,7 @@ static void take_std(struct universal *u, const struct uff_shape *set, int compo
     for (int n = 0; n < u->nnode; n++)
         largest = fmax(largest, fabs(u->value[n + (ptrdiff_t)k * u->nnode]));
     for (int m = 0; m < set->node_count; m++) {
-        const struct uff_node key = {.id = set->node[m]}, *at = bsearch(&key, u->node, (size_t)u->nnode, sizeof key, by_id);
+        const struct uff_node *at = node_of(u, set->node[m]);
         double deviation = set->real[m * set->component_count + component];
         double *value = &u->value[(at ? at - u->node : 0) + (ptrdiff_t)k * u->nnode];
         if (at && deviation > 0 && largest > 0)
@@ -175,7 +168,7 @@ static int take_shapes(struct pool *pool, struct universal *u, const struct uff_
         if (c >= 0)
             (void)uff_real_shape(u->mode[k], c, value);
         for (int i = 0; i < u->mode[k]->node_count && c >= 0; i++)
-            u->value[find_node(u, u->mode[k]->node[i]) + (ptrdiff_t)k * u->nnode] = value[i];
+            u->value[node_of(u, u->mode[k]->node[i]) - u->node + (ptrdiff_t)k * u->nnode] = value[i];
     }
     for (int i = 0; i < file->extra_count; i++)
         take_extra(u, &file->extra[i]);
