@@ -247,15 +247,15 @@ UNIT_TEST(a_result_that_contradicts_itself_is_refused)
         const char *file, *list; /* of which the last value is taken away, in the first element */
         const char *says;
     } wrong[] = {
-        {"identify.json", "history.x", "history[].x has 1 values, expected 2 as parameters"},
-        {"identify.json", "baseline.predicted_hz", "baseline[].predicted_hz has "},
-        {"identify.json", "shapes/modes.predicted", "shapes.modes[].predicted has "},
-        {"identify.json", "shapes/modes.predicted_axis", "as shapes.axis_z_m"},
-        {"identify.json", "shapes/modes.measured", "as shapes.sensor_id"},
+        {"identify.json", "history.x", "history[0].x: has 1 values, expected 2 as parameters"},
+        {"identify.json", "baseline.predicted_hz", "baseline[0].predicted_hz: has "},
+        {"identify.json", "shapes/modes.predicted", "shapes.modes[0].predicted: has "},
+        {"identify.json", "shapes/modes.predicted_axis", "as axis_z_m"},
+        {"identify.json", "shapes/modes.measured", "as sensor_id"},
         {"identify.json", "/correlation", "correlation: has 1 rows of 2 values, expected 2 of 2"},
         {"identify.json", "/reduction_error_percent", "reduction_error_percent: has "},
         {"identify.json", "/matrix_rows", "as rows of mac_matrix"},
-        {"modes.json", "modes.shape", "modes[].shape has "},
+        {"modes.json", "modes.shape", "modes[0].shape: has "},
         {"diagnose.json", "/modes_standardised", "as base.modes"},
     };
     make_results();

@@ -42,10 +42,10 @@ PART_TABLE(member_record, rotid_member_shape) = {
 PART_TABLE(mode_shapes_record, rotid_mode_shapes) = {
     INTEGER(rotid_mode_shapes, mode, FROM_1),
     INTEGER(rotid_mode_shapes, measured_mode, FROM_1 | SINCE_LATER),
-    NUMBERS(rotid_mode_shapes, measured, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | ROUNDED),
-    NUMBERS(rotid_mode_shapes, measured_std, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED),
-    NUMBERS(rotid_mode_shapes, predicted, ELEMENTS_MAY_BE_NULL | ROUNDED),
-    NUMBERS(rotid_mode_shapes, predicted_axis, ELEMENTS_MAY_BE_NULL | ROUNDED),
+    NUMBERS_AS(rotid_mode_shapes, measured, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | ROUNDED, rotid_shapes, sensor_id),
+    NUMBERS_AS(rotid_mode_shapes, measured_std, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED, rotid_shapes, sensor_id),
+    NUMBERS_AS(rotid_mode_shapes, predicted, ELEMENTS_MAY_BE_NULL | ROUNDED, rotid_shapes, sensor_id),
+    NUMBERS_AS(rotid_mode_shapes, predicted_axis, ELEMENTS_MAY_BE_NULL | ROUNDED, rotid_shapes, axis_z_m),
     STRUCTS(rotid_mode_shapes, tierods, 0, member_record),
     STRUCTS(rotid_mode_shapes, bars, 0, member_record),
     {0},
@@ -64,7 +64,7 @@ PART_TABLE(history_record, rotid_history_entry) = {
     NUMBER(rotid_history_entry, gain_ratio, MAY_BE_NULL),
     NUMBER(rotid_history_entry, step, FROM_0),
     NUMBER(rotid_history_entry, seconds, FROM_0 | SINCE_LATER),
-    NUMBERS(rotid_history_entry, x, 0),
+    NUMBERS_AS(rotid_history_entry, x, 0, rotid_identification, parameters),
     {0},
 };
 
@@ -74,8 +74,8 @@ PART_TABLE(minimiser_record, rotid_minimiser) = {
     FLAG(rotid_minimiser, usable, 0),
     KEYS(rotid_minimiser, MAY_BE_NULL | FROM_0, objective, gradient),
     KEYS(rotid_minimiser, FROM_0, evaluations, seconds),
-    NUMBERS(rotid_minimiser, x, 0),
-    NUMBERS(rotid_minimiser, predicted_hz, ELEMENTS_MAY_BE_NULL | FROM_0 | SINCE_LATER),
+    NUMBERS_AS(rotid_minimiser, x, 0, rotid_identification, parameters),
+    NUMBERS_AS(rotid_minimiser, predicted_hz, ELEMENTS_MAY_BE_NULL | FROM_0 | SINCE_LATER, rotid_identification, modes),
     {0},
 };
 

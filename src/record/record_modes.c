@@ -25,7 +25,7 @@ PART_TABLE(mode_record, rotid_model_mode) = {
     NUMBER(rotid_model_mode, full_hz, FROM_0),
     NUMBER(rotid_model_mode, reduced_hz, FROM_0 | MAY_BE_NULL),
     KEYS(rotid_model_mode, MAY_BE_NULL, reduction_error_percent, mesh_error_percent),
-    NUMBERS(rotid_model_mode, shape, 0),
+    NUMBERS_AS(rotid_model_mode, shape, 0, rotid_spectrum, sensor_z_m),
     INLINE(rotid_model_mode, measured, IF_KNOWN | BEHIND_POINTER, measured_record),
     STRUCT(rotid_model_mode, meridian, IF_KNOWN | BEHIND_POINTER, meridian_mode_record),
     {0},

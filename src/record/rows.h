@@ -34,25 +34,23 @@
     EACH_COUNT(__VA_ARGS__, EACH_10, EACH_9, EACH_8, EACH_7, EACH_6, EACH_5, EACH_4, EACH_3, EACH_2, EACH_1, )                   \
     (ROW, S, A, __VA_ARGS__)
 #define EACH_COUNT(A, B, C, D, E, F, G, H, I, J, COUNT, ...) COUNT
-/* Of the member is_KEY, where the key is a word of C. */
-#define FLAG_IS(S, KEY, BITS)                                                                                                    \
-    {                                                                                                                            \
-        .key = #KEY, .kind = FIELD_FLAG, .bits = (BITS), .offset = offsetof(S, is_##KEY)                                         \
-    }
-#define TEXT(S, M, BITS)            RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
-#define TEXT_OF(S, M, BITS, WORDS)  RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
-#define WORD(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
-#define STRUCT(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
-#define INLINE(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
-#define INTERVAL(S, M, BITS)        RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
-#define INDICES(S, M, FIXED)        RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_FIXED, FROM_0, .fixed = (FIXED))
-#define NUMBERS(S, M, BITS)         RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define INTEGERS(S, M, BITS)        RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define TEXTS(S, M, BITS)           RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define STRUCTS(S, M, BITS, RECORD) RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
+#define TEXT(S, M, BITS)                                     RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
+#define TEXT_OF(S, M, BITS, WORDS)                           RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
+#define WORD(S, M, BITS, WORDS)                              RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
+#define STRUCT(S, M, BITS, RECORD)                           RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INLINE(S, M, BITS, RECORD)                           RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INTERVAL(S, M, BITS)                                 RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
+#define INDICES(S, M, FIXED)                                 RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_FIXED, FROM_0, .fixed = (FIXED))
+#define NUMBERS(S, M, BITS)                                  RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define INTEGERS(S, M, BITS)                                 RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define TEXTS(S, M, BITS)                                    RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define STRUCTS(S, M, BITS, RECORD)                          RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
 /* As many as the member COUNT says, which an earlier row, of key BY, has set. */
 #define NUMBERS_BY(S, M, BITS, COUNT, BY)  RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
 #define INTEGERS_BY(S, M, BITS, COUNT, BY) RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
+/* As many as the list of key BY of the struct ABOVE has. */
+#define NUMBERS_AS(S, M, BITS, ABOVE, BY)                                                                                        \
+    COUNT_OF(S, n##M, ABOVE, n##BY), RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, #BY))
 /* Members with the numbers of rows and columns; where they are known already the matrix has to be of that size. */
 #define MATRIX(S, M, BITS, ROWS, COLUMNS)                                                                                        \
     RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_MATRIX, BITS, .count = offsetof(S, ROWS), .columns = offsetof(S, COLUMNS))

@@ -393,7 +393,7 @@ void screen_heading(const struct screen *to, const struct result_head *head)
     for (int i = 0; i < head->nheading; i++)
         wrap_text(to->out, 0, to->width, "", head->heading[i]);
     if (!head->nheading)
-        wrap_text(to->out, 0, to->width, "", head->deck);
+        wrap_text(to->out, 0, to->width, "", or_nothing(head->deck));
     (void)fputc('\n', to->out);
 }
 

@@ -69,13 +69,11 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define MEMBER_WORD(M, B, W)      int M;
 #define MEMBER_WORDS(M, B, W)     int M;
 #define MEMBER_COUNTS(M, B, W, N) int M[N];
-#define MEMBER_INTERVAL(M, B)     double M[2];
 #define MEMBER_NUMBER_3(M)        double M[3];
 #define MEMBER_LIST(TYPE, M)                                                                                                     \
     int n##M;                                                                                                                    \
     TYPE M;
 #define MEMBER_NUMBERS(M, B)          MEMBER_LIST(const double *, M)
-#define MEMBER_INTEGERS(M, B)         MEMBER_LIST(const int *, M)
 #define MEMBER_TEXTS(M, B)            MEMBER_LIST(const char *const *, M)
 #define MEMBER_MAP(M, B)              MEMBER_LIST(rotid_component *, M)
 #define MEMBER_STRUCTS(M, T)          MEMBER_LIST(struct T *, M)

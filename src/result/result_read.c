@@ -35,19 +35,6 @@ static void check_geometry(const struct json_place *root, const rotid_geometry *
         place_wrong(&at, "has a length or a section of no size, expected a rotor that can be drawn");
 }
 
-static void check_shapes(const struct json_place *at, const rotid_shapes *shapes)
-{
-    for (int k = 0; k < shapes->nmodes; k++) {
-        const rotid_mode_shapes *mode = &shapes->modes[k];
-        if (mode->measured)
-            expect(at, "shapes.modes[].measured", mode->nmeasured, shapes->nsensor_id, "shapes.sensor_id");
-        if (mode->measured_std)
-            expect(at, "shapes.modes[].measured_std", mode->nmeasured_std, shapes->nsensor_id, "shapes.sensor_id");
-        expect(at, "shapes.modes[].predicted", mode->npredicted, shapes->nsensor_id, "shapes.sensor_id");
-        expect(at, "shapes.modes[].predicted_axis", mode->npredicted_axis, shapes->naxis_z_m, "shapes.axis_z_m");
-    }
-}
-
 static void check_meridian(const struct json_place *at, const rotid_spectrum *modes)
 {
     const rotid_meridian *meridian = modes->meridian;
@@ -73,15 +60,6 @@ static void check_meridian(const struct json_place *at, const rotid_spectrum *mo
 
 static void check_fit(const struct json_place *at, const rotid_identification *fit)
 {
-    for (int i = 0; i < fit->nhistory; i++)
-        expect(at, "history[].x", fit->history[i].nx, fit->nparameters, "parameters");
-    for (int b = 0; b < fit->nbaseline; b++) {
-        expect(at, "baseline[].x", fit->baseline[b].nx, fit->nparameters, "parameters");
-        if (fit->baseline[b].predicted_hz)
-            expect(at, "baseline[].predicted_hz", fit->baseline[b].npredicted_hz, fit->nmodes, "modes");
-    }
-    if (fit->shapes)
-        check_shapes(at, fit->shapes);
     if ((fit->nco_matrix || fit->mac_matrix) && (!fit->matrix_rows || !fit->matrix_columns))
         place_wrong(at, "matrix_rows or matrix_columns is missing, expected the numbers of the modes in mac_matrix");
 }
@@ -150,8 +128,6 @@ static void result_check(const struct json_place *root, const struct result *res
     }
     if (result->diagnose)
         check_diagnosis(root, result->diagnose);
-    for (int k = 0; result->modes && k < result->modes->nmodes; k++)
-        expect(root, "modes[].shape", result->modes->modes[k].nshape, result->modes->nsensor_z_m, "sensor_z_m");
     if (result->modes)
         check_meridian(root, result->modes);
     check_each_state(root, result);

@@ -162,17 +162,11 @@ int comments_add(struct comments *comments, const char *header)
     return status ? status : add_described(comments, header);
 }
 
-/* FLAG_IS: the key complex is the member is_complex. */
-static int is_member(const char *name, const char *key)
-{
-    return !strcmp(name, key) || (!strncmp(name, "is_", 3) && !strcmp(name + 3, key));
-}
-
 const char *comments_find(const struct comments *comments, const char *structure, const char *member)
 {
     for (int i = 0; i < comments->count; i++) {
         const struct comment *c = &comments->item[i];
-        if (!strcmp(c->structure, structure) && (member ? c->member && is_member(c->member, member) : !c->member))
+        if (!strcmp(c->structure, structure) && (member ? c->member && !strcmp(c->member, member) : !c->member))
             return c->text;
     }
     return NULL;
