@@ -60,5 +60,5 @@ POOL_TEST(nine_modes_of_a_real_bar)
     }
     assert_int_equal(ema.std_from_impacts, 0);
     for (int k = 0; k < ema.npole; k++)
-        assert_true(ema.pole[k].mode >= -1 && ema.pole[k].mode < 9);
+        assert_true(ema.pole[k].mode == ROTID_NONE || (ema.pole[k].mode >= 1 && ema.pole[k].mode <= 9));
 }

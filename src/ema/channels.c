@@ -102,7 +102,15 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
     size_t known = 0;
     for (int c = 0; c < set->nfrf; c++) {
         double coherence;
-        channel[c] = (struct ema_channel){.duplicate_of = -1, .fit = NAN, .noise = NAN};
+        const struct frf *f = &set->frf[c];
+        channel[c] = (struct ema_channel){.response_node = f->response_node,
+                                          .response_direction = f->response_direction,
+                                          .reference_node = f->reference_node,
+                                          .reference_direction = f->reference_direction,
+                                          .averages = f->averages,
+                                          .duplicate_of = -1,
+                                          .fit = NAN,
+                                          .noise = NAN};
         usable[c] = is_finite(&set->frf[c], first, last);
         if (!usable[c]) {
             channel[c].quality_flags = EMA_NOT_FINITE;

@@ -87,7 +87,7 @@ struct ema_pole { /* of the stabilisation table */
     int order;
     double frequency_hz, damping;
     int stable_frequency, stable_damping; /* against the order before */
-    int mode;                             /* index of the mode that it was taken for, or -1 */
+    int mode;                             /* number of the mode that it was taken for, from 1, or ROTID_NONE */
     int part; /* 0: of the whole band; of very many lines also parts of it have a table each, counted from 1 */
 };
 
@@ -137,7 +137,8 @@ enum ema_channel_quality_flag {
 };
 
 struct ema_channel {
-    int quality_flags, duplicate_of; /* another channel, or -1 */
+    int response_node, response_direction, reference_node, reference_direction, averages; /* as of the transfer function */
+    int quality_flags, duplicate_of;                                                      /* another channel, or -1 */
     double fit;   /* |sum conj(H) H^|^2/(sum |H|^2 sum |H^|^2) over the band (FRAC of measured and synthesised) */
     double noise; /* rms of sqrt(variance) over rms of |H|; NaN without variance */
 };

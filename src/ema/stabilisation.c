@@ -412,7 +412,7 @@ int stabilisation_compute(struct pool *pool, const struct ema_band *band, int or
             double complex pole = raw[k + (ptrdiff_t)i * order], free = pole + decay;
             out->pole[out->first[i] + k] = pole;
             out->table[out->first[i] + k] = (struct ema_pole){
-                .order = (i + 1) * step, .frequency_hz = cabs(free) / TWO_PI, .damping = damping_of(free), .mode = -1};
+                .order = (i + 1) * step, .frequency_hz = cabs(free) / TWO_PI, .damping = damping_of(free), .mode = ROTID_NONE};
         }
         mark_stable(out, i, frequency_tolerance, damping_tolerance);
     }
@@ -566,7 +566,7 @@ void stabilisation_assign(const struct stabilisation *table, int nmode, const do
             double dz = damping_change(table->pole[k], pole[r]) / (LOOSER * damping_tolerance);
             if (df <= 1 && dz <= 1 && df + dz < best) {
                 best = df + dz;
-                table->table[k].mode = r;
+                table->table[k].mode = r + 1;
             }
         }
     }

@@ -133,7 +133,7 @@ static int doubtful_modes(const struct ema_result *ema)
 {
     int count = 0;
     for (int k = 0; k < ema->nmodes; k++)
-        count += ema->modes[k].doubts != 0;
+        count += ema->modes[k].is.quality_flags != 0;
     return count;
 }
 
@@ -141,7 +141,7 @@ static int doubtful_channels(const struct ema_result *ema)
 {
     int count = 0;
     for (int c = 0; c < ema->nchannels; c++)
-        count += ema->channels[c].doubts != 0;
+        count += ema->channels[c].quality_flags != 0;
     return count;
 }
 
@@ -159,16 +159,16 @@ static void answer_ema(struct document *document, const struct result *result)
     document->now.tone = doubtful ? TONE_CARE : TONE_GOOD;
     document->now.text =
         pool_text(pool, "%d %s from %s in %d transfer %s. %s", ema->nmodes, human_plural(ema->nmodes, "mode", "modes"),
-                  human_range(pool, ema->modes[0].frequency_hz, ema->modes[ema->nmodes - 1].frequency_hz, "Hz"),
+                  human_range(pool, ema->modes[0].is.frequency_hz, ema->modes[ema->nmodes - 1].is.frequency_hz, "Hz"),
                   ema->source.transfer_functions, human_plural(ema->source.transfer_functions, "function", "functions"),
                   doubtful ? pool_text(pool, "%d of the modes and %d of the channels %s doubtful, see below.", modes, channels,
                                        modes + channels == 1 ? "is" : "are")
                            : "No mode and no channel is doubtful.");
     for (int k = 0; k < ema->nmodes && k < TILES_MOST; k++)
         document_tile(document, pool_text(pool, "mode %d [Hz]", ema->modes[k].mode),
-                      human_digits(pool, ema->modes[k].frequency_hz, 6),
-                      pool_text(pool, "damping %s\xc2\xa0%%%s", human_digits(pool, 100 * ema->modes[k].damping, 3),
-                                ema->modes[k].doubts ? "; doubtful" : ""));
+                      human_digits(pool, ema->modes[k].is.frequency_hz, 6),
+                      pool_text(pool, "damping %s\xc2\xa0%%%s", human_digits(pool, 100 * ema->modes[k].is.damping, 3),
+                                ema->modes[k].is.quality_flags ? "; doubtful" : ""));
     document->now.next =
         doubtful ? "Next: look at the doubtful ones in the diagram and in the functions, before a model is fitted to them."
                  : "Next: name the file of the modes in *MEASURED of a deck, and identify the model.";

@@ -47,50 +47,9 @@ static struct ema_mode_result *modes(struct pool *pool, const struct ema *ema)
 {
     struct ema_mode_result *list = POOL_ARRAY(pool, struct ema_mode_result, ema->nmode);
     for (int k = 0; k < ema->nmode && list; k++) {
-        const struct ema_mode *m = &ema->mode[k];
-        list[k] = (struct ema_mode_result){.mode = k + 1,
-                                           .frequency_hz = m->frequency_hz,
-                                           .frequency_std_hz = m->frequency_std,
-                                           .damping = m->damping,
-                                           .damping_std = m->damping_std,
-                                           .mpc = m->mpc,
-                                           .mpd_degrees = m->mpd,
-                                           .modal_mass_kg = m->modal_mass,
-                                           .peak_signal_to_noise = m->peak_signal_to_noise,
-                                           .nearest_hz = m->nearest_hz,
-                                           .doubts = m->quality_flags,
-                                           .nshape = ema->npoint,
-                                           .shape = shape(pool, ema, m)};
+        list[k] = (struct ema_mode_result){k + 1, ema->mode[k], ema->npoint, shape(pool, ema, &ema->mode[k])};
         if (!list[k].shape)
             return NULL;
-    }
-    return list;
-}
-
-static struct ema_pole_result *poles(struct pool *pool, const struct ema *ema)
-{
-    struct ema_pole_result *list = POOL_ARRAY(pool, struct ema_pole_result, ema->npole);
-    for (int i = 0; i < ema->npole && list; i++) {
-        const struct ema_pole *p = &ema->pole[i];
-        list[i] = (struct ema_pole_result){p->order,
-                                           p->frequency_hz,
-                                           p->damping,
-                                           p->stable_frequency,
-                                           p->stable_damping,
-                                           p->part,
-                                           p->mode >= 0 ? p->mode + 1 : ROTID_NONE};
-    }
-    return list;
-}
-
-static struct ema_channel_result *channels(struct pool *pool, const struct ema_report *r)
-{
-    struct ema_channel_result *list = POOL_ARRAY(pool, struct ema_channel_result, r->ema->nfrf);
-    for (int c = 0; c < r->ema->nfrf && list; c++) {
-        const struct frf *f = &r->measurement->set.frf[c];
-        const struct ema_channel *channel = &r->ema->channel[c];
-        list[c] = (struct ema_channel_result){f->response_node, f->response_direction, f->reference_node, f->reference_direction,
-                                              f->averages,      channel->fit,          channel->noise,    channel->quality_flags};
     }
     return list;
 }
@@ -104,9 +63,9 @@ static int by_frac(const struct ema_result *ema, int *order)
     int count = 0;
     for (int c = 0; c < ema->nchannels; c++) {
         int k = count;
-        if (!isfinite(ema->channels[c].frac))
+        if (!isfinite(ema->channels[c].fit))
             continue;
-        for (; k > 0 && ema->channels[order[k - 1]].frac > ema->channels[c].frac; k--)
+        for (; k > 0 && ema->channels[order[k - 1]].fit > ema->channels[c].fit; k--)
             order[k] = order[k - 1];
         order[k] = c;
         count++;
@@ -185,12 +144,12 @@ const struct ema_result *ema_result_of(struct pool *pool, const struct ema_repor
         .modes = modes(pool, r->ema),
         .mac = r->ema->mac,
         .nstabilisation = r->ema->npole,
-        .stabilisation = poles(pool, r->ema),
+        .stabilisation = r->ema->pole,
         .nchannels = r->ema->nfrf,
-        .channels = channels(pool, r),
+        .channels = r->ema->channel,
         .seconds = r->seconds,
     };
-    return out->modes && out->stabilisation && out->channels && (!functions || add_functions(pool, r, out)) ? out : NULL;
+    return out->modes && (!functions || add_functions(pool, r, out)) ? out : NULL;
 }
 
 /* ---- the screen and its tables */
@@ -235,15 +194,15 @@ struct table *table_of_test_modes(struct pool *pool, const struct ema_result *em
         const struct ema_mode_result *m = &ema->modes[k];
         table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, m->mode);
-        number_column(table, "frequency", "Hz", SHOW_DIGITS(8), m->frequency_hz);
-        number_column(table, "std", "Hz", SHOW_DIGITS(2), m->frequency_std_hz);
-        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * m->damping);
-        number_column(table, "std", "%", SHOW_DIGITS(2), 100 * m->damping_std);
-        number_column(table, "MPC", NULL, SHOW_FIXED(3), m->mpc);
-        number_column(table, "MPD", "deg", SHOW_FIXED(1), m->mpd_degrees);
-        number_column(table, "peak/noise", NULL, SHOW_DIGITS(3), m->peak_signal_to_noise);
-        number_column(table, "modal mass", "kg", SHOW_DIGITS(4), m->modal_mass_kg);
-        text_column(table, "remark", SHOW_TEXT, m->doubts ? "doubtful" : "");
+        number_column(table, "frequency", "Hz", SHOW_DIGITS(8), m->is.frequency_hz);
+        number_column(table, "std", "Hz", SHOW_DIGITS(2), m->is.frequency_std);
+        number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * m->is.damping);
+        number_column(table, "std", "%", SHOW_DIGITS(2), 100 * m->is.damping_std);
+        number_column(table, "MPC", NULL, SHOW_FIXED(3), m->is.mpc);
+        number_column(table, "MPD", "deg", SHOW_FIXED(1), m->is.mpd);
+        number_column(table, "peak/noise", NULL, SHOW_DIGITS(3), m->is.peak_signal_to_noise);
+        number_column(table, "modal mass", "kg", SHOW_DIGITS(4), m->is.modal_mass);
+        text_column(table, "remark", SHOW_TEXT, m->is.quality_flags ? "doubtful" : "");
     }
     return table;
 }
@@ -266,17 +225,18 @@ const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *co
     *count = 0;
     for (int k = 0; k < ema->nmodes && text; k++) {
         const struct ema_mode_result *m = &ema->modes[k];
-        int close = m->doubts & EMA_CLOSE && isfinite(m->nearest_hz);
-        if (m->doubts)
-            text[(*count)++] = pool_text(pool, "mode %d, %.6g Hz: %s%s", m->mode, m->frequency_hz,
-                                         doubts_in_words(pool, m->doubts, ema_mode_doubts),
-                                         close ? pool_text(pool, " (the nearest at %.6g Hz)", m->nearest_hz) : "");
+        int close = m->is.quality_flags & EMA_CLOSE && isfinite(m->is.nearest_hz);
+        if (m->is.quality_flags)
+            text[(*count)++] = pool_text(pool, "mode %d, %.6g Hz: %s%s", m->mode, m->is.frequency_hz,
+                                         doubts_in_words(pool, m->is.quality_flags, ema_mode_doubts),
+                                         close ? pool_text(pool, " (the nearest at %.6g Hz)", m->is.nearest_hz) : "");
     }
     for (int c = 0; c < ema->nchannels && text; c++) {
-        const struct ema_channel_result *of = &ema->channels[c];
-        if (of->doubts)
-            text[(*count)++] = pool_text(pool, "%s at node %d over node %d (FRAC %s)", doubts_in_words(pool, of->doubts, said),
-                                         of->response_node, of->reference_node, human_fixed(pool, of->frac, 4));
+        const struct ema_channel *of = &ema->channels[c];
+        if (of->quality_flags)
+            text[(*count)++] =
+                pool_text(pool, "%s at node %d over node %d (FRAC %s)", doubts_in_words(pool, of->quality_flags, said),
+                          of->response_node, of->reference_node, human_fixed(pool, of->fit, 4));
     }
     if (text && !*count && ema->nmodes)
         text[(*count)++] = "No mode and no channel is doubtful.";
@@ -309,7 +269,7 @@ static void print_stabilisation(FILE *out, const struct ema_result *ema)
         memset(row, ' ', COLUMNS);
         row[COLUMNS] = 0;
         for (int i = 0; i < ema->nstabilisation; i++) {
-            const struct ema_pole_result *p = &ema->stabilisation[i];
+            const struct ema_pole *p = &ema->stabilisation[i];
             int column = (int)((p->frequency_hz - low) / (high - low) * COLUMNS);
             if (p->order != order || p->frequency_hz < low || column >= COLUMNS)
                 continue;
@@ -326,7 +286,7 @@ static void print_stabilisation(FILE *out, const struct ema_result *ema)
     }
     memset(row, ' ', COLUMNS);
     for (int k = 0; k < ema->nmodes; k++) {
-        int column = (int)((ema->modes[k].frequency_hz - low) / (high - low) * COLUMNS);
+        int column = (int)((ema->modes[k].is.frequency_hz - low) / (high - low) * COLUMNS);
         if (column >= 0 && column < COLUMNS)
             row[column] = '^';
     }
@@ -354,7 +314,7 @@ static struct table *table_of_poles(struct pool *pool, const struct ema_result *
 {
     struct table *table = table_open(pool, "Poles");
     for (int i = 0; i < ema->nstabilisation; i++) {
-        const struct ema_pole_result *p = &ema->stabilisation[i];
+        const struct ema_pole *p = &ema->stabilisation[i];
         table_row(table);
         number_column(table, "order", NULL, SHOW_COUNT, p->order);
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), p->frequency_hz);
@@ -372,13 +332,13 @@ static struct table *table_of_channels(struct pool *pool, const struct ema_resul
     int shown = all || known < WORST ? known : WORST;
     struct table *table =
         table_open(pool, pool_text(pool, "FRAC of measured and synthesised transfer functions: median %.4f; %s",
-                                   known ? ema->channels[order[known / 2]].frac : 0, shown < known ? "the worst" : "all"));
+                                   known ? ema->channels[order[known / 2]].fit : 0, shown < known ? "the worst" : "all"));
     for (int i = 0; i < shown && ema->nmodes; i++) {
-        const struct ema_channel_result *of = &ema->channels[order[i]];
+        const struct ema_channel *of = &ema->channels[order[i]];
         table_row(table);
         number_column(table, "node", NULL, SHOW_COUNT, of->response_node);
         number_column(table, "over node", NULL, SHOW_COUNT, of->reference_node);
-        number_column(table, "FRAC", NULL, SHOW_FIXED(4), of->frac);
+        number_column(table, "FRAC", NULL, SHOW_FIXED(4), of->fit);
         number_column(table, "noise over rms", NULL, SHOW_DIGITS(2), of->noise);
     }
     return table;

@@ -22,6 +22,7 @@
 #include <cJSON.h>
 
 #include "base/base.h"
+#include "ema/ema.h"
 #include "rotid.h"
 
 /* ----------------------------------------------------------------------------------------------------------- cause place */
@@ -60,6 +61,10 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define ROW(...)
 #define OF(S, T) extern const struct record S##_record;
 #define DONE
+#define ON(...)
+#define IS(...)
+#define IS_LIST(...)
+#define IS_FIXED(...)
 #define MEMBER(TYPE, M)           TYPE M;
 #define MEMBER_NUMBER(M, B)       double M;
 #define MEMBER_INTEGER(M, B)      int M;
@@ -93,6 +98,10 @@ struct record;
 #undef ROW
 #undef OF
 #undef DONE
+#undef ON
+#undef IS
+#undef IS_LIST
+#undef IS_FIXED
 #undef MEMBER
 
 /* ------------------------------------------------------------------------------------------------------------------ head */

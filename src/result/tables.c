@@ -72,6 +72,10 @@ PART_TABLE(listed_nodes_every_node_record, struct listed_nodes) = {
     const struct record S##_record = {.name = "struct " #S, .size = sizeof(T), .field = S##_rows};                               \
     const struct record_field S##_rows[] = {
 #define DONE                      END()
+#define ON(KIND, T, ...)          KIND(struct T, __VA_ARGS__),
+#define IS(KIND, T, ...)          AT(KIND, struct T, __VA_ARGS__),
+#define IS_LIST(KIND, T, ...)     AT_LIST(KIND, struct T, __VA_ARGS__),
+#define IS_FIXED(KIND, T, ...)    AT_FIXED(KIND, struct T, __VA_ARGS__),
 #define KEY(KIND, S, ...)         KIND(struct S, __VA_ARGS__),
 #define PART(KIND, S, M, BITS, T) KIND(struct S, M, BITS, T##_record),
 #define TOGETHER(BITS, R)         ROWS(BITS, R),
@@ -82,6 +86,7 @@ PART_TABLE(listed_nodes_every_node_record, struct listed_nodes) = {
 #define STRUCT_AT(S, M, BITS, R) STRUCT(S, M, (BITS) | BEHIND_POINTER, R)
 #define INLINE_IN(S, M, BITS, R) INLINE(S, M, BITS, R)
 #define INLINE_AT(S, M, BITS, R) INLINE(S, M, (BITS) | BEHIND_POINTER, R)
+#undef complex /* a key */
 #include "result/results.def"
 
 /* ---- the change of frequencies with parameters, of src/run */

@@ -131,8 +131,9 @@ static int add_described(struct comments *comments, const char *text)
         }
         int found = sscanf(line, "KEY(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
                     sscanf(line, "PART(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
-                    sscanf(line, "ROW(AT%*[A-Z_](%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
-                    sscanf(line, "ROW(AT(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "ON(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "IS(%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
+                    sscanf(line, "IS%*[_A-Z](%*[^,], %*[^,], %127[a-z_0-9]", member) == 1 ||
                     sscanf(line, "MEMBER(%*[^,], %127[a-z_0-9]", member) == 1;
         const char *comment = found ? strstr(line, "/*") : NULL, *end = line + strcspn(line, "\n");
         while (*end && end[1] == ' ') /* a line that goes on */
