@@ -61,31 +61,33 @@ static struct transfer_beside *beside_measured(struct pool *pool, const struct f
 {
     const struct frf_row *row = &r->row[i];
     struct transfer_beside *beside = POOL_NEW(pool, struct transfer_beside);
-    struct transfer_at_mode *mode = POOL_ARRAY(pool, struct transfer_at_mode, r->nband);
-    if (!beside || !mode)
+    if (!beside)
         return NULL;
     *beside = (struct transfer_beside){.agreement = agreement(&row->sums, &row->moved),
                                        .measured_reversed = row->sign < 0,
                                        .measured_reciprocal = row->is_reciprocal,
                                        .nat_modes = r->nband,
-                                       .at_modes = mode};
-    for (int b = 0; b < r->nband; b++) {
-        const struct frf_at_mode *at = &r->at[b + (ptrdiff_t)i * r->nband];
-        mode[b] = (struct transfer_at_mode){r->band[b].mode, at->level_db, at->phase_deg, at->deviation};
-    }
+                                       .at_modes = r->at + (ptrdiff_t)i * r->nband};
     return beside;
+}
+
+static void split(int n, const double complex *h, double *re, double *im)
+{
+    for (int l = 0; l < n; l++) {
+        re[l] = creal(h[l]);
+        im[l] = cimag(h[l]);
+    }
 }
 
 int complex_parts(struct pool *pool, int n, const double complex *h, const double **re, const double **im)
 {
     double *real = POOL_ARRAY(pool, double, n), *imag = POOL_ARRAY(pool, double, n);
-    for (int l = 0; l < n && real && imag; l++) {
-        real[l] = creal(h[l]);
-        imag[l] = cimag(h[l]);
-    }
     *re = real;
     *im = imag;
-    return !real || !imag;
+    if (!real || !imag)
+        return 1;
+    split(n, h, real, imag);
+    return 0;
 }
 
 static int add_functions(const struct frf_view *view, struct transfer_result *out)
@@ -182,15 +184,15 @@ static int direction_of(const struct frf_view *view, const struct frf_row *row)
     return measured ? measured : view->job->options.frf.axis == 0 ? 2 : 1;
 }
 
-static int write_function(FILE *stream, const struct frf_view *view, int i, double complex *h, double complex *work)
+/* re, im, h, work: [lines] workspace */
+static int write_function(FILE *stream, const struct frf_view *view, int i, double *re, double *im, double complex *h,
+                          double complex *work)
 {
     static const int specific[] = {8, 11, 12};
     static const char *const labels[] = {"Displacement", "Velocity", "Acceleration"}, *const units[] = {"m", "m/s", "m/s2"};
     const struct frf_result *r = view->result;
     const struct frf_row *row = &r->row[i];
     struct uff_function_writer writer;
-    const double *re, *im;
-    struct pool pool;
     struct uff_function f = {.type = UFF_TRANSFER,
                              .number = i + 1,
                              .response_node = row->response,
@@ -209,11 +211,10 @@ static int write_function(FILE *stream, const struct frf_view *view, int i, doub
     (void)snprintf(f.numerator.label, sizeof f.numerator.label, "%s", labels[r->quantity]);
     (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", units[r->quantity]);
     frf_synthesised(r, i, 1, h, work);
-    pool_open(&pool, NULL);
-    int status = complex_parts(&pool, r->nline, h, &re, &im) ? ROTID_ERROR_MEMORY : uff_write_function(stream, &f, &writer);
+    split(r->nline, h, re, im);
+    int status = uff_write_function(stream, &f, &writer);
     if (!status)
         status = uff_write_values(&writer, r->nline, NULL, re, im);
-    pool_close(&pool);
     return status ? status : uff_end_function(&writer);
 }
 
@@ -224,7 +225,8 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
     struct uff_header header = {0};
     double complex *h = POOL_ARRAY(view->pool, double complex, r->nline),
                    *work = POOL_ARRAY(view->pool, double complex, r->nline);
-    if (!h || !work)
+    double *re = POOL_ARRAY(view->pool, double, r->nline), *im = POOL_ARRAY(view->pool, double, r->nline);
+    if (!h || !work || !re || !im)
         return ROTID_ERROR_MEMORY;
     (void)snprintf(header.model, sizeof header.model, "rotid frf");
     (void)snprintf(header.program, sizeof header.program, "rotid %s", version);
@@ -234,7 +236,7 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
     if (!status)
         status = write_nodes(stream, view);
     for (int i = 0; i < r->ndone && !status; i++)
-        status = write_function(stream, view, i, h, work);
+        status = write_function(stream, view, i, re, im, h, work);
     return status;
 }
 
@@ -242,59 +244,43 @@ int frf_write_file(FILE *stream, const char *version, const struct frf_view *vie
 
 /* ---- Bode plot in plain ASCII */
 
-#define MOST_COLUMNS 120
+#define COLUMNS      88
 #define HEIGHT       16 /* rows of the magnitude */
 #define PHASE_HEIGHT 9  /* -180 to 180 in steps of 45 degrees */
 #define DECADES      5  /* at most: what lies deeper says nothing */
 #define MARGIN       11
 
-struct canvas {
-    int columns, rows;
-    char cell[HEIGHT][MOST_COLUMNS + 1];
-};
-
-static void open_canvas(struct canvas *canvas, int columns, int rows)
-{
-    canvas->columns = columns;
-    canvas->rows = rows;
-    for (int r = 0; r < rows; r++) {
-        memset(canvas->cell[r], ' ', (size_t)columns);
-        canvas->cell[r][columns] = 0;
-    }
-}
-
 /* height: 0 at the bottom, 1 at the top */
-static void put(struct canvas *canvas, int column, double height, char mark)
+static void put(char (*cell)[COLUMNS], int rows, int column, double height, char mark)
 {
-    if (!isfinite(height) || height < -0.5 / (canvas->rows - 1))
+    if (!isfinite(height) || height < -0.5 / (rows - 1))
         return;
-    int row = (int)lround((1 - fmin(fmax(height, 0), 1)) * (canvas->rows - 1));
-    char *cell = &canvas->cell[row][column];
-    *cell = *cell == ' ' || *cell == mark ? mark : '@';
+    char *at = &cell[lround((1 - fmin(fmax(height, 0), 1)) * (rows - 1))][column];
+    *at = *at == ' ' || *at == mark ? mark : '@';
 }
 
-static void frf_plot_print_row(FILE *out, const struct canvas *canvas, int row, const char *label)
+static void print_row(FILE *out, const char *row, const char *label)
 {
-    int last = canvas->columns;
-    while (last > 0 && canvas->cell[row][last - 1] == ' ')
+    int last = COLUMNS;
+    while (last > 0 && row[last - 1] == ' ')
         last--;
-    (void)fprintf(out, "%*s |%.*s\n", MARGIN - 2, label, last, canvas->cell[row]);
+    (void)fprintf(out, "%*s |%.*s\n", MARGIN - 2, label, last, row);
 }
 
 /* The line of each column that is drawn: the one of largest magnitude, or the nearest where a column has none. */
-static void choose(int columns, int nline, const double *hz, const double complex *h, int *line)
+static void choose(int nline, const double *hz, const double complex *h, int *line)
 {
     double from = hz[0], span = hz[nline - 1] - from;
     int near = 0;
-    for (int c = 0; c < columns; c++)
+    for (int c = 0; c < COLUMNS; c++)
         line[c] = -1;
     for (int l = 0; l < nline; l++) {
-        int c = span > 0 ? (int)((hz[l] - from) / span * (columns - 1) + 0.5) : 0;
+        int c = span > 0 ? (int)((hz[l] - from) / span * (COLUMNS - 1) + 0.5) : 0;
         if (isfinite(cabs(h[l])) && (line[c] < 0 || cabs(h[l]) > cabs(h[line[c]])))
             line[c] = l;
     }
-    for (int c = 0; c < columns; c++) {
-        double at = from + span * c / (columns - 1);
+    for (int c = 0; c < COLUMNS; c++) {
+        double at = from + span * c / (COLUMNS - 1);
         while (near + 1 < nline && fabs(hz[near + 1] - at) <= fabs(hz[near] - at))
             near++;
         if (line[c] < 0)
@@ -302,33 +288,30 @@ static void choose(int columns, int nline, const double *hz, const double comple
     }
 }
 
-static void frame(FILE *out, int columns, double from, double to)
+static void frame(FILE *out, double from, double to)
 {
     (void)fprintf(out, "%*s +", MARGIN - 2, "");
-    for (int c = 0; c < columns; c++)
+    for (int c = 0; c < COLUMNS; c++)
         (void)fputc(c % 10 ? '-' : '+', out);
     (void)fprintf(out, "\n%*s", MARGIN, "");
-    for (int c = 0; c + 10 <= columns; c += 20)
-        (void)fprintf(out, "%-*.5g", c + 30 <= columns ? 20 : 8, from + (to - from) * c / (columns - 1));
+    for (int c = 0; c + 10 <= COLUMNS; c += 20)
+        (void)fprintf(out, "%-*.5g", c + 30 <= COLUMNS ? 20 : 8, from + (to - from) * c / (COLUMNS - 1));
     (void)fputs("Hz\n", out);
 }
 
-/* Log magnitude over frequency, and phase below, on `columns` columns: '*' synthesised, 'o' measured (NULL where there is none),
- * '@' both. Of the lines that share a column the largest magnitude is drawn. */
-static void frf_plot(FILE *out, int columns, int nline, const double *hz, const double complex *synthesised,
-                     const double complex *measured)
+/* Log magnitude over frequency, and phase below: '*' synthesised, 'o' measured (NULL where there is none), '@' both. Of the lines
+ * that share a column the largest magnitude is drawn. */
+static void frf_plot(FILE *out, int nline, const double *hz, const double complex *synthesised, const double complex *measured)
 {
     const double complex *curve[2] = {synthesised, measured};
-    struct canvas magnitude, phase;
+    char magnitude[HEIGHT][COLUMNS], phase[PHASE_HEIGHT][COLUMNS], label[32];
     double top = 0, bottom = INFINITY;
-    int line[2][MOST_COLUMNS] = {{0}};
-    char label[32];
-    columns = columns > MOST_COLUMNS ? MOST_COLUMNS : columns;
-    open_canvas(&magnitude, columns, HEIGHT);
-    open_canvas(&phase, columns, PHASE_HEIGHT);
+    int line[2][COLUMNS] = {{0}};
+    memset(magnitude, ' ', sizeof magnitude);
+    memset(phase, ' ', sizeof phase);
     for (int i = 0; i < 2 && curve[i]; i++) {
-        choose(columns, nline, hz, curve[i], line[i]);
-        for (int c = 0; c < columns; c++) {
+        choose(nline, hz, curve[i], line[i]);
+        for (int c = 0; c < COLUMNS; c++) {
             double size = cabs(curve[i][line[i][c]]);
             top = isfinite(size) ? fmax(top, size) : top;
             bottom = size > 0 ? fmin(bottom, size) : bottom;
@@ -338,26 +321,25 @@ static void frf_plot(FILE *out, int columns, int nline, const double *hz, const 
         return;
     double high = log10(top), low = fmax(fmin(log10(bottom), high - 1), high - DECADES);
     for (int i = 0; i < 2 && curve[i]; i++)
-        for (int c = 0; c < columns; c++) {
+        for (int c = 0; c < COLUMNS; c++) {
             double complex h = curve[i][line[i][c]];
-            put(&magnitude, c, (log10(cabs(h)) - low) / (high - low), "*o"[i]);
-            put(&phase, c, 0.5 + carg(h) / (2 * PI), "*o"[i]);
+            put(magnitude, HEIGHT, c, (log10(cabs(h)) - low) / (high - low), "*o"[i]);
+            put(phase, PHASE_HEIGHT, c, 0.5 + carg(h) / (2 * PI), "*o"[i]);
         }
     for (int r = 0; r < HEIGHT; r++) {
         (void)snprintf(label, sizeof label, "%.1e", pow(10, high - (high - low) * r / (HEIGHT - 1)));
-        frf_plot_print_row(out, &magnitude, r, r % 5 ? "" : label);
+        print_row(out, magnitude[r], r % 5 ? "" : label);
     }
-    frame(out, columns, hz[0], hz[nline - 1]);
+    frame(out, hz[0], hz[nline - 1]);
     for (int r = 0; r < PHASE_HEIGHT; r++) {
         (void)snprintf(label, sizeof label, "%d deg", 180 - 45 * r);
-        frf_plot_print_row(out, &phase, r, r % 2 ? "" : label);
+        print_row(out, phase[r], r % 2 ? "" : label);
     }
-    frame(out, columns, hz[0], hz[nline - 1]);
+    frame(out, hz[0], hz[nline - 1]);
 }
 
 #define MOST_ROWS 40 /* beyond it the worst ones and a count */
 #define WORST     10
-#define COLUMNS   88   /* of the plot */
 #define FLIPPED   0.05 /* gain of FRAC with the conjugate that is no accident */
 
 /* ---- tables */
@@ -531,7 +513,7 @@ static void print_first(const struct screen *to, const struct frf_view *view)
         frf_measured_curve(r, view->set, 0, measured);
     (void)fprintf(to->out, "\n%d over %d: %s [%s], * synthesised%s\n", r->row[0].response, r->row[0].reference,
                   transfer_quantity_words[r->quantity], transfer_unit_words[r->quantity], measured ? ", o measured, @ both" : "");
-    frf_plot(to->out, COLUMNS, r->nline, r->frequency_hz, h, measured);
+    frf_plot(to->out, r->nline, r->frequency_hz, h, measured);
     screen_table(to, table_of_resonances(to->pool, r, h, measured));
 }
 

@@ -622,6 +622,7 @@ static void judge_band(struct frf_result *out, int row, int b, const double comp
     }
     frf_sums_add(&band->resonance, 1, measured + band->at_measured, h + band->at_model);
     double complex quotient = measured[band->at_measured] / h[band->at_model];
+    at->mode = band->mode;
     at->level_db = 20 * log10(cabs(quotient));
     at->phase_deg = carg(quotient) * 360 / TWO_PI;
     at->deviation = largest > 0 ? sqrt(apart / largest) : NAN;

@@ -555,6 +555,7 @@ struct frf_row {
 
 /* What one function shows at one mode. */
 struct frf_at_mode {
+    int mode;         /* number, from 1 */
     double level_db;  /* measured over synthesised, each at its own resonance */
     double phase_deg; /* measured less synthesised there, -180 to 180 */
     double deviation; /* largest |H^ - H| of the band over the largest |H^| of it */
