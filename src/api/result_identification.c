@@ -151,29 +151,14 @@ rotid_identification *result_identification(struct pool *pool, const struct job 
 static int fill_state(struct pool *pool, const struct state *state, const rotid_parameter *bounds,
                       const struct identification *found, rotid_identified_state *out)
 {
-    const rotid_identification *part = result_identification(pool, &state->job, bounds, found);
+    rotid_identification *part = result_identification(pool, &state->job, bounds, found);
     if (!part)
         return 1;
-    *out = (rotid_identified_state){.name = state->name,
-                                    .fitted_residuals = found->fit->nresidual,
-                                    .shapes_fitted = part->shapes_fitted,
-                                    .objective = part->objective,
-                                    .chi2 = part->chi2,
-                                    .nmodes = part->nmodes,
-                                    .modes = part->modes,
-                                    .reduction_error_percent = part->reduction_error_percent,
-                                    .mesh_error_percent = part->mesh_error_percent,
-                                    .mass_kg = part->mass_kg,
-                                    .center_of_mass_m = part->center_of_mass_m,
-                                    .shapes = part->shapes,
-                                    .nmatrix_rows = part->nmatrix_rows,
-                                    .nmatrix_columns = part->nmatrix_columns,
-                                    .nco_matrix = part->nco_matrix,
-                                    .mac_matrix = part->mac_matrix,
-                                    .matrix_rows = part->matrix_rows,
-                                    .matrix_columns = part->matrix_columns,
-                                    .noise = result_noise(pool, &state->job, found->fit),
-                                    .geometry = result_geometry(pool, &state->job.rotor, found->spectrum.model)};
+    part->noise = result_noise(pool, &state->job, found->fit);
+    part->geometry = result_geometry(pool, &state->job.rotor, found->spectrum.model);
+    out->name = state->name;
+    out->fitted_residuals = found->fit->nresidual;
+    STATE_COPY(out, part);
     return !out->noise || !out->geometry;
 }
 

@@ -105,6 +105,16 @@ struct record {
     const struct record_field *field; /* ends with key NULL */
 };
 
+/* What a state of a rotid_identification has for itself, by the same names in both structs. */
+#define STATE_COPY(to, from)                                                                                                     \
+    ((to)->shapes_fitted = (from)->shapes_fitted, (to)->objective = (from)->objective, (to)->chi2 = (from)->chi2,                \
+     (to)->nmodes = (from)->nmodes, (to)->modes = (from)->modes,                                                                 \
+     (to)->reduction_error_percent = (from)->reduction_error_percent, (to)->mesh_error_percent = (from)->mesh_error_percent,     \
+     (to)->mass_kg = (from)->mass_kg, (to)->center_of_mass_m = (from)->center_of_mass_m, (to)->shapes = (from)->shapes,          \
+     (to)->nmatrix_rows = (from)->nmatrix_rows, (to)->nmatrix_columns = (from)->nmatrix_columns,                                 \
+     (to)->nco_matrix = (from)->nco_matrix, (to)->mac_matrix = (from)->mac_matrix, (to)->matrix_rows = (from)->matrix_rows,      \
+     (to)->matrix_columns = (from)->matrix_columns, (to)->noise = (from)->noise, (to)->geometry = (from)->geometry)
+
 /* Bytes of one element of a list of this kind. */
 size_t record_element_size(const struct record_field *field);
 

@@ -5,6 +5,7 @@
 
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
+#include "record/record.h"
 
 #define SAME 1e-3 /* relative difference of parameters that is not worth a word */
 
@@ -83,24 +84,7 @@ rotid_identification fit_of_state(struct pool *pool, const rotid_identification 
         first += fit->states[before].nmodes;
     const rotid_identified_state *state = &fit->states[s];
     rotid_identification out = *fit;
-    out.shapes_fitted = state->shapes_fitted;
-    out.objective = state->objective;
-    out.chi2 = state->chi2;
-    out.nmodes = state->nmodes;
-    out.modes = state->modes;
-    out.reduction_error_percent = state->reduction_error_percent;
-    out.mesh_error_percent = state->mesh_error_percent;
-    out.mass_kg = state->mass_kg;
-    out.center_of_mass_m = state->center_of_mass_m;
-    out.shapes = state->shapes;
-    out.nmatrix_rows = state->nmatrix_rows;
-    out.nmatrix_columns = state->nmatrix_columns;
-    out.nco_matrix = state->nco_matrix;
-    out.mac_matrix = state->mac_matrix;
-    out.matrix_rows = state->matrix_rows;
-    out.matrix_columns = state->matrix_columns;
-    out.noise = state->noise;
-    out.geometry = state->geometry;
+    STATE_COPY(&out, state);
     out.nbaseline = POOL_LIST(pool, out.baseline, fit->nbaseline);
     for (int b = 0; b < out.nbaseline; b++) {
         rotid_minimiser *own = &out.baseline[b];
