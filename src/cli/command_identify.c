@@ -24,7 +24,7 @@ static int show(struct command *command, rotid_identification *found)
     }
     static const struct result_head none;
     struct table *table[] = {table_of_parameters(&command->pool, found),
-                             table_of_compared_modes(&command->pool, &none, 0, found, "")};
+                             table_of_compared_modes(&command->pool, &none, found, "")};
     int written = command_write_csv(command, tables, table, code);
     return written == EXIT_INTERNAL ? written : command_write_result(command, &result, code);
 }

@@ -13,7 +13,7 @@ static void section_agreement(struct document *document, const struct result *re
     document_section(document, "agreement", "Model and measurement", "shapes");
     document_figures(document, "agreement");
     document_figures(document, "matrices");
-    document_table(document, table_of_compared_modes(document->pool, &result->head, 0, result->identify, NULL));
+    document_table(document, table_of_compared_modes(document->pool, &result->head, result->identify, NULL));
     document_table(document, table_of_weighed(document->pool, result->identify->nweighed, result->identify->weighed));
     document_table(document, table_of_runup(document->pool, result->identify->nrunup, result->identify->runup));
 }
@@ -628,9 +628,9 @@ static void compose_rotor(struct document *document)
 /* of: the deck where it is not that of the page, or NULL; drawn: the rotors are on the page already */
 static void compose_states(struct document *document, const struct result *result, const char *of, int drawn)
 {
-    for (int s = 0; s < page_state_count(result); s++) {
-        const struct result own = page_result_of_state(document->pool, result, s);
-        document->of = pool_text(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", page_state_name(result, s));
+    for (int s = 0; s < result_states(result); s++) {
+        const struct result own = result_of_state(document->pool, result, s);
+        document->of = pool_text(document->pool, "%s%sstate %s", of ? of : "", of ? ", " : "", result_state_name(result, s));
         document->state = s;
         if (document->pool->out_of_memory) /* then the state has no result */
             break;
@@ -667,7 +667,7 @@ static void compose_result(struct document *document, const struct result *resul
 {
     const struct kind *kind = &kinds[rank_of(result)];
     add(document, kind->body, result);
-    if (page_state_count(result))
+    if (result_states(result))
         compose_states(document, result, document->of, drawn);
     else
         add(document, kind->state, result);
@@ -693,7 +693,7 @@ void page_compose(struct document *document, int count, const struct result *giv
     for (int i = 0; i < count; i++) {
         document->of = decks ? page_source(&result[i]) : NULL;
         document->result = i;
-        if (!drawn && geometry_of_result(&result[i]) && !page_state_count(&result[i])) {
+        if (!drawn && geometry_of_result(&result[i]) && !result_states(&result[i])) {
             compose_rotor(document);
             drawn = 1;
         }

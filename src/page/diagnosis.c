@@ -443,10 +443,10 @@ void section_diagnose(struct document *document, const struct result *result)
     section_findings(document, d);
     if (d->base) {
         document_section(document, "modes-compared", "Mode by mode", "matrices");
-        document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->extended ? d->extended : d->base,
+        document_table(document, table_of_compared_modes(document->pool, &result->head, d->extended ? d->extended : d->base,
                                                          d->extended ? "Modes of the extended model" : NULL));
         if (d->extended)
-            document_table(document, table_of_compared_modes(document->pool, &result->head, 0, d->base,
+            document_table(document, table_of_compared_modes(document->pool, &result->head, d->base,
                                                              "Modes of the model without the cause"));
     }
     if (d->base && d->verdict.kind != ROTID_ADEQUATE) { /* the most of mere noise is no place to look at */

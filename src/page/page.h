@@ -6,7 +6,7 @@
  *
  * Comes in: files of JSON that commands wrote, or a file of results of a study. Goes out: the file. Called by rotid report alone.
  *
- *   page_result_read   a file of JSON, every mistake with its place; page_state_count: the states of a deck      read.c
+ *   page_result_read   a file of JSON, every mistake with its place                                               read.c
  *   page_compose       answer, tiles, sections, tables, places of figures, results by rank                        compose.c
  *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c; the others, basis and
  *                      provenance: compose.c
@@ -34,10 +34,6 @@
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result);
 /* The deck of a result, of a modal analysis the measured file, else the file of the result; of an absolute path the last part. */
 const char *page_source(const struct result *result);
-/* How many states a result is of, 0 where its deck is one; the name of one; the result as one of its states has it. */
-int page_state_count(const struct result *result);
-const char *page_state_name(const struct result *result, int s);
-struct result page_result_of_state(struct pool *pool, const struct result *result, int s);
 
 /* ---- the page under construction. Whatever is added when memory is out is lost and marks the document. */
 

@@ -5,8 +5,8 @@
 #include "fit/fit.h"
 #include "report/report.h"
 
-struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, int first,
-                                      const rotid_identification *fit, const char *caption)
+struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, const rotid_identification *fit,
+                                      const char *caption)
 {
     const rotid_reference *hz = head_reference(head, "predicted_hz"), *error = head_reference(head, "error_percent");
     const unsigned reduced = strcmp(fit->reduction, "NONE") ? 0 : IN_CSV_ONLY; /* what a condensation would cost */
@@ -26,8 +26,8 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
         number_column(table, "measured", "Hz", SHOW_FIXED(3), mode->measured_hz);
         number_column(table, "predicted", "Hz", SHOW_FIXED(3), mode->predicted_hz);
         number_column(table, "error", "%", SHOW_SIGNED(3), mode->error_percent);
-        number_column(table, "reference", "Hz", SHOW_FIXED(2) | NOT_IN_CSV, reference_value(hz, first + k));
-        number_column(table, "reference error", "%", SHOW_SIGNED(2) | NOT_IN_CSV, reference_value(error, first + k));
+        number_column(table, "reference", "Hz", SHOW_FIXED(2) | NOT_IN_CSV, reference_value(hz, k));
+        number_column(table, "reference error", "%", SHOW_SIGNED(2) | NOT_IN_CSV, reference_value(error, k));
         number_column(table, "reduction", "%", SHOW_SIGNED(3) | reduced, fit->reduction_error_percent[k]);
         number_column(table, "mesh", "%", SHOW_SIGNED(4), fit->mesh_error_percent[k]);
         number_column(table, "nco", NULL, SHOW_FIXED(3), mode->nco);
@@ -297,17 +297,19 @@ void screen_identify(const struct screen *to, const struct result *result, int b
         (void)fprintf(out, "\nno check by NLopt: this rotid is built without it (WITH_NLOPT=0)\n");
     if (to->verbose)
         screen_table(to, table_of_history(to->pool, fit));
-    for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {
-        const rotid_identification of_state = fit_of_state(to->pool, fit, s);
-        const char *caption =
-            pool_text(to->pool, "state %s%s", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
-        screen_table(to, table_of_compared_modes(to->pool, &result->head, first, &of_state, caption));
-        print_rms(out, &of_state);
+    for (int s = 0; s < fit->nstates; s++) {
+        const struct result own = result_of_state(to->pool, result, s);
+        const char *held_out = fit->states[s].fitted_residuals ? "" : ", held out";
+        if (!own.identify)
+            return;
+        screen_table(to, table_of_compared_modes(to->pool, &own.head, own.identify,
+                                                 pool_text(to->pool, "state %s%s", fit->states[s].name, held_out)));
+        print_rms(out, own.identify);
     }
     if (fit->nstates)
         (void)fputs("\nall states: ", out);
     else
-        screen_table(to, table_of_compared_modes(to->pool, &result->head, 0, fit, NULL));
+        screen_table(to, table_of_compared_modes(to->pool, &result->head, fit, NULL));
     print_rms(out, fit);
     screen_table(to, table_of_runup(to->pool, fit->nrunup, fit->runup));
     screen_table(to, table_of_weighed(to->pool, fit->nweighed, fit->weighed));

@@ -11,7 +11,7 @@ static void print_states(const struct screen *to, const struct result *result, c
     if (!result->nstates)
         print(to, result, job ? job[0] : NULL);
     for (int s = 0; s < result->nstates; s++) {
-        const struct result own = result_of_state(result, s);
+        const struct result own = result_of_state(to->pool, result, s);
         screen_state(to, s, result->states[s].name);
         print(to, &own, job ? job[s] : NULL);
     }

@@ -344,9 +344,9 @@ void table_write_html(FILE *out, const struct table *table, int number);
 
 /* The tables of results, each for screen, CSV and page. */
 
-/* A caption NULL: that of the table. head: for the references of the deck; first: number of the first mode among them. */
-struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, int first,
-                                      const rotid_identification *fit, const char *caption);
+/* A caption NULL: that of the table. head: for the references of the deck. */
+struct table *table_of_compared_modes(struct pool *pool, const struct result_head *head, const rotid_identification *fit,
+                                      const char *caption);
 struct table *table_of_parameters(struct pool *pool, const rotid_identification *fit);
 struct table *table_of_states(struct pool *pool, const rotid_identification *fit);
 struct table *table_of_minimisers(struct pool *pool, const rotid_identification *fit);

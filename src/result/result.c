@@ -177,15 +177,48 @@ char *result_json(const struct result *result)
     return record_text(record, result, 1);
 }
 
-struct result result_of_state(const struct result *result, int s)
+int result_states(const struct result *result)
+{
+    return result->identify ? result->identify->nstates : result->nstates;
+}
+
+const char *result_state_name(const struct result *result, int s)
+{
+    return result->identify ? result->identify->states[s].name : result->states[s].name;
+}
+
+/* References go over the modes of all states. */
+static void take_references(struct pool *pool, struct result_head *head, int first)
+{
+    rotid_reference *reference = POOL_ARRAY(pool, rotid_reference, head->nreferences);
+    for (int i = 0; i < head->nreferences && reference; i++) {
+        int skip = first < head->references[i].nvalues ? first : head->references[i].nvalues;
+        reference[i] = head->references[i];
+        reference[i].values += skip;
+        reference[i].nvalues -= skip;
+    }
+    head->nreferences = reference ? head->nreferences : 0;
+    head->references = reference;
+}
+
+struct result result_of_state(struct pool *pool, const struct result *result, int s)
 {
     struct result own = *result;
+    int first = 0;
+    own.nstates = 0;
+    own.states = NULL;
+    if (result->identify) {
+        for (int before = 0; before < s; before++)
+            first += result->identify->states[before].nmodes;
+        take_references(pool, &own.head, first);
+        if ((own.identify = POOL_NEW(pool, rotid_identification)))
+            *own.identify = fit_of_state(pool, result->identify, s);
+        return own;
+    }
     own.check = result->states[s].check;
     own.modes = result->states[s].modes;
     own.sensitivity = result->states[s].sensitivity;
     own.frf = result->states[s].frf;
-    own.nstates = 0;
-    own.states = NULL;
     return own;
 }
 

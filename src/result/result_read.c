@@ -64,16 +64,6 @@ static void check_fit(const struct json_place *at, const rotid_identification *f
         place_wrong(at, "matrix_rows or matrix_columns is missing, expected the numbers of the modes in mac_matrix");
 }
 
-/* What each state has for itself. */
-static void check_states(const struct json_place *root, const rotid_identification *fit)
-{
-    for (int s = 0; s < fit->nstates; s++) {
-        const rotid_identification of_state = fit_of_state(root->reader->pool, fit, s);
-        check_fit(root, &of_state);
-        check_geometry(root, of_state.geometry);
-    }
-}
-
 /* The candidates stand in the order of their rounds. */
 static void check_rounds(const struct json_place *root, const rotid_diagnosis *d)
 {
@@ -107,8 +97,8 @@ static void result_check(const struct json_place *root, const struct result *res
 /* What a command found of each state, as if it stood alone. */
 static void check_each_state(const struct json_place *root, const struct result *result)
 {
-    for (int s = 0; s < result->nstates; s++) {
-        const struct result own = result_of_state(result, s);
+    for (int s = 0; s < result_states(result); s++) {
+        const struct result own = result_of_state(root->reader->pool, result, s);
         result_check(root, &own);
     }
 }
@@ -122,10 +112,8 @@ static void result_check(const struct json_place *root, const struct result *res
         return;
     if (geometry)
         check_geometry(root, geometry);
-    if (result->identify) {
+    if (result->identify)
         check_fit(root, result->identify);
-        check_states(root, result->identify);
-    }
     if (result->diagnose)
         check_diagnosis(root, result->diagnose);
     if (result->modes)
