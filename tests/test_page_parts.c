@@ -103,7 +103,6 @@ POOL_TEST(a_table_is_shown_in_three_ways)
     struct table *table = table_open(&test_pool, "Masses & errors");
     table->note = "The last row is not known.";
     for (int i = 0; i < 2; i++) {
-        table_row(table);
         text_column(table, "part", SHOW_TEXT, rows[i].part);
         number_column(table, "error", "%", SHOW_SIGNED(2), rows[i].error);
         number_column(table, "none", NULL, SHOW_FIXED(3), NAN);
@@ -138,7 +137,6 @@ POOL_TEST(a_table_is_shown_in_three_ways)
 POOL_TEST(a_row_has_a_unit)
 {
     struct table *table = table_open(&test_pool, "");
-    table_row(table);
     unit_column(table, 115.75e9, (176.4e9 - 55.1e9) / 2, "Pa");
     number_column(table, "value", ROW_UNIT, SHOW_ROW, 115.75e9);
     number_column(table, "upper", ROW_UNIT, SHOW_ROW, 176.4e9);
@@ -184,7 +182,6 @@ POOL_TEST(every_text_of_a_page_is_shown_so)
     document_list(&document, 1, text);
     document_facts(&document, 1, name, text);
     struct table *table = table_open(&test_pool, "caption: layer_slip");
-    table_row(table);
     text_column(table, "head: tie_shear", SHOW_TEXT, "cell: tie_tension");
     table->note = "note: tie_stiffness";
     document_table(&document, table);

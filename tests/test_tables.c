@@ -318,7 +318,6 @@ UNIT_TEST(columns_are_as_wide_as_their_cells)
     struct table *table = table_open(&test_pool, "");
     assert_non_null(stream);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        table_row(table);
         number_column(table, "fixed", NULL, SHOW_FIXED(2), values[i]);
         number_column(table, "signed", NULL, SHOW_SIGNED(2), values[i]);
         number_column(table, "digits", NULL, SHOW_DIGITS(4), values[i]);

@@ -490,7 +490,6 @@ void screen_export(const struct screen *to, const struct result_head *head, cons
         (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_words[model->condensed.kind], model->condensed.count,
                       job->rotor.nsensor ? "sensors" : "nodes");
     for (int j = 0; j < s->count; j++) {
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, j + 1);
         number_column(table, "frequency", "Hz", SHOW_FIXED(4), s->full_hz[j]);
         number_column(table, "condensed", "Hz", SHOW_FIXED(4), model->condensed.k ? s->reduced_hz[j] : (double)NAN);

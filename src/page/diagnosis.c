@@ -274,7 +274,6 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
         return;
     for (int i = 0; i < count; i++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, hidden[i].parameter);
-        table_row(table);
         text_column(table, "parameter", SHOW_TEXT, hidden[i].parameter);
         text_column(table, "moved by", SHOW_TEXT,
                     value ? pool_copy_text(pool, linear_percent_text(100 * fabs(hidden[i].shift / value->value), figure)) : "");
@@ -401,7 +400,6 @@ static void section_findings(struct document *document, const rotid_diagnosis *d
         struct table *table = table_open(pool, pool_text(pool, "%s: its error in each mode", finding->id));
         document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
         for (int k = 0; k < finding->nmodes; k++) {
-            table_row(table);
             number_column(table, "mode", NULL, SHOW_COUNT, finding->modes[k]);
             number_column(table, "error of the frequency", "%", SHOW_SIGNED(3), finding->error_percent[k]);
         }

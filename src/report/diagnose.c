@@ -107,7 +107,6 @@ struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, i
             more++;
             continue;
         }
-        table_row(table);
         text_column(table, "cause", MAY_BE_CUT, c->suspect ? c->cause.name : c->cause.id);
         text_column(table, "target", MAY_BE_CUT, c->cause.target);
         text_column(table, "state", MAY_BE_CUT, c->cause.state);
@@ -125,7 +124,6 @@ struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, i
 
 static void value_row(struct table *table, const char *name, const char *by, const rotid_fitted_parameter *is)
 {
-    table_row(table);
     text_column(table, "parameter", MAY_BE_CUT, name);
     unit_column(table, is->value, (is->ci95[1] - is->ci95[0]) / 2, is->unit);
     number_column(table, "value", ROW_UNIT, SHOW_ROW, is->value);
@@ -179,7 +177,6 @@ struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d,
     for (int i = 0; i < shown; i++) {
         const rotid_explanation *e = &v->explanations[i];
         const char *values = "";
-        table_row(table);
         number_column(table, "share %", NULL, SHOW_FIXED(1), 100 * e->probability);
         if (isfinite(v->runup_p))
             number_column(table, "at rest %", NULL, SHOW_FIXED(1), 100 * e->at_rest);
@@ -266,7 +263,6 @@ struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (!isfinite(rows[i].pair->before) && !(d->extended && isfinite(rows[i].pair->after)))
             continue;
-        table_row(table);
         text_column(table, "quality", SHOW_TEXT, rows[i].text);
         number_column(table, d->extended ? "before" : "value", NULL, SHOW_DIGITS(3), rows[i].factor * rows[i].pair->before);
         if (d->extended)
@@ -281,7 +277,6 @@ static struct table *table_of_change(struct pool *pool, const rotid_diagnosis *d
     for (int i = 0; i < d->gain.nparameters && d->extended; i++) {
         const rotid_changed_parameter *p = &d->gain.parameters[i];
         const double *ci = isfinite(p->after) ? p->after_ci95 : p->before_ci95;
-        table_row(table);
         text_column(table, "parameter", MAY_BE_CUT, p->name);
         unit_column(table, isfinite(p->after) ? p->after : p->before, (ci[1] - ci[0]) / 2, p->unit);
         number_column(table, "before", ROW_UNIT, SHOW_ROW, p->before);
@@ -315,7 +310,6 @@ struct table *table_of_detectable(struct pool *pool, int count, const rotid_dete
                                before_target(d->target), d->target);
             continue;
         }
-        table_row(table);
         text_column(table, "cause", MAY_BE_CUT, d->id);
         text_column(table, "target", MAY_BE_CUT, d->target);
         text_column(table, "parameter", MAY_BE_CUT, d->parameter);
@@ -346,7 +340,6 @@ static struct table *table_of_misfit(struct pool *pool, const rotid_diagnosis *d
         double standardised = k < d->nmodes_standardised ? d->modes_standardised[k] : (double)NAN;
         char bar[2 * BAR_HALF + 2];
         chart_bar(bar, BAR_HALF, scale, standardised);
-        table_row(table);
         text_column(table, "state", MAY_BE_CUT, fit_state_of_mode(base, k));
         number_column(table, "mode", NULL, SHOW_COUNT, mode->mode);
         number_column(table, "measured", "Hz", SHOW_DIGITS(6), mode->measured_hz);

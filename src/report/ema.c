@@ -192,7 +192,6 @@ struct table *table_of_test_modes(struct pool *pool, const struct ema_result *em
     struct table *table = table_open(pool, "Modes, with standard deviations");
     for (int k = 0; k < ema->nmodes; k++) {
         const struct ema_mode_result *m = &ema->modes[k];
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, m->mode);
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), m->is.frequency_hz);
         number_column(table, "std", "Hz", SHOW_DIGITS(2), m->is.frequency_std);
@@ -301,7 +300,6 @@ static struct table *table_of_mac(struct pool *pool, const struct ema_result *em
         table_open(pool, ema->nmodes > MOST_MAC ? "MAC of the shapes with each other [%], the first twenty (all in the JSON)"
                                                 : "MAC of the shapes with each other [%]");
     for (int i = 0; i < count && count > 1; i++) {
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, i + 1);
         for (int j = 0; j < count; j++)
             number_column(table, i ? "" : pool_text(pool, "%d", j + 1), NULL, SHOW_COUNT,
@@ -315,7 +313,6 @@ static struct table *table_of_poles(struct pool *pool, const struct ema_result *
     struct table *table = table_open(pool, "Poles");
     for (int i = 0; i < ema->nstabilisation; i++) {
         const struct ema_pole *p = &ema->stabilisation[i];
-        table_row(table);
         number_column(table, "order", NULL, SHOW_COUNT, p->order);
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), p->frequency_hz);
         number_column(table, "damping", "%", SHOW_DIGITS(4), 100 * p->damping);
@@ -335,7 +332,6 @@ static struct table *table_of_channels(struct pool *pool, const struct ema_resul
                                    known ? ema->channels[order[known / 2]].fit : 0, shown < known ? "the worst" : "all"));
     for (int i = 0; i < shown && ema->nmodes; i++) {
         const struct ema_channel *of = &ema->channels[order[i]];
-        table_row(table);
         number_column(table, "node", NULL, SHOW_COUNT, of->response_node);
         number_column(table, "over node", NULL, SHOW_COUNT, of->reference_node);
         number_column(table, "FRAC", NULL, SHOW_FIXED(4), of->fit);
@@ -372,7 +368,6 @@ void screen_scatter(const struct screen *to, int count, const char *const *file,
                    test[t].npoint);
     for (int k = 0; k < mean->nmode; k++) {
         const struct ema_mode *mode = &mean->mode[k];
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, k + 1);
         number_column(table, "frequency", "Hz", SHOW_DIGITS(8), mode->frequency_hz);
         number_column(table, "scatter", "Hz", SHOW_DIGITS(2), scatter->std_hz[k]);

@@ -366,7 +366,6 @@ struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_r
         for (int k = 0; f && f->beside && k < f->beside->nat_modes; k++)
             if (f->beside->at_modes[k].mode == mode->mode)
                 worst = f->beside->at_modes[k].deviation;
-        table_row(table);
         text_column(table, "mode", SHOW_TEXT, mode->rigid ? "rigid" : pool_text(pool, "%d", mode->mode));
         number_column(table, "model", "Hz", SHOW_FIXED(3), mode->model_hz);
         number_column(table, "measured", "Hz", SHOW_FIXED(3), mode->measured_hz);
@@ -386,7 +385,6 @@ static void function_row(struct table *table, const struct transfer_function *f,
 {
     struct pool *pool = table ? table->pool : NULL;
     double gain = agrees->frac_of_conjugate;
-    table_row(table);
     text_column(table, "response", SHOW_TEXT, f ? pool_text(pool, "%d", f->response) : "all");
     text_column(table, "reference", SHOW_TEXT, f ? pool_text(pool, "%d", f->reference) : "");
     number_column(table, "FRAC", NULL, SHOW_FIXED(3), agrees->frac);
@@ -446,7 +444,6 @@ static struct table *table_of_resonances(struct pool *pool, const struct frf_res
     for (int b = 0; b < r->nband; b++) {
         const struct frf_band *band = &r->band[b];
         double complex at = h[band->at_model], beside = measured ? measured[band->at_measured] : NAN;
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, band->mode);
         number_column(table, "line", "Hz", SHOW_FIXED(2), r->frequency_hz[band->at_model]);
         number_column(table, "synthesised", NULL, SHOW_DIGITS(5), cabs(at));

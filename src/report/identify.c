@@ -16,7 +16,6 @@ struct table *table_of_compared_modes(struct pool *pool, const struct result_hea
         typed |= fit->modes[k].type && !same_text(fit->modes[k].type, "BENDING");
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
-        table_row(table);
         if (fit->nstates)
             text_column(table, "state", SHOW_TEXT, fit_state_of_mode(fit, k));
         if (typed)
@@ -53,7 +52,6 @@ struct table *table_of_parameters(struct pool *pool, const rotid_identification 
         table_note(table, "%s (95 %%)", quote);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *is = &fit->parameters[p];
-        table_row(table);
         text_column(table, "parameter", SHOW_TEXT, is->name);
         unit_column(table, is->value, (is->ci95[1] - is->ci95[0]) / 2, is->unit);
         number_column(table, "value", ROW_UNIT, SHOW_ROW, is->value);
@@ -82,7 +80,6 @@ struct table *table_of_states(struct pool *pool, const rotid_identification *fit
     struct table *table = table_open(pool, "States: one set of parameters for all, each with its own model and modes");
     for (int s = 0; s < fit->nstates; s++) {
         const rotid_identification own = fit_of_state(pool, fit, s);
-        table_row(table);
         text_column(table, "state", SHOW_TEXT, fit->states[s].name);
         number_column(table, "modes", NULL, SHOW_COUNT, own.nmodes);
         number_column(table, "residuals", NULL, SHOW_COUNT, fit->states[s].fitted_residuals);
@@ -100,7 +97,6 @@ struct table *table_of_weighed(struct pool *pool, int count, const rotid_weighed
     struct table *t = table_open(pool, "WEIGHED: mass and centre of mass beside the model's");
     for (int i = 0; i < count; i++) {
         int centre = same_text(list[i].quantity, "centre");
-        table_row(t);
         text_column(t, "quantity", SHOW_TEXT, centre ? "centre of mass [m]" : "mass [kg]");
         text_column(t, "state", SHOW_TEXT, list[i].state);
         number_column(t, "measured", NULL, SHOW_TRIMMED(6), list[i].measured);
@@ -122,7 +118,6 @@ struct table *table_of_minimisers(struct pool *pool, const rotid_identification 
     struct table *table = table_open(pool, "Minimisers from the same start");
     for (int b = 0; b <= fit->nbaseline; b++) {
         const rotid_minimiser *other = b ? &fit->baseline[b - 1] : NULL;
-        table_row(table);
         text_column(table, "minimiser", SHOW_TEXT, other ? pool_text(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
         number_column(table, "objective", NULL, SHOW_DIGITS(4), other ? other->objective : fit->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(2) | DETAIL, other ? other->gradient : fit->gradient);
@@ -167,7 +162,6 @@ static struct table *table_of_history(struct pool *pool, const rotid_identificat
     struct table *table = table_open(pool, "Iterations");
     for (int i = 0; i < fit->nhistory; i++) {
         const rotid_history_entry *entry = &fit->history[i];
-        table_row(table);
         number_column(table, "iteration", NULL, SHOW_COUNT, entry->iteration);
         number_column(table, "objective", NULL, SHOW_DIGITS(4), entry->objective);
         number_column(table, "gradient", NULL, SHOW_DIGITS(3), entry->gradient);

@@ -65,7 +65,6 @@ static struct table *table_of_causes(struct pool *pool, const struct job *job)
                                       : i < neffect + nsuspect ? &job->unknowns.suspect[i - neffect].effect
                                                                : NULL;
         const struct correction *correction = effect ? NULL : &job->measurement.correction[i - neffect - nsuspect];
-        table_row(table);
         text_column(table, "cause", SHOW_TEXT, effect ? effect->name : correction->name);
         text_column(table, "role", SHOW_TEXT, correction ? "taken out of the data" : i < neffect ? "in the model" : "suspected");
         text_column(table, "what", SHOW_TEXT,
@@ -80,7 +79,6 @@ static struct table *table_of_groups(struct pool *pool, const rotid_geometry *ge
     for (int g = 0; g < geometry->ngroups; g++) {
         const rotid_group *group = &geometry->groups[g];
         const rotid_material *material = &group->material;
-        table_row(table);
         text_column(table, "group", SHOW_TEXT, group->name);
         number_column(table, "from", "m", SHOW_FIXED(6), group->from_m);
         number_column(table, "to", "m", SHOW_FIXED(6), group->to_m);
@@ -169,7 +167,6 @@ struct table *table_of_model_modes(struct pool *pool, const rotid_spectrum *spec
     for (int j = 0; j < spectrum->nmodes; j++) {
         const rotid_model_mode *mode = &spectrum->modes[j];
         const rotid_compared_mode *measured = mode->measured;
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, mode->mode);
         number_column(table, "frequency", "Hz", SHOW_FIXED(4), mode->full_hz);
         number_column(table, "condensed", "Hz", SHOW_FIXED(4), mode->reduced_hz);
@@ -189,7 +186,6 @@ struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_s
         table_open(pool, "Modes of the rotor as a beam and as a solid: the difference is beam over solid, less one");
     for (int k = 0; k < beside->nmodes; k++) {
         const rotid_beside_mode *mode = &beside->modes[k];
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, mode->mode);
         number_column(table, "solid", "Hz", SHOW_FIXED(4), mode->solid_hz);
         number_column(table, "beam", "Hz", SHOW_FIXED(4), mode->beam_hz);
@@ -209,7 +205,6 @@ struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_
     struct table *table = table_open(pool, "Moduli of the beam whose frequencies are nearest to those of the solid");
     for (int p = 0; p < beside->nmoduli; p++) {
         const rotid_beside_modulus *modulus = &beside->moduli[p];
-        table_row(table);
         text_column(table, "modulus", SHOW_TEXT, modulus->name);
         scaled_column(table, "solid", "Pa", SHOW_DIGITS(5), 1e9, modulus->stated_pa);
         scaled_column(table, "fitted beam", "Pa", SHOW_DIGITS(5), 1e9, modulus->found_pa);
@@ -223,7 +218,6 @@ struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, cons
 {
     struct table *table = table_open(pool, "");
     for (int i = 0; i < s->nsensor_z_m; i++) {
-        table_row(table);
         number_column(table, "sensor", NULL, SHOW_COUNT, rotor && rotor->nsensor == s->nsensor_z_m ? rotor->sensor[i].id : i + 1);
         number_column(table, "position", "m", SHOW_FIXED(5), s->sensor_z_m[i]);
         for (int j = 0; j < s->nmodes; j++)
@@ -266,7 +260,6 @@ struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *
 {
     struct table *table = table_open(pool, "Change of a frequency for a change of a parameter, per cent for a per cent");
     for (int k = 0; k < s->nfrequency_hz; k++) {
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, k + 1);
         number_column(table, "frequency", "Hz", SHOW_FIXED(4), s->frequency_hz[k]);
         for (int p = 0; p < s->nparameters; p++) /* older results have no changes of frequencies */
@@ -286,7 +279,6 @@ static struct table *table_of_quotients(struct pool *pool, const struct result_h
                                                      "steps of %g %% and their limit",
                                                      one->name, 100 * s->step));
     for (int k = 0; k < s->nfrequency_hz; k++) {
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, k + 1);
         number_column(table, "frequency", "Hz", SHOW_FIXED(4), s->frequency_hz[k]);
         number_column(table, "step", NULL, SHOW_DIGITS(5), one->sensitivity[k]);
@@ -301,7 +293,6 @@ static struct table *table_of_curves(struct pool *pool, const struct sensitivity
     struct table *table =
         table_open(pool, pool_text(pool, "%s: E_k^2/2 over the relative value (Figure 5 of the paper)", one->name));
     for (int i = 0; i < s->nrelative_value; i++) {
-        table_row(table);
         number_column(table, "value", NULL, SHOW_FIXED(3), s->relative_value[i]);
         for (int k = 0; k < s->nfrequency_hz; k++)
             number_column(table, i ? "" : pool_text(pool, "mode %d", k + 1), NULL, SHOW_DIGITS(3),

@@ -265,10 +265,10 @@ const struct uff_result *uff_result_of(struct pool *pool, const char *path, cons
 
 /* ---------------------------------------------------------------------------------------------------------- struct table */
 
-/* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. A row is begun by
- * table_row; each call of *_column adds its next cell, and in the first row the column: every row names the same columns. Values
- * come in SI; people read them in the unit of human_unit, CSV has SI. What was added when memory was out is lost, as the pool
- * says. Texts are not copied. */
+/* One table for all ways to show it: made once from a result, then written as lines of text, as CSV or as HTML. Each call of
+ * *_column adds the next cell, and in the first row the column: every row names the same columns, and begins with the first.
+ * Values come in SI; people read them in the unit of human_unit, CSV has SI. What was added when memory was out is lost, as the
+ * pool says. Texts are not copied. */
 
 /* How a column is shown: a format with its digits, and bits. */
 enum {
@@ -306,7 +306,8 @@ struct table_cell {
 struct table {
     struct pool *pool;
     const char *caption, *note; /* note: under the table */
-    int ncolumns, nrows, ncells;
+    int ncolumns, ncells;
+    int is_made; /* its columns are those of the first row */
     struct table_column *column;
     struct table_cell *cell; /* by rows */
     double row_factor;       /* of the unit of the row */
@@ -316,7 +317,6 @@ struct table {
 /* A table without columns; NULL where memory is out, which all that adds takes. */
 struct table *table_open(struct pool *pool, const char *caption);
 int table_rows(const struct table *table);
-void table_row(struct table *table);
 
 void text_column(struct table *table, const char *name, unsigned show, const char *text);
 /* A number that is not finite is shown as a dash. */

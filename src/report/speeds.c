@@ -11,7 +11,6 @@ struct table *table_of_critical_speeds(struct pool *pool, const rotid_speeds *s)
                                           : pool_text(pool, "CRITICAL SPEEDS: Im lambda = %g times the speed", s->harmonic));
     for (int i = 0; i < s->ncritical_speeds; i++) {
         const rotid_critical_speed *c = &s->critical_speeds[i];
-        table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, c->number);
         number_column(t, "critical speed", "rpm", SHOW_FIXED(1), c->speed_rpm);
         number_column(t, "from", "rpm", SHOW_FIXED(0), c->ci95[0]);
@@ -31,7 +30,6 @@ struct table *table_of_runup(struct pool *pool, int count, const rotid_runup_spe
     struct table *t = table_open(pool, count && list[0].holdout ? "RUN-UP, held out: measured critical speeds beside the model's"
                                                                 : "RUN-UP: measured critical speeds beside the model's");
     for (int i = 0; i < count; i++) {
-        table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, list[i].number);
         text_column(t, "whirl", SHOW_TEXT, list[i].whirl);
         number_column(t, "measured", "rpm", SHOW_FIXED(1), list[i].measured_rpm);
@@ -48,7 +46,6 @@ struct table *table_of_torsion(struct pool *pool, const rotid_speeds *s)
     struct table *t = table_open(pool, "TORSION: natural frequencies of the machine, and the speeds that excite them");
     for (int i = 0; i < s->ntorsion; i++) {
         const rotid_torsional_frequency *own = &s->torsion[i];
-        table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, own->number);
         number_column(t, "frequency", "Hz", SHOW_FIXED(2), own->frequency_hz);
         number_column(t, "std", "Hz", SHOW_DIGITS(3), own->std_hz > 0 ? own->std_hz : (double)NAN);
@@ -66,7 +63,6 @@ struct table *table_of_shares(struct pool *pool, const rotid_speeds *s)
 {
     struct table *t = table_open(pool, "VARIANCE: share of each source in that of the critical speed");
     for (int i = 0; i < s->ncritical_speeds && s->critical_speeds[i].nvariance_shares; i++) {
-        table_row(t);
         number_column(t, "no.", NULL, SHOW_COUNT, i + 1);
         for (int j = 0; j < s->critical_speeds[i].nvariance_shares; j++)
             number_column(t, s->critical_speeds[i].variance_shares[j].source, "%", SHOW_FIXED(1),
@@ -82,7 +78,6 @@ struct table *table_of_sensitivities(struct pool *pool, const rotid_speeds *s)
     for (int i = 0; i < s->ncritical_speeds; i++)
         for (int j = 0; j < s->critical_speeds[i].nsensitivities; j++) {
             const rotid_speed_sensitivity *one = &s->critical_speeds[i].sensitivities[j];
-            table_row(t);
             number_column(t, "no.", NULL, SHOW_COUNT, i + 1);
             text_column(t, "parameter", SHOW_TEXT, one->parameter);
             number_column(t, "d ln speed", NULL, SHOW_SIGNED(4), one->speed);
@@ -98,7 +93,6 @@ static struct table *table_of_peaks(struct pool *pool, const rotid_speeds *s)
     for (int i = 0; i < s->ncritical_speeds; i++)
         for (int p = 0; p < s->critical_speeds[i].npeaks; p++) {
             const rotid_response_peak *peak = &s->critical_speeds[i].peaks[p];
-            table_row(t);
             number_column(t, "critical speed", NULL, SHOW_COUNT, i + 1);
             text_column(t, "probe", SHOW_TEXT, peak->probe);
             number_column(t, "peak", "rpm", SHOW_FIXED(1), peak->speed_rpm);
@@ -114,7 +108,6 @@ static struct table *table_of_loads(struct pool *pool, const rotid_speeds *s)
         table_open(pool, pool_text(pool, "BEARING LOADS: weight %.5g N, sag %.4g mm", s->weight_n, 1000 * s->sag_m));
     for (int i = 0; i < s->nbearing_loads; i++) {
         const rotid_bearing_load *load = &s->bearing_loads[i];
-        table_row(t);
         text_column(t, "bearing", SHOW_TEXT, load->bearing ? load->bearing : pool_text(pool, "%d", i + 1));
         number_column(t, "position", "m", SHOW_FIXED(4), load->position_m);
         number_column(t, "load x", "N", SHOW_DIGITS(5), load->load_x_n);
@@ -133,7 +126,6 @@ struct table *table_of_stability(struct pool *pool, const rotid_speeds *s)
         table_open(pool, s->ncampbell ? pool_text(pool, "STABILITY: modes at %.0f rpm", s->campbell[at].speed_rpm) : "STABILITY");
     for (int i = 0; s->ncampbell && i < s->campbell[at].nmodes; i++) {
         const rotid_campbell_mode *m = &s->campbell[at].modes[i];
-        table_row(t);
         number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
         number_column(t, "frequency", "Hz", SHOW_FIXED(2), m->frequency_hz);
         number_column(t, "from", "Hz", SHOW_FIXED(2), m->ci95[0]);
@@ -152,7 +144,6 @@ struct table *table_of_campbell(struct pool *pool, const rotid_speeds *s)
     for (int i = 0; i < s->ncampbell; i++)
         for (int j = 0; j < s->campbell[i].nmodes; j++) {
             const rotid_campbell_mode *m = &s->campbell[i].modes[j];
-            table_row(t);
             number_column(t, "speed", "rpm", SHOW_FIXED(1), s->campbell[i].speed_rpm);
             number_column(t, "mode", NULL, SHOW_COUNT, m->mode);
             number_column(t, "frequency", "Hz", SHOW_FIXED(3), m->frequency_hz);
@@ -172,7 +163,6 @@ struct table *table_of_response(struct pool *pool, const rotid_speeds *s)
     struct table *t = table_open(pool, "Unbalance response");
     for (int p = 0; p < s->nunbalance; p++)
         for (int i = 0; i < s->unbalance[p].nspeed_rpm; i++) {
-            table_row(t);
             text_column(t, "probe", SHOW_TEXT, s->unbalance[p].probe);
             number_column(t, "speed", "rpm", SHOW_FIXED(1), s->unbalance[p].speed_rpm[i]);
             number_column(t, "amplitude", "m", SHOW_DIGITS(5), s->unbalance[p].amplitude_m[i]);

@@ -20,7 +20,6 @@ struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
                s->plan_modes);
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *p = &s->plans[i];
-        table_row(table);
         text_column(table, "plan", SHOW_TEXT, strcmp(p->method, "effective_independence") ? p->method : "effective independence");
         number_column(table, "sensors", NULL, SHOW_COUNT, p->nz_m);
         number_column(table, "gain", "%", SHOW_FIXED(1), p->gain_percent);
@@ -36,7 +35,6 @@ struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
     struct table *table = table_open(pool, "Half-widths of the 95 % intervals that are expected, by the number of modes");
     for (int i = 0; i < s->nmodes && s->nparameters; i++) {
         const rotid_expected_modes *m = &s->modes[i];
-        table_row(table);
         number_column(table, "modes", NULL, SHOW_COUNT, m->modes);
         for (int p = 0; p < s->nparameters; p++) {
             const char *name = s->parameters[p].name;
@@ -53,7 +51,6 @@ struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table = table_open(pool, "Rivals: what the diagnosis cannot tell apart");
     for (int i = 0; i < s->nrivals; i++) {
-        table_row(table);
         number_column(table, "number", NULL, SHOW_COUNT, i + 1);
         text_column(table, "rival", SHOW_TEXT, s->rivals[i].label);
         number_column(table, "chi2", NULL, SHOW_FIXED(2), s->rivals[i].chi2);
@@ -94,7 +91,6 @@ struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s)
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         const rotid_expected_margin *m = closest(s, t);
-        table_row(table);
         number_column(table, "chance", NULL, SHOW_FIXED(2), t->chance);
         number_column(table, "wrong", NULL, SHOW_FIXED(2), t->wrong);
         number_column(table, "entropy", NULL, SHOW_FIXED(2), t->entropy);
@@ -119,7 +115,6 @@ static struct table *table_of_margins(struct pool *pool, const rotid_suggestion 
     for (int i = 0; i < s->ntests; i++)
         for (int k = 0; k < s->tests[i].nmargins; k++) {
             const rotid_expected_margin *m = &s->tests[i].margins[k];
-            table_row(table);
             number_column(table, "test", NULL, SHOW_COUNT, i + 1);
             number_column(table, "true", NULL, SHOW_COUNT, m->truth + 1);
             number_column(table, "over", NULL, SHOW_COUNT, m->rival + 1);
@@ -172,7 +167,6 @@ struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
     table_note(table, "As measured %s rpm, %.0f %% of that variance by the unknowns. In linear prediction.",
                isfinite(s->speed_std) ? pool_text(pool, "%.3g", s->speed_std) : "not known,", 100 * s->speed_identified);
     for (int i = 0; i < s->nspeed_tests; i++) {
-        table_row(table);
         text_column(table, "test", SHOW_TEXT, s->speed_tests[i].test);
         number_column(table, "modes", NULL, SHOW_COUNT | DETAIL, s->speed_tests[i].modes);
         number_column(table, "std", "rpm", SHOW_DIGITS(4), s->speed_tests[i].std_rpm);

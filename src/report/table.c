@@ -85,7 +85,9 @@ static struct table_column *next_column(struct table *table, const char *name, c
 {
     if (!table || table->pool->out_of_memory)
         return NULL;
-    if (table->nrows > 1)
+    if (table->ncolumns && !strcmp(name, table->column[0].name))
+        table->is_made = 1;
+    if (table->is_made)
         return &table->column[table->ncells % table->ncolumns];
     struct table_column column = {name, unit, unit, show, 1};
     if (unit && (!strcmp(unit, "m") || !strcmp(unit, "Hz")))
@@ -112,12 +114,6 @@ static void add_cell(struct table *table, struct table_cell is)
 {
     if (is.text)
         (void)POOL_ADD(table->pool, table->cell, table->ncells, &is);
-}
-
-void table_row(struct table *table)
-{
-    if (table)
-        table->nrows++;
 }
 
 void text_column(struct table *table, const char *name, unsigned show, const char *text)
@@ -175,7 +171,7 @@ void number_column(struct table *table, const char *name, const char *unit, unsi
 void scaled_column(struct table *table, const char *name, const char *unit, unsigned show, double typical, double value)
 {
     struct table_column *column = next_column(table, name, unit && strcmp(unit, "1") != 0 ? unit : NULL, show);
-    if (column && table->nrows == 1)
+    if (column && !table->is_made)
         take_unit(table->pool, column, human_unit(typical, unit));
     if (column)
         put_number(table, column, value);

@@ -203,7 +203,6 @@ static struct table *table_of_modes(struct pool *pool, const struct universal *u
 {
     struct table *table = table_open(pool, "");
     for (int k = 0; k < u->count; k++) {
-        table_row(table);
         number_column(table, "mode", NULL, SHOW_COUNT, u->number[k]);
         number_column(table, "frequency", "Hz", SHOW_FIXED(3), uff_mode_frequency(u->mode[k]));
         number_column(table, "damping", NULL, SHOW_DIGITS(4), u->mode[k]->damping > 0 ? u->mode[k]->damping : (double)NAN);
@@ -237,7 +236,6 @@ static struct table *table_of_shapes_at_nodes(struct pool *pool, const struct un
     for (ptrdiff_t i = 0; i < (ptrdiff_t)u->nnode * u->count; i++)
         any_std |= isfinite(u->std[i]);
     for (int n = 0; n < u->nnode; n++) {
-        table_row(table);
         number_column(table, "sensor", NULL, SHOW_COUNT, u->node[n].id);
         for (int a = 0; a < 3; a++)
             if (a == axis || axis == -1)
@@ -364,7 +362,6 @@ static struct table *table_of_sets(struct pool *pool, const struct listing *list
             max = fmax(max, v->max);
             rms = fmax(rms, v->rms);
         }
-        table_row(table);
         number_column(table, "line", NULL, SHOW_COUNT, set->set.line);
         text_column(table, "set", SHOW_TEXT, pool_text(pool, "%d%s", set->set.number, set->set.is_binary ? "b" : ""));
         number_column(table, "count", NULL, SHOW_COUNT, row.last - row.first + 1);

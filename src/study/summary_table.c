@@ -100,7 +100,6 @@ struct table *table_of_cells(struct pool *pool, const struct study_result *s)
     for (int i = 0; i < s->ncells; i++) {
         const struct study_cell_result *cell = &s->cells[i];
         int best = cell->reached_best == ROTID_NONE ? cell->converged + cell->at_bound : cell->reached_best;
-        table_row(table);
         axes_columns(table, s, &cell->cell);
         number_column(table, "runs", NULL, SHOW_COUNT, cell->runs);
         number_column(table, "failed", NULL, SHOW_COUNT, cell->failed);
@@ -124,7 +123,6 @@ struct table *table_of_cell_parameters(struct pool *pool, const struct study_res
         for (int p = 0; p < s->cells[i].nparameters; p++) {
             const struct cell_parameter *q = &s->cells[i].parameters[p];
             double scatter = isfinite(q->std_error) ? q->std_error : q->std;
-            table_row(table);
             axes_columns(table, s, &s->cells[i].cell);
             text_column(table, "parameter", MAY_BE_CUT, q->name);
             unit_column(table, q->mean, NAN, q->unit);
@@ -165,7 +163,6 @@ struct table *table_of_cell_diagnoses(struct pool *pool, const struct study_resu
         int scored = summary_is_scored(cell);
         if (!d)
             continue;
-        table_row(table);
         axes_columns(table, s, &cell->cell);
         number_column(table, "runs", NULL, SHOW_COUNT, d->count);
         for (int k = 0; k < STUDY_VERDICTS; k++)
@@ -191,7 +188,6 @@ void table_add_run(struct table *table, const struct study_run *run)
     for (int p = 0; p < (count ? count : 1); p++) {
         const rotid_fitted_parameter *is = count ? &value[p] : &nothing;
         double truth = study_run_truth(run, is->name);
-        table_row(table);
         number_column(table, "run", NULL, SHOW_COUNT, run->run);
         axes_columns(table, &none, &run->cell);
         number_column(table, "replicate", NULL, SHOW_COUNT, run->replicate);
