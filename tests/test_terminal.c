@@ -378,8 +378,7 @@ FIXTURE_TEST(names_along_the_axis_keep_their_columns, setup, teardown)
     char *text = NULL;
     size_t length;
     FILE *stream = open_memstream(&text, &length);
-    struct strip strip;
-    strip_open(&strip, 1, 21);
+    struct strip strip = strip_open(1, 21);
     strip_name(&strip, 0, 0.5,
                LETTERS "\x1b"
                        "bcdefghijk");

@@ -129,27 +129,16 @@ static void section_speeds(struct document *document, const struct result *resul
 
 /* ---- modal analysis */
 
-static int doubtful_modes(const struct ema_result *ema)
-{
-    int count = 0;
-    for (int k = 0; k < ema->nmodes; k++)
-        count += ema->modes[k].is.quality_flags != 0;
-    return count;
-}
-
-static int doubtful_channels(const struct ema_result *ema)
-{
-    int count = 0;
-    for (int c = 0; c < ema->nchannels; c++)
-        count += ema->channels[c].quality_flags != 0;
-    return count;
-}
-
 static void answer_ema(struct document *document, const struct result *result)
 {
     const struct ema_result *ema = result->ema;
     struct pool *pool = document->pool;
-    int modes = doubtful_modes(ema), channels = doubtful_channels(ema), doubtful = modes || channels;
+    int modes = 0, channels = 0;
+    for (int k = 0; k < ema->nmodes; k++)
+        modes += ema->modes[k].is.quality_flags != 0;
+    for (int c = 0; c < ema->nchannels; c++)
+        channels += ema->channels[c].quality_flags != 0;
+    const int doubtful = modes || channels;
     if (!ema->nmodes) {
         document->now.tone = TONE_BAD;
         document->now.headline = "No mode was found";
@@ -174,22 +163,15 @@ static void answer_ema(struct document *document, const struct result *result)
                  : "Next: name the file of the modes in *MEASURED of a deck, and identify the model.";
 }
 
-static void list_doubts(struct document *document, const struct ema_result *ema)
-{
-    int count;
-    const char **text = ema_doubts(document->pool, ema, &count);
-    if (!text)
-        return;
-    document_section(document, "doubts", "Doubtful modes and channels", NULL);
-    document_list(document, count, text);
-}
-
 static void section_ema(struct document *document, const struct result *result)
 {
     const struct ema_result *ema = result->ema;
     document_section(document, "modes-of-test", "Modes of the test", "ema-shapes");
     document_table(document, table_of_test_modes(document->pool, ema));
-    list_doubts(document, ema);
+    int count;
+    const char **text = ema_doubts(document->pool, ema, &count);
+    document_section(document, "doubts", "Doubtful modes and channels", NULL);
+    document_list(document, text ? count : 0, text);
     document_section(document, "poles", "Where the modes come from", "ema-poles");
     if (!ema->ncurves)
         return;
@@ -229,7 +211,7 @@ static void section_suggest(struct document *document, const struct result *resu
 
 /* Shares over all cells that have them: intervals that hold the truth, starts that came to the best. */
 struct shares {
-    double intervals, held, starts, reached, judged, good, scored, false_alarm;
+    double intervals, held, starts, reached, good, scored, false_alarm, not_converged;
 };
 
 static struct shares add_up(const struct study_result *s)
@@ -246,7 +228,7 @@ static struct shares add_up(const struct study_result *s)
             sum.starts += cell->runs;
             sum.reached += cell->reached_best;
         }
-        sum.judged += cell->diagnoses ? cell->diagnoses->count : 0;
+        sum.not_converged += cell->not_converged;
         const int *scores = summary_is_scored(cell) ? cell->diagnoses->scores : NULL;
         for (int k = 0; k < STUDY_SCORES && scores; k++) {
             sum.scored += scores[k];
@@ -255,14 +237,6 @@ static struct shares add_up(const struct study_result *s)
         }
     }
     return sum;
-}
-
-static double not_converged(const struct study_result *s)
-{
-    double count = 0;
-    for (int i = 0; i < s->ncells; i++)
-        count += s->cells[i].not_converged;
-    return count;
 }
 
 static const char *runs_of(const struct study_result *s, double count)
@@ -277,7 +251,7 @@ static void answer_study(struct document *document, const struct result *result)
     struct pool *pool = document->pool;
     const struct study_result *s = result->study;
     struct shares sum = add_up(s);
-    double stuck = not_converged(s);
+    double stuck = sum.not_converged;
     const char *text =
         pool_text(pool, "%d %s: %s.", s->done, runs_of(s, s->done),
                   or_nothing(s->failed > 0 || stuck > 0 ? pool_text(pool, "%d failed, %.0f did not converge", s->failed, stuck)
@@ -620,11 +594,6 @@ static void answer_all(struct document *document, int count, const struct result
     document->of = NULL;
 }
 
-static void compose_rotor(struct document *document)
-{
-    document_section(document, "model", "The rotor", "rotor");
-}
-
 /* of: the deck where it is not that of the page, or NULL; drawn: the rotors are on the page already */
 static void compose_states(struct document *document, const struct result *result, const char *of, int drawn)
 {
@@ -635,7 +604,7 @@ static void compose_states(struct document *document, const struct result *resul
         if (document->pool->out_of_memory) /* then the state has no result */
             break;
         if (!drawn && !result->identify && !result->modes && geometry_of_result(&own))
-            compose_rotor(document);
+            document_section(document, "model", "The rotor", "rotor");
         add(document, kinds[rank_of(result)].state, &own);
     }
     document->of = of;
@@ -694,7 +663,7 @@ void page_compose(struct document *document, int count, const struct result *giv
         document->of = decks ? page_source(&result[i]) : NULL;
         document->result = i;
         if (!drawn && geometry_of_result(&result[i]) && !result_states(&result[i])) {
-            compose_rotor(document);
+            document_section(document, "model", "The rotor", "rotor");
             drawn = 1;
         }
         compose_result(document, &result[i], drawn);

@@ -356,23 +356,18 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
 static void section_next(struct document *document, const rotid_diagnosis *d, const char *deck)
 {
     struct pool *pool = document->pool;
-    int count = d->verdict.kind == -1 ? 0 : d->verdict.ncauses + d->verdict.nalternative_causes, n = 0;
-    const char **text = POOL_ARRAY(pool, const char *, count + 1);
+    const rotid_verdict *v = &d->verdict;
+    int count = v->kind == -1 ? 0 : v->ncauses + v->nalternative_causes, n = 0;
+    const char **text = POOL_ARRAY(pool, const char *, count + 1), *said = "";
     if (!text)
         return;
     for (int i = 0; i < count; i++) {
-        const rotid_cause *cause =
-            i < d->verdict.ncauses ? &d->verdict.causes[i] : &d->verdict.alternative_causes[i - d->verdict.ncauses];
-        const char *check = cause_check(cause->id);
-        int seen = !*check;
-        for (int j = 0; j < i; j++)
-            seen |= cause_check(
-                        (j < d->verdict.ncauses ? &d->verdict.causes[j] : &d->verdict.alternative_causes[j - d->verdict.ncauses])
-                            ->id) == check;
-        if (!seen)
-            text[n++] = pool_text(pool, "%s: %s.", cause->id, check);
+        const char *id = (i < v->ncauses ? &v->causes[i] : &v->alternative_causes[i - v->ncauses])->id, *check = cause_check(id);
+        if (*check && !strstr(said, check))
+            text[n++] = pool_text(pool, "%s: %s.", id, check);
+        said = pool_text(pool, "%s%s;", said, check);
     }
-    if (count && d->verdict.ncauses)
+    if (count && v->ncauses)
         text[n++] =
             pool_text(pool,
                       "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "

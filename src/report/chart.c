@@ -16,12 +16,14 @@ void chart_bar(char *bar, int half, double scale, double value)
     bar[2 * half + 1] = 0;
 }
 
-void strip_open(struct strip *strip, double length, int columns)
+struct strip strip_open(double length, int columns)
 {
-    strip->length = length > 0 ? length : 1;
-    strip->columns = columns < 10 ? 10 : columns > STRIP_MOST ? STRIP_MOST : columns;
-    memset(strip->line, ' ', (size_t)strip->columns);
-    strip->line[strip->columns] = 0;
+    struct strip strip = {.length = length > 0 ? length : 1,
+                          .columns = columns < 10           ? 10
+                                     : columns > STRIP_MOST ? STRIP_MOST
+                                                            : columns};
+    memset(strip.line, ' ', (size_t)strip.columns);
+    return strip;
 }
 
 static int column_of(const struct strip *strip, double z)

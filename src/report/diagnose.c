@@ -360,10 +360,9 @@ static int print_sensors(const struct screen *to, const rotid_diagnosis *d, int 
 {
     int any = 0;
     for (int s = 0, end; s < d->nsensors; s = end) {
-        struct strip strip;
         char label[LABEL + 1];
         int measured = 0;
-        strip_open(&strip, d->geometry->length_m, columns);
+        struct strip strip = strip_open(d->geometry->length_m, columns);
         for (end = s; end < d->nsensors && equal_texts(d->sensors[s].state, d->sensors[end].state); end++) {
             strip_digits(&strip, 1, &d->sensors[end].z_m, &d->sensors[end].rms);
             measured |= isfinite(d->sensors[end].rms);
@@ -379,10 +378,9 @@ static int print_sensors(const struct screen *to, const rotid_diagnosis *d, int 
 /* The most of mere noise is no place to look at. */
 static int print_localisation(const struct screen *to, const rotid_diagnosis *d, int columns)
 {
-    struct strip strip;
     if (!d->nlocalisation || !(to->verbose || !d->verdict.sentence || d->verdict.kind != ROTID_ADEQUATE))
         return 0;
-    strip_open(&strip, d->geometry->length_m, columns);
+    struct strip strip = strip_open(d->geometry->length_m, columns);
     strip_density(&strip, d->nlocalisation, d->localisation);
     strip_print(&strip, to->out, LABEL, "  force resid.");
     return 1;
@@ -394,11 +392,10 @@ static void print_axis(const struct screen *to, const rotid_diagnosis *d)
     const rotid_geometry *geometry = d->geometry;
     const rotid_cause *mark = v->ncauses ? v->causes : v->alternative_causes;
     int columns = to->width - LABEL, nmark = v->ncauses ? v->ncauses : v->nalternative_causes;
-    struct strip strip;
     struct cause_place place;
     (void)fputs("\n", to->out);
     int sensors = print_sensors(to, d, columns), local = print_localisation(to, d, columns);
-    strip_open(&strip, geometry->length_m, columns);
+    struct strip strip = strip_open(geometry->length_m, columns);
     for (int g = 0; g < geometry->ngroups; g++)
         if (!geometry->groups[g].layer_of)
             strip_name(&strip, geometry->groups[g].from_m, geometry->groups[g].to_m, geometry->groups[g].name);
@@ -406,17 +403,16 @@ static void print_axis(const struct screen *to, const rotid_diagnosis *d)
     for (int i = 0; i < nmark && i < MARKS; i++) {
         if (!cause_place(geometry, &mark[i], &place))
             continue;
-        strip_open(&strip, geometry->length_m, columns);
+        strip = strip_open(geometry->length_m, columns);
         strip_mark(&strip, place.from, place.to, mark[i].id);
         strip_print(&strip, to->out, LABEL, v->ncauses ? "  cause" : "  possible");
     }
-    strip_open(&strip, geometry->length_m, columns);
+    strip = strip_open(geometry->length_m, columns);
     strip_ticks(&strip);
     strip_print(&strip, to->out, LABEL, "  z [m]");
     if (!sensors && !local)
         return;
-    struct wrap wrap;
-    wrap_open(&wrap, to->out, 4, to->width, "  ");
+    struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
     if (sensors)
         wrap_words(&wrap, "sensors: rms of residual/sigma, 1 is noise alone;");
     if (local)
@@ -453,8 +449,7 @@ static void print_chance(struct wrap *wrap, const char *what, double chance)
 static void print_round(const struct screen *to, const rotid_diagnosis *d, int number)
 {
     const rotid_round *round = &d->rounds[number];
-    struct wrap wrap;
-    wrap_open(&wrap, to->out, 4, to->width, "  ");
+    struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
     if (isfinite(round->chi2))
         wrap_item(&wrap, "chi2 %.4g of %d degrees of freedom", round->chi2, round->dof);
     if (isfinite(round->largest) && isfinite(round->threshold))
@@ -508,7 +503,6 @@ static void print_verdict(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_verdict *v = &d->verdict;
     const rotid_noise *noise = &d->noise;
-    struct wrap wrap;
     (void)fputs("VERDICT  ", to->out);
     for (const char *c = v->sentence ? rotid_verdict_name(v->kind) : "none"; *c; c++)
         (void)fputc(toupper((unsigned char)*c), to->out);
@@ -517,7 +511,7 @@ static void print_verdict(const struct screen *to, const rotid_diagnosis *d)
         wrap_text(to->out, 2, to->width, "  ", "INTERRUPTED: the finished part stands below; the diagnosis is not complete.");
     if (v->sentence)
         wrap_text(to->out, 2, to->width, "  ", v->sentence);
-    wrap_open(&wrap, to->out, 2, to->width, "  ");
+    struct wrap wrap = wrap_open(to->out, 2, to->width, "  ");
     if (isfinite(v->p_value) && v->sentence) {
         wrap_words(&wrap, "p-value (hypothesis: adequate model):");
         wrap_item(&wrap, v->p_value < 0.001 ? "below %g" : "%.3g", v->p_value < 0.001 ? 0.001 : v->p_value);
@@ -547,13 +541,12 @@ static double value_of(const rotid_identification *fit, const char *name)
 static void print_frequencies_today(const struct screen *to, const rotid_diagnosis *d)
 {
     const rotid_identification *fit = d->today;
-    struct wrap wrap;
     int shown = 0, found = !strcmp(fit->reduction, "NONE"), worst = fit_worst_mode(fit);
     if (worst < 0)
         return;
     for (int i = 0; i < d->nnumerical_findings; i++) /* says it mode by mode */
         found |= !strcmp(d->numerical_findings[i].id, "guyan_reduction");
-    wrap_open(&wrap, to->out, 4, to->width, "  ");
+    struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
     wrap_item(&wrap, "frequencies that were fitted: error %.3g %% rms, %.3g %% at most", fit_rms_percent(fit, 0),
               fabs(fit->modes[worst].error_percent));
     for (int k = 0; k < fit->nmodes && !found; k++) {
@@ -575,10 +568,9 @@ static void print_today(const struct screen *to, const rotid_diagnosis *d)
     for (int i = 0; i < fit->nparameters; i++) {
         const rotid_fitted_parameter *p = &fit->parameters[i];
         const struct human_unit unit = human_unit(p->value, p->unit);
-        struct wrap wrap;
         double base = 100 * (p->value / value_of(d->base, p->name) - 1),
                extended = 100 * (p->value / value_of(d->extended, p->name) - 1);
-        wrap_open(&wrap, to->out, 4, to->width, "  ");
+        struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s %s%s%s", p->name, IN_DIGITS(4, p->value * unit.factor), *unit.text ? " " : "", unit.text);
         if (p->at_bound)
             wrap_item(&wrap, "AT ITS BOUND");
@@ -597,8 +589,7 @@ static void print_numerical(const struct screen *to, const rotid_diagnosis *d)
         (void)fprintf(to->out, "\nNUMBERS  numerical errors, removed from the model that is tested\n");
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *finding = &d->numerical_findings[i];
-        struct wrap wrap;
-        wrap_open(&wrap, to->out, 4, to->width, "  ");
+        struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s%s%s:", finding->id, finding->state ? " in state " : "", finding->state ? finding->state : "");
         if (finding->text)
             wrap_words(&wrap, finding->text);
@@ -617,8 +608,7 @@ static void print_data(const struct screen *to, const rotid_diagnosis *d)
     for (int i = 0; i < d->ndata_findings; i++) {
         const rotid_data_finding *finding = &d->data_findings[i];
         const struct human_unit unit = human_unit(finding->value, finding->unit);
-        struct wrap wrap;
-        wrap_open(&wrap, to->out, 4, to->width, "  ");
+        struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s%s%s", finding->id, finding->state ? " in state " : "", finding->state ? finding->state : "");
         for (int n = 0; n < finding->nsensors; n++)
             wrap_item(&wrap, "%s%d", n ? "and " : "sensor ", finding->sensors[n]);
@@ -644,9 +634,8 @@ static void print_noise(const struct screen *to, const rotid_diagnosis *d)
 {
     static const char *const said[] = {"stated", "the deck states none: assumed"};
     const rotid_noise *noise = &d->noise;
-    struct wrap wrap;
     int frequency = noise->frequency > 0, shape = noise->shape > 0; /* NaN: no */
-    wrap_open(&wrap, to->out, 7, to->width, "noise  ");
+    struct wrap wrap = wrap_open(to->out, 7, to->width, "noise  ");
     if (frequency)
         wrap_item(&wrap, "frequencies %.3g %% (%s)%s", 100 * noise->frequency, said[noise->frequency_assumed != 0],
                   shape ? "," : "");
@@ -659,7 +648,6 @@ static void print_noise(const struct screen *to, const rotid_diagnosis *d)
 
 static void print_foot(const struct screen *to, const struct result_head *head, const rotid_diagnosis *d)
 {
-    struct wrap wrap;
     double seconds = 0;
     (void)fputc('\n', to->out);
     print_noise(to, d);
@@ -671,7 +659,7 @@ static void print_foot(const struct screen *to, const struct result_head *head, 
     (void)fputc('\n', to->out);
     if (!to->verbose || !d->nsteps)
         return;
-    wrap_open(&wrap, to->out, 7, to->width, "time   ");
+    struct wrap wrap = wrap_open(to->out, 7, to->width, "time   ");
     for (int i = 0; i < d->nsteps; i++)
         wrap_item(&wrap, "%s %.3g s%s", d->steps[i].name, d->steps[i].seconds, i + 1 < d->nsteps ? "," : "");
     wrap_close(&wrap);

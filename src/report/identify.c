@@ -227,7 +227,7 @@ static void print_hidden(const struct screen *to, const rotid_identification *fi
         if (!hidden)
             continue;
         if (!shown++)
-            wrap_open(&wrap, to->out, 2, to->width, "possible bias by a cause below its detection limit: ");
+            wrap = wrap_open(to->out, 2, to->width, "possible bias by a cause below its detection limit: ");
         wrap_item(&wrap, "%s%s by %s", shown > 1 ? ", " : "", value->name,
                   linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
         wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);

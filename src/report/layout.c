@@ -108,10 +108,10 @@ static void put(struct wrap *wrap, const char *text, size_t bytes)
     wrap->fresh = 0;
 }
 
-void wrap_open(struct wrap *wrap, FILE *out, int indent, int width, const char *head)
+struct wrap wrap_open(FILE *out, int indent, int width, const char *head)
 {
     (void)fputs(head, out);
-    *wrap = (struct wrap){out, indent, width, columns_of(head, strlen(head)), 1};
+    return (struct wrap){out, indent, width, columns_of(head, strlen(head)), 1};
 }
 
 void wrap_words(struct wrap *wrap, const char *text)
@@ -145,8 +145,7 @@ void wrap_close(struct wrap *wrap)
 
 void wrap_text(FILE *out, int indent, int width, const char *head, const char *text)
 {
-    struct wrap wrap;
-    wrap_open(&wrap, out, indent, width, head);
+    struct wrap wrap = wrap_open(out, indent, width, head);
     wrap_words(&wrap, text);
     wrap_close(&wrap);
 }

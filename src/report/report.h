@@ -45,7 +45,7 @@ struct strip {
 /* A bar of 2 half + 1 columns around '|' that reaches the end at +-scale; '>' or '<' at the end beyond that. */
 void chart_bar(char *bar, int half, double scale, double value);
 
-void strip_open(struct strip *strip, double length, int columns);
+struct strip strip_open(double length, int columns);
 /* One digit a column, the largest value there rounded to the nearest; '+' from 9.5; values that are not finite leave no trace. */
 void strip_digits(struct strip *strip, int count, const double *z, const double *value);
 /* From 0 (' ') to 1 ('@'), between the points [count] with increasing z by straight lines. */
@@ -174,7 +174,7 @@ struct wrap {
 };
 
 /* Begins with `head`. */
-void wrap_open(struct wrap *wrap, FILE *out, int indent, int width, const char *head);
+struct wrap wrap_open(FILE *out, int indent, int width, const char *head);
 /* Text that is broken between words. */
 void wrap_words(struct wrap *wrap, const char *text);
 /* Text that stays on one line where it fits on one; 255 bytes of it. */

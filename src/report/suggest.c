@@ -132,12 +132,11 @@ static void print_places(const struct screen *to, const rotid_suggestion *s)
     const struct human_unit unit = human_unit(1, "m");
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *plan = &s->plans[i];
-        struct wrap wrap;
         if (plan->nz_m > MOST_LISTED && !to->verbose)
             continue;
         if (!i)
             screen_say(to, "Places z, and how far the deviations rise without the sensor there:");
-        wrap_open(&wrap, to->out, 4, to->width, "  ");
+        struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
         wrap_item(&wrap, "%s:", plan->method);
         for (int k = 0; k < plan->nz_m; k++)
             wrap_item(&wrap, "%.4g %s (%.2g %%)%s", plan->z_m[k] * unit.factor, unit.text, plan->loss_percent[k],
