@@ -2,13 +2,6 @@
 #include "api/api.h"
 #include "running/running.h"
 
-static rotid_identification *keep(struct call *call, rotid_identification *made)
-{
-    if (!made)
-        return NULL;
-    return CALL_KEEP(call, &identification_whole_record, made);
-}
-
 /* Possible bias of the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
  * memory is out. */
 static int find_hidden(struct call *call, const struct states *states, const struct identification *found,
@@ -89,8 +82,8 @@ static int identify(struct call *call, const struct states *given, const struct 
     status = compare_runup(call, given, fit, made);
     if (!status && baseline && !states->more) /* the scan behind it knows modes alone */
         status = find_hidden(call, states, found, fit, made);
-    if (!status)
-        *result = keep(call, made);
+    if (!status && made)
+        *result = CALL_KEEP(call, &identification_whole_record, made);
     if (*result)
         return ROTID_OK;
     rotid_fit_free(fit);

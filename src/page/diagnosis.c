@@ -22,11 +22,6 @@ static const char *words_chance(struct pool *pool, double p)
     return pool_text(pool, "in about %.0f of 100", 100 * p);
 }
 
-static const char *sentence_of(struct pool *pool, const char *text)
-{
-    return pool_text(pool, "%c%s", toupper((unsigned char)*text), *text ? text + 1 : "");
-}
-
 /* "step_stiffness and added_mass"; all: those that are likely beside what was named, too */
 static const char *names(struct pool *pool, const rotid_diagnosis *d, int all)
 {
@@ -115,8 +110,9 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
     if (v->nexplanations && v->something_else > 0.01)
         reasons_add(reasons, TONE_NONE, "Probability of something outside of the catalogue: %s %%.",
                     human_digits(pool, 100 * v->something_else, 2));
+    const char *count = human_count(pool, tried);
     if (tried && v->kind != ROTID_ADEQUATE)
-        reasons_add(reasons, TONE_NONE, "%s single %s fitted, then sets of them.", sentence_of(pool, human_count(pool, tried)),
+        reasons_add(reasons, TONE_NONE, "%c%s single %s fitted, then sets of them.", toupper((unsigned char)*count), count + 1,
                     human_plural(tried, "cause was", "causes were"));
 }
 

@@ -446,14 +446,7 @@ static const char *what_is_lost(const char *path)
     return is.st_size && !strstr(text, MARK) ? "the file that is there is no page of rotid, expected a new name" : NULL;
 }
 
-/* Folders above a path that are not there; what fails is told where the file is opened. */
-static void make_folders(struct pool *pool, const char *path)
-{
-    for (const char *slash = strchr(path + 1, '/'); slash && slash[1]; slash = strchr(slash + 1, '/'))
-        (void)mkdir(pool_text(pool, "%.*s", (int)(slash - path), path), 0777);
-}
-
-/* The file that a page goes into, its folder made; NULL with a message. */
+/* The file that a page goes into, its folders made; NULL with a message. */
 static const char *file_of(struct pool *pool, const char *path, struct message_list *messages, int *status)
 {
     struct stat is;
@@ -464,7 +457,8 @@ static const char *file_of(struct pool *pool, const char *path, struct message_l
         (void)say(messages, path, "expected the name of a file or of a folder", *status);
         return NULL;
     }
-    make_folders(pool, path);
+    for (const char *slash = strchr(path + 1, '/'); slash && slash[1]; slash = strchr(slash + 1, '/'))
+        (void)mkdir(pool_text(pool, "%.*s", (int)(slash - path), path), 0777); /* what fails is told where the file is opened */
     if (is_file && !is_folder) {
         *status = ROTID_OK;
         return path;

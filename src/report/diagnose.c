@@ -24,13 +24,6 @@ static const char *before_target(const char *target)
     return !*target ? "" : strncmp(target, "at ", 3) ? " of " : " ";
 }
 
-/* "joint of core|right in state hot" */
-static const char *label_of(struct pool *pool, const rotid_cause *cause, const char *name)
-{
-    return pool_text(pool, "%s%s%s%s%s", name, before_target(cause->target), cause->target, cause->state ? " in state " : "",
-                     or_nothing(cause->state));
-}
-
 /* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
 static const char *with_interval(struct pool *pool, const rotid_cause_value *value)
 {
@@ -66,22 +59,14 @@ static int same_cause(const rotid_cause *a, const rotid_cause *b)
            equal_texts(a->state, b->state);
 }
 
-static int is_among(const rotid_candidate *c, int count, const rotid_cause cause[])
-{
-    int found = 0;
-    for (int i = 0; i < count; i++)
-        found |= same_cause(&c->cause, &cause[i]);
-    return found;
-}
-
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
-    if (is_among(c, d->verdict.ncauses, d->verdict.causes))
-        return "named";
-    return c->probability > 0
-               ? pool_text(pool, c->probability > 0.1 ? "possible (%.0f %%)" : "possible (%.2g %%)", 100 * c->probability)
-           : c->refitted ? "unlikely"
-                         : "not fitted";
+    for (int i = 0; i < d->verdict.ncauses; i++)
+        if (same_cause(&c->cause, &d->verdict.causes[i]))
+            return "named";
+    if (c->probability > 0)
+        return pool_text(pool, c->probability > 0.1 ? "possible (%.0f %%)" : "possible (%.2g %%)", 100 * c->probability);
+    return c->refitted ? "unlikely" : "not fitted";
 }
 
 /* "named; mass 22 kg (95 %: 19 to 25); at a bound" */
@@ -158,12 +143,15 @@ static const char *hidden_of(struct pool *pool, const rotid_diagnosis *d, const 
     return text;
 }
 
-/* "joint of core|right with added_mass, and something else"; "nothing is wrong" */
+/* "joint of core|right in state hot with added_mass, and something else"; "nothing is wrong" */
 static const char *explanation_of(struct pool *pool, const rotid_explanation *e)
 {
     const char *text = "";
-    for (int i = 0; i < e->ncauses; i++)
-        text = pool_text(pool, "%s%s%s", text, i ? " with " : "", label_of(pool, &e->causes[i], e->causes[i].id));
+    for (int i = 0; i < e->ncauses; i++) {
+        const rotid_cause *cause = &e->causes[i];
+        text = pool_text(pool, "%s%s%s%s%s%s%s", text, i ? " with " : "", cause->id, before_target(cause->target), cause->target,
+                         cause->state ? " in state " : "", or_nothing(cause->state));
+    }
     if (!e->ncauses)
         return e->something_else ? "something outside of the catalogue" : "nothing is wrong";
     return e->something_else ? pool_text(pool, "%s, and something else", text) : text;

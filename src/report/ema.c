@@ -242,16 +242,6 @@ const char **ema_doubts(struct pool *pool, const struct ema_result *ema, int *co
     return text;
 }
 
-static void print_doubts(const struct screen *to, const struct ema_result *ema)
-{
-    int count;
-    const char **text = ema_doubts(to->pool, ema, &count);
-    for (int i = 0; i < count && text; i++) {
-        (void)fputs(i ? "" : "\n", to->out);
-        wrap_text(to->out, 4, to->width, "", text[i]);
-    }
-}
-
 /* Orders upwards, frequencies to the right: 's' stable, 'f' only its frequency, '.' neither; the modes stand below. */
 static void print_stabilisation(FILE *out, const struct ema_result *ema)
 {
@@ -349,7 +339,12 @@ void screen_ema(const struct screen *to, const struct ema_report *r)
     screen_table(to, table_of_test_modes(to->pool, ema));
     if (!ema->nmodes)
         (void)fprintf(to->out, "\nno mode was found\n");
-    print_doubts(to, ema);
+    int count;
+    const char **text = ema_doubts(to->pool, ema, &count);
+    for (int i = 0; i < count && text; i++) {
+        (void)fputs(i ? "" : "\n", to->out);
+        wrap_text(to->out, 4, to->width, "", text[i]);
+    }
     print_stabilisation(to->out, ema);
     if (to->verbose)
         screen_table(to, table_of_poles(to->pool, ema));

@@ -92,17 +92,6 @@ static void check_diagnosis(const struct json_place *root, const rotid_diagnosis
         expect(root, "modes_standardised", d->nmodes_standardised, d->base->nmodes, "base.modes");
 }
 
-static void result_check(const struct json_place *root, const struct result *result);
-
-/* What a command found of each state, as if it stood alone. */
-static void check_each_state(const struct json_place *root, const struct result *result)
-{
-    for (int s = 0; s < result_states(result); s++) {
-        const struct result own = result_of_state(root->reader->pool, result, s);
-        result_check(root, &own);
-    }
-}
-
 /* What the lengths of its lists, the order of its candidates and the sizes of its rotor have to be for a result to be used: told
  * as a mistake of `root` where they are not. */
 static void result_check(const struct json_place *root, const struct result *result)
@@ -118,7 +107,10 @@ static void result_check(const struct json_place *root, const struct result *res
         check_diagnosis(root, result->diagnose);
     if (result->modes)
         check_meridian(root, result->modes);
-    check_each_state(root, result);
+    for (int s = 0; s < result_states(result); s++) { /* as if it stood alone */
+        const struct result own = result_of_state(root->reader->pool, result, s);
+        result_check(root, &own);
+    }
 }
 
 /* Keys that results have from 0.3 on, and what cannot be shown without them. */
