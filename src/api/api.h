@@ -64,13 +64,12 @@ const struct job *deck_job(const rotid_deck *deck, struct call *call);
 const struct states *deck_states_of(const rotid_deck *deck);
 const struct job *deck_job_of(const rotid_deck *deck);
 
-/* A copy of the struct `made`, which `record` describes: it leans on nothing, and its member `memory`, of which the address in
- * `made` is given, is a pool of its own, for pool_free. NULL where memory is out, now or since the scratch was opened. */
-void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory);
-/* The same with the notes of the call as its messages. */
-#define CALL_KEEP(call, record, made)                                                                                            \
-    ((made)->nmessage = (int)(call)->notes.count, (made)->message = (call)->notes.item,                                          \
-     call_keep((call), (record), (made), &(made)->memory))
+/* A copy of the struct `made`, which `record` describes, and the notes of the call as its messages. It leans on nothing, and its
+ * member `memory` is a pool of its own, for pool_free; the addresses of these three members of `made` are given. NULL where
+ * memory is out, now or since the scratch was opened. */
+void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory, int *nmessage,
+                const rotid_message **message);
+#define CALL_KEEP(call, record, made) call_keep((call), (record), (made), &(made)->memory, &(made)->nmessage, &(made)->message)
 
 /* --------------------------------------------------------------------------------------------------------------- machine */
 

@@ -73,11 +73,19 @@ int call_close(struct call *call, int status)
     return entry_close(&call->entry, status);
 }
 
-void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory)
+void *call_keep(const struct call *call, const struct record *record, const void *made, void **memory, int *nmessage,
+                const rotid_message **message)
 {
     struct pool *pool = call->entry.scratch.out_of_memory ? NULL : pool_new(call->environment.allocator);
+    rotid_message *notes = pool ? POOL_COPY(pool, call->notes.item, call->notes.count, 0) : NULL;
     *memory = pool;
-    void *kept = pool ? record_copy(pool, record, made) : NULL;
+    *nmessage = notes ? (int)call->notes.count : 0;
+    *message = notes;
+    for (int i = 0; i < *nmessage; i++) {
+        notes[i].file = notes[i].file ? pool_copy_text(pool, notes[i].file) : NULL;
+        notes[i].text = pool_copy_text(pool, notes[i].text);
+    }
+    void *kept = pool && !pool->out_of_memory ? record_copy(pool, record, made) : NULL;
     if (!kept)
         pool_free(pool);
     return kept;

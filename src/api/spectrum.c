@@ -33,7 +33,9 @@ static rotid_check *make_check(struct call *call, const struct job *job, const s
     r.nparameters = POOL_LIST(pool, r.parameters, job->unknowns.nparameter);
     for (int p = 0; p < r.nparameters; p++)
         r.parameters[p] = job->unknowns.bounds[p].name;
-    return call_keep(call, &check_record, &r, &r.memory);
+    int none;
+    const rotid_message *unsaid; /* a check has no messages */
+    return call_keep(call, &check_record, &r, &r.memory, &none, &unsaid);
 }
 
 int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, char *failure, rotid_check **check)

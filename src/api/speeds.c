@@ -82,7 +82,7 @@ static int compute(struct call *call, const struct states *states, const rotid_f
         status = speeds_run(pool, machine, job, own.x, fit ? &own : NULL, options, &call->environment, &call->notes, &made);
     if (status < 0)
         return status;
-    *result = CALL_KEEP(call, &speeds_whole_record, &made);
+    *result = CALL_KEEP(call, &speeds_record, &made);
     return *result ? status : ROTID_ERROR_MEMORY;
 }
 

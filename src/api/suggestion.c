@@ -55,7 +55,7 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
             return NULL;
         made->tests[i].cards = cards;
     }
-    return CALL_KEEP(call, &suggestion_whole_record, made);
+    return CALL_KEEP(call, &suggestion_record, made);
 }
 
 /* Noise of the frequencies of a test: as stated, else that of the deck, else what its residuals show, else a usual one. */
@@ -111,7 +111,7 @@ static int suggest_for_speed(struct call *call, const struct states *states, con
     status = worth_run(pool, states->machine, job, own.x, *fit ? &own : NULL, &options, &call->notes, &made);
     if (status)
         return status;
-    *result = CALL_KEEP(call, &suggestion_whole_record, &made);
+    *result = CALL_KEEP(call, &suggestion_record, &made);
     return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 

@@ -146,9 +146,7 @@ extern const struct record weighed_record;              /* rotid_weighed */
 extern const struct record runup_record;                /* rotid_runup_speed */
 extern const struct record speeds_record;               /* rotid_speeds */
 
-extern const struct record message_record; /* the texts of a rotid_message, which no file has */
-/* The same with the members that no file has, but for the fits: what a host is given. */
-extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record, suggestion_whole_record,
-    speeds_whole_record;
+/* The same with the members that no file has, but for the fits and the messages: what a host is given. */
+extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record;
 
 #endif

@@ -176,7 +176,6 @@ TABLE(diagnosis_record, rotid_diagnosis) = {
 
 TABLE(diagnosis_whole_record, rotid_diagnosis) = {
     ROWS(0, diagnosis_record),
-    STRUCTS(rotid_diagnosis, message, 0, message_record),
     TEXT(rotid_diagnosis, extended_deck, 0),
     {0},
 };

@@ -178,6 +178,5 @@ TABLE(identification_alone_record, rotid_identification) = {
 TABLE(identification_whole_record, rotid_identification) = {
     ROWS(0, identification_record),
     ROWS(0, identification_alone_record),
-    STRUCTS(rotid_identification, message, 0, message_record),
     {0},
 };

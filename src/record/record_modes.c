@@ -81,15 +81,9 @@ TABLE(spectrum_record, rotid_spectrum) = {
     {0},
 };
 
-TABLE(message_record, rotid_message) = {
-    KEYS(rotid_message, 0, file, text),
-    {0},
-};
-
 TABLE(spectrum_whole_record, rotid_spectrum) = {
     ROWS(0, spectrum_record),
     MATRIX(rotid_spectrum, master_mass, 0, nsensor_z_m, nsensor_z_m),
-    STRUCTS(rotid_spectrum, message, 0, message_record),
     {0},
 };
 

@@ -141,9 +141,3 @@ TABLE(speeds_record, rotid_speeds) = {
     STRUCTS(rotid_speeds, torsion, SINCE_LATER, torsion_record),
     {0},
 };
-
-TABLE(speeds_whole_record, rotid_speeds) = {
-    ROWS(0, speeds_record),
-    STRUCTS(rotid_speeds, message, 0, message_record),
-    {0},
-};

@@ -99,9 +99,3 @@ TABLE(suggestion_record, rotid_suggestion) = {
     STRUCTS(rotid_suggestion, speed_tests, SINCE_LATER, speed_test_record),
     {0},
 };
-
-TABLE(suggestion_whole_record, rotid_suggestion) = {
-    ROWS(0, suggestion_record),
-    STRUCTS(rotid_suggestion, message, 0, message_record),
-    {0},
-};
