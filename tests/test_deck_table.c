@@ -433,7 +433,7 @@ UNIT_TEST(tables_of_a_universal_file_are_the_measured_modes)
     assert_same_modes(write_universal(), 2, 2);
 }
 
-UNIT_TEST(a_text_in_a_table_is_no_formula)
+POOL_TEST(a_text_in_a_table_is_no_formula)
 {
     static const char *const text[][2] = {{"core.E", "core.E"},
                                           {"a,b", "\"a,b\""},
@@ -444,12 +444,14 @@ UNIT_TEST(a_text_in_a_table_is_no_formula)
         const char *path = folder_path("cell");
         FILE *out = fopen(path, "w");
         assert_non_null(out);
-        csv_text(out, "", text[i][0]);
-        csv_number(out, ",", 0.1);
-        csv_number(out, ",", NAN);
+        struct table *table = table_open(&test_pool, "");
+        text_column(table, "a", SHOW_TEXT, text[i][0]);
+        number_column(table, "b", NULL, SHOW_DIGITS(1), 0.1);
+        number_column(table, "c", NULL, SHOW_DIGITS(1), NAN);
+        table_write_csv(out, table);
         assert_int_equal(fclose(out), 0);
         char *bytes = file_bytes(path, NULL), expected[64];
-        (void)snprintf(expected, sizeof expected, "%s,0.1,", text[i][1]);
+        (void)snprintf(expected, sizeof expected, "a,b,c\n%s,0.1,\n", text[i][1]);
         assert_string_equal(bytes, expected);
         free(bytes);
     }

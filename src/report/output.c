@@ -11,6 +11,13 @@
 
 static volatile sig_atomic_t open_outputs;
 
+/* The path with what mkstemp fills in behind it, to be freed; NULL where memory is out. */
+static char *template_of(const char *path)
+{
+    char *name = malloc(strlen(path) + sizeof ".XXXXXX");
+    return name ? strcat(strcpy(name, path), ".XXXXXX") : NULL;
+}
+
 int output_is_open(void)
 {
     return open_outputs > 0;
@@ -63,11 +70,8 @@ int output_open(struct output *output, const char *path)
         output->stream = file_open_device(path);
         return output->stream ? ROTID_OK : ROTID_ERROR_IO;
     }
-    output->beside = malloc(strlen(path) + sizeof ".XXXXXX");
-    if (!output->beside)
+    if (!(output->beside = template_of(path)))
         return ROTID_ERROR_MEMORY;
-    (void)strcpy(output->beside, path);
-    (void)strcat(output->beside, ".XXXXXX");
     open_outputs++;
     output->stream = open_beside(output->beside);
     if (output->stream)
@@ -121,12 +125,8 @@ static char *keep_old(const char *path, int *absent)
 {
     struct stat existing;
     *absent = lstat(path, &existing) != 0;
-    char *name = *absent ? NULL : malloc(strlen(path) + sizeof ".XXXXXX");
-    if (!name)
-        return NULL;
-    (void)strcpy(name, path);
-    (void)strcat(name, ".XXXXXX");
-    int descriptor = mkstemp(name);
+    char *name = *absent ? NULL : template_of(path);
+    int descriptor = name ? mkstemp(name) : -1;
     if (descriptor >= 0) {
         (void)close(descriptor);
         (void)unlink(name); /* link() wants a name that is free */

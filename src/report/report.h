@@ -78,11 +78,6 @@ struct uff_tables {
 /* Reads modes and shapes. Errors go to the list. ROTID_OK, ROTID_ERROR_SYNTAX where the file has none, _IO, _MEMORY. */
 int uff_tables_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_tables *tables);
 
-/* Cells. A text is quoted where it has to be, and one that a spreadsheet would take for a formula gets an apostrophe in front; a
- * number has the digits that give it back, and is blank where it is not finite. `before`: "" or ",". */
-void csv_text(FILE *out, const char *before, const char *text);
-void csv_number(FILE *out, const char *before, double value);
-
 /* ------------------------------------------------------------------------------------------------------------------ html */
 
 /* Text and elements of a page, escaped and closed. */
@@ -456,8 +451,8 @@ int terminal_print(const char *text);
 
 /* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */
 void terminal_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The same, with which a command ends. Returns code. */
-int terminal_end(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same, with which a command ends: its exit code. */
+#define terminal_end(code, ...) (terminal_say(__VA_ARGS__), (code))
 
 /* Marks on standard error: what is said until the next mark stands out where that is a terminal with colours, unless the
  * environment has a NO_COLOR that is not empty or TERM=dumb. */

@@ -37,7 +37,9 @@ void html_element(FILE *out, const char *name, const char *text)
     (void)fprintf(out, "</%.*s>\n", (int)strcspn(name, " "), name);
 }
 
-void csv_text(FILE *out, const char *before, const char *text)
+/* A text is quoted where it has to be, and one that a spreadsheet would take for a formula gets an apostrophe in front. before:
+ * "" or ",". */
+static void csv_text(FILE *out, const char *before, const char *text)
 {
     int formula = *text && strchr("=+-@\t", *text) != NULL, quoted = strpbrk(text, ",;\"\n\r\t") != NULL;
     (void)fprintf(out, "%s%s%s", before, quoted ? "\"" : "", formula ? "'" : "");
@@ -46,7 +48,8 @@ void csv_text(FILE *out, const char *before, const char *text)
     (void)fputs(quoted ? "\"" : "", out);
 }
 
-void csv_number(FILE *out, const char *before, double value)
+/* The digits that give the number back; blank where it is not finite. */
+static void csv_number(FILE *out, const char *before, double value)
 {
     char text[DECK_NUMBER_LENGTH];
     (void)fprintf(out, "%s%s", before, isfinite(value) ? deck_number_text(value, text) : "");

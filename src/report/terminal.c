@@ -105,28 +105,14 @@ static void put_line(const char *format, va_list values)
     free(all);
 }
 
-static void say(const char *format, va_list values)
-{
-    if (out.stream)
-        (void)terminal_flush(); /* what was printed before stands before it */
-    put_line(format, values);
-}
-
 void terminal_say(const char *format, ...)
 {
     va_list values;
+    if (out.stream)
+        (void)terminal_flush(); /* what was printed before stands before it */
     va_start(values, format);
-    say(format, values);
+    put_line(format, values);
     va_end(values);
-}
-
-int terminal_end(int code, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    say(format, values);
-    va_end(values);
-    return code;
 }
 
 static int has_colours(void)
