@@ -131,22 +131,10 @@ PART_TABLE(sensor_residual_record, rotid_sensor_residual) = {
     {0},
 };
 
-PART_TABLE(localisation_record, rotid_localisation) = {
-    NUMBER(rotid_localisation, z_m, 0),
-    NUMBER(rotid_localisation, indicator, MAY_BE_NULL),
-    {0},
-};
-
 TABLE(detectable_record, rotid_detectable) = {
     KEYS(rotid_detectable, 0, id, target, parameter),
     KEYS(rotid_detectable, MAY_BE_NULL, smallest, unit, z_m, worst),
     FLAG(rotid_detectable, beyond, 0),
-    {0},
-};
-
-PART_TABLE(step_record, rotid_step) = {
-    TEXT(rotid_step, name, 0),
-    NUMBER(rotid_step, seconds, FROM_0),
     {0},
 };
 
@@ -161,7 +149,9 @@ TABLE(diagnosis_record, rotid_diagnosis) = {
     STRUCT(rotid_diagnosis, gain, 0, gain_record),
     NUMBERS(rotid_diagnosis, modes_standardised, ELEMENTS_MAY_BE_NULL),
     STRUCTS(rotid_diagnosis, sensors, 0, sensor_residual_record),
-    STRUCTS(rotid_diagnosis, localisation, 0, localisation_record),
+    STRUCTS(rotid_diagnosis, localisation, 0,
+            RECORD_OF(rotid_localisation, NUMBER(rotid_localisation, z_m, 0),
+                      NUMBER(rotid_localisation, indicator, MAY_BE_NULL))),
     STRUCTS(rotid_diagnosis, detectable, 0, detectable_record),
     STRUCTS(rotid_diagnosis, hidden, SINCE_LATER, hidden_cause_record),
     STRUCTS(rotid_diagnosis, parameters, SINCE_LATER, averaged_record),
@@ -170,7 +160,8 @@ TABLE(diagnosis_record, rotid_diagnosis) = {
     STRUCT(rotid_diagnosis, today, MAY_BE_NULL | BEHIND_POINTER, identification_record),
     STRUCT(rotid_diagnosis, base, MAY_BE_NULL | BEHIND_POINTER, identification_record),
     STRUCT(rotid_diagnosis, extended, MAY_BE_NULL | BEHIND_POINTER, identification_record),
-    STRUCTS(rotid_diagnosis, steps, SINCE_LATER, step_record),
+    STRUCTS(rotid_diagnosis, steps, SINCE_LATER,
+            RECORD_OF(rotid_step, TEXT(rotid_step, name, 0), NUMBER(rotid_step, seconds, FROM_0))),
     {0},
 };
 

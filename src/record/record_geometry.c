@@ -80,16 +80,12 @@ TABLE(sensor_record, rotid_sensor) = {
     {0},
 };
 
-PART_TABLE(cause_parameter_record, rotid_cause_parameter) = {
-    KEYS(rotid_cause_parameter, 0, name, unit, value),
-    {0},
-};
-
 PART_TABLE(model_cause_record, rotid_model_cause) = {
     TEXT(rotid_model_cause, name, MAY_BE_NULL),
     KEYS(rotid_model_cause, 0, id, target),
     KEYS(rotid_model_cause, MAY_BE_NULL, sensor, variant),
-    STRUCTS(rotid_model_cause, parameters, 0, cause_parameter_record),
+    STRUCTS(rotid_model_cause, parameters, 0,
+            RECORD_OF(rotid_cause_parameter, KEYS(rotid_cause_parameter, 0, name, unit, value))),
     {0},
 };
 

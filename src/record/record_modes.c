@@ -31,16 +31,12 @@ PART_TABLE(mode_record, rotid_model_mode) = {
     {0},
 };
 
-PART_TABLE(meridian_element_record, rotid_meridian_element) = {
-    INTEGER(rotid_meridian_element, group, FROM_0),
-    INDICES(rotid_meridian_element, corner, 4),
-    {0},
-};
-
 PART_TABLE(meridian_record, rotid_meridian) = {
     NUMBERS(rotid_meridian, r_m, ROUNDED | FROM_0),
     NUMBERS_BY(rotid_meridian, z_m, ROUNDED, nr_m, "r_m"),
-    STRUCTS(rotid_meridian, elements, NOT_EMPTY, meridian_element_record),
+    STRUCTS(rotid_meridian, elements, NOT_EMPTY,
+            RECORD_OF(rotid_meridian_element, INTEGER(rotid_meridian_element, group, FROM_0),
+                      INDICES(rotid_meridian_element, corner, 4))),
     {0},
 };
 

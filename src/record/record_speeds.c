@@ -18,12 +18,6 @@ PART_TABLE(peak_record, rotid_response_peak) = {
     {0},
 };
 
-PART_TABLE(share_record, rotid_variance_share) = {
-    TEXT(rotid_variance_share, source, 0),
-    NUMBER(rotid_variance_share, share, FROM_0),
-    {0},
-};
-
 PART_TABLE(speed_sensitivity_record, rotid_speed_sensitivity) = {
     KEYS(rotid_speed_sensitivity, 0, parameter, speed, log_decrement),
     NUMBER(rotid_speed_sensitivity, amplitude, MAY_BE_NULL),
@@ -42,7 +36,8 @@ PART_TABLE(critical_record, rotid_critical_speed) = {
     NUMBER(rotid_critical_speed, amplification, MAY_BE_NULL | FROM_0),
     STRUCT(rotid_critical_speed, margin, 0, speed_margin_record),
     STRUCTS(rotid_critical_speed, peaks, 0, peak_record),
-    STRUCTS(rotid_critical_speed, variance_shares, 0, share_record),
+    STRUCTS(rotid_critical_speed, variance_shares, 0,
+            RECORD_OF(rotid_variance_share, TEXT(rotid_variance_share, source, 0), NUMBER(rotid_variance_share, share, FROM_0))),
     STRUCTS(rotid_critical_speed, sensitivities, 0, speed_sensitivity_record),
     NUMBERS(rotid_critical_speed, z, ROUNDED),
     NUMBERS_BY(rotid_critical_speed, x_re, ROUNDED, nz, "z"),
@@ -100,12 +95,6 @@ PART_TABLE(map_record, rotid_map_row) = {
     {0},
 };
 
-PART_TABLE(excitation_record, rotid_excitation) = {
-    TEXT(rotid_excitation, name, 0),
-    KEYS(rotid_excitation, FROM_0, per_revolution, hz),
-    {0},
-};
-
 TABLE(runup_record, rotid_runup_speed) = {
     INTEGER(rotid_runup_speed, number, FROM_1),
     TEXT_OF(rotid_runup_speed, whirl, 0, whirl_words),
@@ -132,7 +121,8 @@ TABLE(speeds_record, rotid_speeds) = {
     STRUCTS(rotid_speeds, critical_speeds, 0, critical_record),
     STRUCT(rotid_speeds, stability, 0, stability_record),
     STRUCTS(rotid_speeds, campbell, 0, campbell_record),
-    STRUCTS(rotid_speeds, excitation, 0, excitation_record),
+    STRUCTS(rotid_speeds, excitation, 0,
+            RECORD_OF(rotid_excitation, TEXT(rotid_excitation, name, 0), KEYS(rotid_excitation, FROM_0, per_revolution, hz))),
     STRUCTS(rotid_speeds, unbalance, 0, response_record),
     KEYS(rotid_speeds, FROM_0, weight_n, sag_m),
     STRUCTS(rotid_speeds, bearing_loads, 0, load_record),

@@ -27,12 +27,6 @@ PART_TABLE(count_record, rotid_sensor_count) = {
     {0},
 };
 
-PART_TABLE(place_record, rotid_sensor_place) = {
-    NUMBER(rotid_sensor_place, z_m, 0),
-    KEYS(rotid_sensor_place, MAY_BE_NULL, worth_percent, margin_percent),
-    {0},
-};
-
 PART_TABLE(rival_record, rotid_rival) = {
     TEXT(rotid_rival, label, 0),
     STRUCTS(rotid_rival, causes, 0, cause_record),
@@ -83,7 +77,9 @@ TABLE(suggestion_record, rotid_suggestion) = {
     STRUCTS(rotid_suggestion, modes, 0, modes_record),
     STRUCTS(rotid_suggestion, plans, 0, plan_record),
     STRUCTS(rotid_suggestion, counts, 0, count_record),
-    STRUCTS(rotid_suggestion, places, 0, place_record),
+    STRUCTS(rotid_suggestion, places, 0,
+            RECORD_OF(rotid_sensor_place, NUMBER(rotid_sensor_place, z_m, 0),
+                      KEYS(rotid_sensor_place, MAY_BE_NULL, worth_percent, margin_percent))),
     STRUCTS(rotid_suggestion, detectable, 0, detectable_record),
     TEXT(rotid_suggestion, verdict, MAY_BE_NULL),
     STRUCTS(rotid_suggestion, rivals, 0, rival_record),

@@ -81,6 +81,9 @@
         .name = #S, .size = sizeof(S), .field = (FIELDS)                                                                         \
     }
 
+/* The record of a struct that stands in one place, its rows being written there. */
+#define RECORD_OF(S, ...) ((const struct record)RECORD(S, ((const struct record_field[]){__VA_ARGS__, {0}})))
+
 /* The record NAME of struct S, behind which its rows stand, ended by {0}; PART_TABLE: for tables of the same file alone. The
  * names of both are unique in the program. */
 #define TABLE(NAME, S)      TABLE_OF(, NAME, S)

@@ -62,12 +62,6 @@ int cause_place(const rotid_geometry *geometry, const rotid_cause *cause, struct
     return *cause->target && (at_group(geometry, cause->target, place) || at_member(geometry, cause->target, place));
 }
 
-PART_TABLE(reference_record, rotid_reference) = {
-    TEXT(rotid_reference, quantity, 0),
-    NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),
-    {0},
-};
-
 TABLE(provenance_record, struct result_head) = {
     INTEGER(struct result_head, schema, FROM_1),
     KEYS(struct result_head, 0, rotid, commit, blas),
@@ -80,7 +74,9 @@ TABLE(provenance_record, struct result_head) = {
 TABLE(deck_record, struct result_head) = {
     TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
-    STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
+    STRUCTS(struct result_head, references, SINCE_LATER,
+            RECORD_OF(rotid_reference, TEXT(rotid_reference, quantity, 0),
+                      NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL))),
     KEYS(struct result_head, IF_KNOWN, length_unit, frequency_unit),
     {0},
 };

@@ -133,24 +133,13 @@ TABLE(sensitivity_record, struct sensitivity) = {
 
 /* ---- the line of a run of a study: rows of the result of its command */
 
-PART_TABLE(run_value_record, struct run_value) = {
-    KEYS(struct run_value, 0, name, unit, value),
-    {0},
-};
-
 PART_TABLE(hidden_record, struct run_hidden) = {
     TEXT(struct run_hidden, id, 0),
-    STRUCTS(struct run_hidden, parameters, 0, run_value_record),
+    STRUCTS(struct run_hidden, parameters, 0, RECORD_OF(struct run_value, KEYS(struct run_value, 0, name, unit, value))),
     {0},
 };
 
 /* Lines differ in nothing but their last seconds: no times of steps and of other minimisers. */
-PART_TABLE(run_step_record, rotid_history_entry) = {
-    KEYS(rotid_history_entry, FROM_0, iteration, objective),
-    NUMBERS(rotid_history_entry, x, 0),
-    {0},
-};
-
 PART_TABLE(run_minimiser_record, rotid_minimiser) = {
     TEXT(rotid_minimiser, algorithm, 0),
     TEXT(rotid_minimiser, result, SINCE_LATER),
@@ -178,7 +167,9 @@ PART_TABLE(fit_record, rotid_identification) = {
     STRUCTS(rotid_identification, parameters, 0, fitted_parameter_record),
     STRUCTS(rotid_identification, modes, 0, compared_mode_record),
     STRUCTS(rotid_identification, states, IF_KNOWN, run_state_record),
-    STRUCTS(rotid_identification, history, IF_KNOWN, run_step_record),
+    STRUCTS(rotid_identification, history, IF_KNOWN,
+            RECORD_OF(rotid_history_entry, KEYS(rotid_history_entry, FROM_0, iteration, objective),
+                      NUMBERS(rotid_history_entry, x, 0))),
     STRUCTS(rotid_identification, baseline, IF_KNOWN, run_minimiser_record),
     {0},
 };
