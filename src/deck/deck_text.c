@@ -19,7 +19,9 @@ struct reader {
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
     struct stat open_stat[DECK_MOST_INCLUDES + 1];
-    int continues; /* a keyword line ended in a comma */
+    int continues;         /* a keyword line ended in a comma */
+    const char *line_text; /* at hand */
+    int line;
 };
 
 char *deck_read_file(struct pool *pool, const char *path, size_t most, struct stat *about, size_t *length, int *failed)
@@ -80,9 +82,9 @@ int deck_text_add_option(struct pool *pool, struct card *card, struct card_optio
     return 0;
 }
 
-static struct place at(const struct reader *reader, const char *line_begin, const char *here, int line)
+static struct place at(const struct reader *reader, const char *here)
 {
-    return (struct place){reader->open_file[reader->depth], line, (int)(here - line_begin) + 1};
+    return (struct place){reader->open_file[reader->depth], reader->line, (int)(here - reader->line_text) + 1};
 }
 
 static int begins_number(const char *text, const char *end)
@@ -104,8 +106,7 @@ static int is_next_item(const struct card_option *option, const char *begin, con
 
 /* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2 or HOLDOUT=STATE:a, the next item of the
  * list. */
-static void read_option(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
-                        int line)
+static void read_option(struct reader *reader, struct card *card, const char *begin, const char *end)
 {
     trim(&begin, &end);
     if (begin == end)
@@ -113,7 +114,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     const char *equals = memchr(begin, '=', (size_t)(end - begin)), *name_end = equals ? equals : end,
                *value = equals ? equals + 1 : end;
     struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
-    card->end = at(reader, line_begin, end, line);
+    card->end = at(reader, end);
     if (list && is_next_item(list, begin, end)) {
         const char *longer = pool_format(reader->pool, "%s,%.*s", list->value, (int)(end - begin), begin);
         list->value = longer ? longer : list->value;
@@ -124,8 +125,8 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     trim(&value, &end);
     struct card_option option = {.name = copy_span(reader, begin, name_end),
                                  .value = copy_span(reader, value, end),
-                                 .place = at(reader, line_begin, begin, line),
-                                 .value_place = at(reader, line_begin, value, line),
+                                 .place = at(reader, begin),
+                                 .value_place = at(reader, value),
                                  .end = card->end};
     if (!option.name || !option.value)
         return;
@@ -134,15 +135,14 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     (void)deck_text_add_option(reader->pool, card, option);
 }
 
-static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
-                         int line)
+static void read_options(struct reader *reader, struct card *card, const char *begin, const char *end)
 {
     const char *last = end, *first = begin;
     trim(&first, &last);
     reader->continues = last == first || last[-1] == ',';
     while (begin <= end) {
         const char *comma = memchr(begin, ',', (size_t)(end - begin));
-        read_option(reader, card, line_begin, begin, comma ? comma : end, line);
+        read_option(reader, card, begin, comma ? comma : end);
         if (!comma)
             break;
         begin = comma + 1;
@@ -211,23 +211,23 @@ static void include(struct reader *reader, struct card card)
     (void)read_file(reader, path, file->value_place);
 }
 
-static void read_keyword(struct reader *reader, const char *line_begin, const char *begin, const char *end, int line)
+static void read_keyword(struct reader *reader, const char *begin, const char *end)
 {
     const char *comma = memchr(begin, ',', (size_t)(end - begin)), *name = begin + 1, *name_end = comma ? comma : end;
     trim(&name, &name_end);
     char *upper = copy_span(reader, name, name_end);
     for (char *c = upper; c && *c; c++)
         *c = (char)toupper((unsigned char)*c);
-    struct card *card = upper ? deck_text_add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
+    struct card *card = upper ? deck_text_add_card(reader->pool, reader->text, upper, at(reader, begin)) : NULL;
     if (!card)
         return;
-    card->end = at(reader, line_begin, name_end, line);
+    card->end = at(reader, name_end);
     reader->continues = 0;
     if (comma)
-        read_options(reader, card, line_begin, comma + 1, end, line);
+        read_options(reader, card, comma + 1, end);
 }
 
-static void read_data(struct reader *reader, const char *begin, const char *end, int line)
+static void read_data(struct reader *reader, const char *begin, const char *end)
 {
     struct deck_text *text = reader->text;
     const char *first = begin, *last = end;
@@ -236,7 +236,7 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
         return;
     if (!text->ncard) {
         if (!reader->early++)
-            text_error(reader, at(reader, begin, first, line),
+            text_error(reader, at(reader, first),
                        "a data line stands before the first card, expected a line that begins with *, or ** and a comment");
         return;
     }
@@ -244,15 +244,14 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     int count = 1;
     for (const char *c = begin; c < end; c++)
         count += *c == ',';
-    struct data_line data = {
-        .place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
+    struct data_line data = {.place = at(reader, first), .end = at(reader, last), .text = copy_span(reader, first, last)};
     data.field = POOL_ARRAY(reader->pool, struct field, count);
     if (!data.field || !data.text)
         return;
     for (const char *piece = begin; data.count < count; data.count++) {
         const char *comma = memchr(piece, ',', (size_t)(end - piece)), *from = piece, *to = comma ? comma : end;
         trim(&from, &to);
-        data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, begin, from, line), 0};
+        data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, from), 0};
         if (!data.field[data.count].text)
             return;
         piece = comma ? comma + 1 : end;
@@ -262,53 +261,47 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     (void)POOL_ADD(reader->pool, card->line, card->nline, &data);
 }
 
-/* Overwrites the text behind the line. Returns 1 where the file is not text, which ends the reading. */
-static int read_line(struct reader *reader, char *whole, size_t length, int line)
+/* A line of the text, overwritten behind it. Returns 1 where the file is not text, which ends the reading. */
+static int read_line(struct reader *reader, char *whole, size_t length)
 {
-    const char *line_text = whole;
+    struct deck_text *text = reader->text;
+    const char *begin = whole, *end = whole + length;
+    int is_first = reader->line == 1;
+    reader->line_text = whole;
     whole[length] = 0;
-    const char *end = line_text + length;
-    for (const char *c = line_text; c < end; c++)
+    for (const char *c = begin; c < end; c++)
         if ((unsigned char)*c < ' ' && *c != '\t') {
-            text_error(reader, at(reader, line_text, c, line),
-                       "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
+            text_error(reader, at(reader, c), "byte 0x%02x is not text, expected a deck of cards that begin with *",
+                       (unsigned char)*c);
             return 1;
         }
-    for (const char *c = line_text; c < end; c++) { /* what makes a line look like another one, in comments as well */
+    for (const char *c = begin; c < end; c++) { /* what makes a line look like another one, in comments as well */
         unsigned code;
         if (*c != '\t' && text_is_control(c, &code)) {
-            text_error(reader, at(reader, line_text, c, line),
+            text_error(reader, at(reader, c),
                        "character U+%04X does not stand for itself, expected text without control characters", code);
             break;
         }
     }
-    if (line == 1 && length >= 3 && !memcmp(line_text, "\xef\xbb\xbf", 3))
-        line_text += 3; /* byte-order mark of an editor */
-    for (const char *c = line_text; c + 1 < end; c++)
-        if (c[0] == '*' && c[1] == '*') {
-            end = c;
-            break;
-        }
-    const char *first = line_text;
-    while (first < end && isspace((unsigned char)*first))
-        first++;
-    if (first == end)
+    if (is_first && length >= 3 && !memcmp(begin, "\xef\xbb\xbf", 3))
+        reader->line_text = begin += 3; /* byte-order mark of an editor */
+    const char *comment = strstr(begin, "**"), *first = begin + strspn(begin, " \t\v\f");
+    end = comment ? comment : end;
+    if (first >= end)
         return 0;
     if (*first == '*') { /* also behind a comma that nothing follows */
-        if (reader->text->ncard == DECK_MOST_CARDS) {
-            text_error(reader, at(reader, line_text, first, line), "the deck has more than %d cards, expected those of a rotor",
-                       DECK_MOST_CARDS);
+        if (text->ncard == DECK_MOST_CARDS) {
+            text_error(reader, at(reader, first), "the deck has more than %d cards, expected those of a rotor", DECK_MOST_CARDS);
             reader->over = 1;
             return 1;
         }
-        read_keyword(reader, line_text, first, end, line);
+        read_keyword(reader, first, end);
     } else if (reader->continues) {
-        read_options(reader, &reader->text->card[reader->text->ncard - 1], line_text, line_text, end, line);
+        read_options(reader, &text->card[text->ncard - 1], begin, end);
     } else {
-        read_data(reader, line_text, end, line);
+        read_data(reader, begin, end);
         return 0;
     }
-    struct deck_text *text = reader->text;
     if (text->ncard && !reader->continues && !reader->pool->out_of_memory && !reader->is_piece &&
         !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
         include(reader, text->card[--text->ncard]);
@@ -327,13 +320,14 @@ static void read_lines(struct reader *reader, const char *path, const char *text
         size_t count = (size_t)(end - text);
         char line_text[DECK_LINE_LENGTH + 1];
         count -= count && end[-1] == '\r';
+        reader->line = line; /* included files have lines of their own */
         if (count > DECK_LINE_LENGTH) {
             text_error(reader, ((struct place){path, line, DECK_LINE_LENGTH + 1}),
                        "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
             is_text = !memchr(text, 0, DECK_LINE_LENGTH + 1);
         } else {
             memcpy(line_text, text, count);
-            is_text = !read_line(reader, line_text, count, line);
+            is_text = !read_line(reader, line_text, count);
         }
         reader->text->end = (struct place){path, line, (int)count + 1};
         text = feed ? feed + 1 : stop;
