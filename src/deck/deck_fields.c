@@ -29,11 +29,6 @@ void deck_add_place(struct deck_reader *reader, enum deck_places which, struct p
     (void)POOL_ADD(reader->pool, reader->place[which], reader->nplace[which], &place);
 }
 
-static const char *range_text(enum range range)
-{
-    return range == POSITIVE ? "a number above zero" : range == NOT_NEGATIVE ? "a number not below zero" : "a number";
-}
-
 int deck_is_usual(double value)
 {
     return value == 0 || (fabs(value) >= DECK_LEAST && fabs(value) <= DECK_MOST);
@@ -49,7 +44,9 @@ static int parse_number(struct deck_reader *reader, const struct field *field, c
         return deck_error(reader, place, "'%s' is not a number, expected one for %s", text, what);
     if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0))
         return deck_error(reader, place, "%s is %s, expected %s", what, text,
-                          isfinite(number) ? range_text(range) : "a finite number");
+                          !isfinite(number)   ? "a finite number"
+                          : range == POSITIVE ? "a number above zero"
+                                              : "a number not below zero");
     if (!deck_is_usual(number) && (range != ANY || fabs(number) > DECK_MOST)) { /* a component of a shape may be rounding */
         return deck_error(reader, place, "%s is %s, expected a size from %g to %g%s", what, text, DECK_LEAST, DECK_MOST,
                           range == POSITIVE ? "" : ", or zero");

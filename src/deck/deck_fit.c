@@ -263,18 +263,14 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
     return absolute ? absolute : path;
 }
 
-static int is_of_nodes(const char *option)
-{
-    return same_text(option, "AXIS") || same_text(option, "FLIP") || same_text(option, "ORIGIN");
-}
-
 /* What no row says of the lines, and of where the nodes of the file are. */
 static void check_options(struct deck_reader *reader, const struct card *card)
 {
     const struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *low = card_option(card, "LOW"), *high = card_option(card, "HIGH"),
                              *step = card_option(card, "STEP"), *lines = card_option(card, "LINES"),
-                             *damping = card_option(card, "DAMPING");
+                             *damping = card_option(card, "DAMPING"), *of_nodes;
+    static const char *const nodes[] = {"AXIS", "FLIP", "ORIGIN"};
     if (low && high && frf->high_hz <= frf->low_hz)
         deck_error(reader, high->value_place, "HIGH is %s and LOW %s, expected HIGH above LOW", high->value, low->value);
     else if (step && lines)
@@ -289,12 +285,9 @@ static void check_options(struct deck_reader *reader, const struct card *card)
     if (damping && frf->damping >= 1)
         deck_error(reader, damping->value_place, "DAMPING is %s, expected a ratio below 1: a fraction of critical damping",
                    damping->value);
-    for (int i = 0; i < card->noption && !card_option(card, "FILE"); i++)
-        if (is_of_nodes(card->option[i].name)) {
-            deck_error(reader, card->option[i].place, "%s places the nodes of a file, expected FILE beside it",
-                       card->option[i].name);
-            return;
-        }
+    for (int i = 0, told = card_option(card, "FILE") != NULL; i < 3 && !told; i++)
+        if ((of_nodes = card_option(card, nodes[i])))
+            told = deck_error(reader, of_nodes->place, "%s places the nodes of a file, expected FILE beside it", of_nodes->name);
 }
 
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */

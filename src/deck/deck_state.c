@@ -6,11 +6,6 @@
 
 #include "deck/deck_row.h"
 
-static int is_state(const struct card *card)
-{
-    return !strcmp(card->name, "STATE");
-}
-
 static const char *name_of(const struct card *card)
 {
     const struct card_option *option = card_option(card, "NAME");
@@ -46,7 +41,7 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
     *d = (struct division){.nread = nread, .first = nread, .state = POOL_ARRAY(reader->pool, const struct card *, text->ncard)};
     for (int c = 0; c < nread && d->state; c++) {
         const struct card *card = &text->card[c];
-        if (!is_state(card))
+        if (strcmp(card->name, "STATE") != 0)
             continue;
         const char *name = deck_option(reader, card, "NAME", "name");
         d->first = d->nstate ? d->first : c;
@@ -232,7 +227,7 @@ static void agree_on_functional(struct states *states)
         states->state[s].job.options.fit.functional = functional;
 }
 
-static int fits_any(const struct job *job)
+int deck_fits_any(const struct job *job)
 {
     for (int k = 0; k < job->measurement.nmode; k++)
         if (!job->measurement.holdout[k])
@@ -249,7 +244,7 @@ static void check_use(struct deck_reader *reader, const struct division *d, cons
             for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
                 if (states->state[s].unknown[q] == p) {
                     of = s;
-                    used |= fits_any(&states->state[s].job);
+                    used |= deck_fits_any(&states->state[s].job);
                 }
         if (!used)
             deck_error(reader, d->state[of]->place, "%s acts in no state that is fitted, expected it in one that is not held out",

@@ -309,14 +309,6 @@ static const char *with_runup(const struct writing *w, const char *list)
                                             : pool_format(w->pool, "RUNUP%s%s", list && *list ? ", " : "", list ? list : "");
 }
 
-static int is_held_out(const struct job *job)
-{
-    int fitted = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        fitted += !job->measurement.holdout[k];
-    return job->measurement.nmode && !fitted;
-}
-
 /* The modes that are held out: on *FIT, of states on the card of each, *FIT has those that are held out as a whole. */
 static void edit_holdout(struct writing *w)
 {
@@ -324,7 +316,8 @@ static void edit_holdout(struct writing *w)
     struct deck_writer whole = {.pool = w->pool};
     for (int s = 0; s < w->meant.nstate; s++) {
         struct deck_writer modes = writer_of(w, s);
-        int all = w->meant.nstate > 1 && is_held_out(&w->meant.state[s].job);
+        const struct job *job = &w->meant.state[s].job;
+        int all = w->meant.nstate > 1 && job->measurement.nmode && !deck_fits_any(job);
         if (all)
             deck_put(&whole, "%sSTATE:%s", whole.length ? ", " : "", w->meant.state[s].name);
         else
