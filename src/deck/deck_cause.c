@@ -229,20 +229,18 @@ static const struct cause_kind *find_kind(struct deck_reader *reader, const stru
 /* Options that another type of cause has. 0, or 1 after an error. */
 static int check_options(const struct cause_card *c)
 {
-    static const char *const places[] = {"GROUP", "BETWEEN", "AT", "SENSOR"};
+    static const char *const options[] = {"GROUP", "BETWEEN", "AT", "SENSOR", "SHAPE", "MOUNT"};
     int bad = 0;
-    for (int i = 0; i < c->card->noption; i++) {
-        const struct card_option *option = &c->card->option[i];
-        const char *own = target_of[c->kind->target].option;
-        for (size_t p = 0; p < sizeof places / sizeof *places; p++)
-            if (same_text(option->name, places[p]) && !(own && same_text(own, places[p])) &&
-                !(c->kind->target == TARGET_INTERFACE && same_text(option->name, "AT")))
-                bad = deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s%s%s",
-                                 option->name, c->kind->id, own ? own : "", own ? "=" : "", target_of[c->kind->target].expected);
-        if ((same_text(option->name, "SHAPE") || same_text(option->name, "MOUNT")) &&
-            !(c->kind->variant_option && same_text(option->name, c->kind->variant_option)))
-            bad = deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s", option->name,
-                             c->kind->id, c->kind->variant_option ? c->kind->variant_option : "a card without it");
+    for (int i = 0; i < 6; i++) {
+        int is_variant = i > 3, is_place = c->kind->target == TARGET_INTERFACE && i == 2;
+        const struct card_option *option = card_option(c->card, options[i]);
+        const char *own = is_variant ? c->kind->variant_option : target_of[c->kind->target].option,
+                   *expected = !is_variant ? target_of[c->kind->target].expected
+                               : own       ? ""
+                                           : "a card without it";
+        if (option && !(own && same_text(own, options[i])) && !is_place)
+            bad = deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s%s%s", option->name,
+                             c->kind->id, own ? own : "", own && !is_variant ? "=" : "", expected);
     }
     return bad;
 }

@@ -19,7 +19,7 @@ static int is(const struct card *card, const char *name)
 void deck_split_running(struct deck_reader *reader, int *nread)
 {
     struct deck_text *text = &reader->text;
-    int begin = -1, end = *nread, kept = 0;
+    int begin = -1;
     for (int c = 0; c < *nread; c++) {
         const struct card *card = &text->card[c];
         if (is(card, "RUNNING") && begin >= 0)
@@ -39,15 +39,11 @@ void deck_split_running(struct deck_reader *reader, int *nread)
     }
     if (begin < 0)
         return;
-    reader->nrunning = end - begin;
+    reader->nrunning = *nread - begin;
     reader->running = POOL_COPY(reader->pool, text->card + begin, reader->nrunning, 0);
-    if (!reader->running)
-        return;
-    for (int c = 0; c < text->ncard; c++)
-        if (c < begin || c >= end)
-            text->card[kept++] = text->card[c];
-    text->ncard = kept;
-    *nread -= reader->nrunning;
+    memmove(text->card + begin, text->card + *nread, (size_t)(text->ncard - *nread) * sizeof *text->card);
+    text->ncard -= reader->nrunning;
+    *nread = begin;
 }
 
 /* ---- names */
