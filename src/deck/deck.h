@@ -203,7 +203,8 @@ struct deck_reader {
     int nplace[DECK_PLACES];
     long taken;                 /* rows of tables, by all cards */
     int nopen, *open_section;   /* sections without elements: the mesh follows from modes and noise */
-    const char *layout;         /* what a data line of the card at hand holds, */
+    const struct card *card;    /* at hand, */
+    const char *layout;         /* what a data line of it holds, */
     const struct deck_row *row; /* and its options and values */
     double length;              /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
@@ -306,7 +307,7 @@ int deck_option_group(struct deck_reader *reader, const struct card *card, const
 /* The readers of the cards (card_table.c). */
 typedef void deck_card_reader(struct deck_reader *reader, const struct card *card);
 /* What no row says of an item of a list; it may complete it. 0, or 1 after an error. */
-typedef int deck_item_check(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item);
+typedef int deck_item_check(struct deck_reader *reader, const struct data_line *line, void *item);
 deck_card_reader deck_units, deck_material, deck_elastic, deck_density, deck_sections, deck_layer, deck_perforation, deck_preload,
     deck_clamp, deck_sling, deck_heading, deck_modes, deck_shape, deck_frequencies, deck_measured, deck_noise, deck_weight,
     deck_cause, deck_identify, deck_fit, deck_frf, deck_choose_modes, deck_set, deck_running, deck_bearing, deck_pedestal,

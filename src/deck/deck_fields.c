@@ -342,8 +342,7 @@ static void read_list(struct deck_reader *reader, const struct card *card, const
         most = kind->single || (kind->row->kind == ROW_NAME && card_option(card, "NAME")) ? 1 : DECK_MOST_LINES;
     for (int i = 0, lines = deck_lines(reader, card, 1, most); i < lines; i++) {
         memcpy(item, of_card, kind->size);
-        if (deck_read_values(reader, &card->line[i], item) || bad ||
-            (kind->check && kind->check(reader, card, &card->line[i], item)))
+        if (deck_read_values(reader, &card->line[i], item) || bad || (kind->check && kind->check(reader, &card->line[i], item)))
             continue;
         if (kind->places)
             deck_add_place(reader, kind->places, kind->single ? card->place : card->line[i].place);
@@ -384,6 +383,7 @@ void deck_read_card(struct deck_reader *reader, const struct card *card, const s
         deck_error(reader, card->place, "*%s is given twice, expected once", card->name);
         return;
     }
+    reader->card = card;
     reader->layout = kind->lines;
     reader->row = kind->row;
     if (kind->read != deck_heading)

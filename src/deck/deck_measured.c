@@ -44,11 +44,10 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
             job->heading[job->nheading++] = card->line[i].text;
 }
 
-int deck_check_sensor(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_sensor(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct rotor *rotor = &reader->job->rotor;
     const struct sensor *sensor = item;
-    (void)card;
     if (rotor->nsensor == DECK_MOST_LINES)
         return deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
     for (int s = 0; s < rotor->nsensor; s++)

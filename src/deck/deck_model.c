@@ -304,13 +304,13 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
         group->preload += force;
 }
 
-int deck_check_tierod(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_tierod(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct tierod *rod = item;
     if (rod->from >= rod->to)
-        return deck_error(reader, card_option(card, "TO")->value_place,
-                          "TO=%s is not behind FROM=%s, expected a position further right", card_option(card, "TO")->value,
-                          card_option(card, "FROM")->value);
+        return deck_error(reader, card_option(reader->card, "TO")->value_place,
+                          "TO=%s is not behind FROM=%s, expected a position further right",
+                          card_option(reader->card, "TO")->value, card_option(reader->card, "FROM")->value);
     if (rod->elements > 1)
         deck_note(reader, line->field[4].place,
                   "rods in %d elements have modes of their own, which may lie among those of the rotor and shift the mode "
@@ -319,7 +319,7 @@ int deck_check_tierod(struct deck_reader *reader, const struct card *card, const
     return 0;
 }
 
-int deck_check_bars(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_bars(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct bars *bars = item;
     double half = bars->length / 2, over = 1e-5 * reader->length, radius = bars->diameter / 4, hz;
@@ -327,14 +327,14 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
         return deck_error(reader, line->field[3].place,
                           "number of elements is %d, expected an even number: half to either side of the centre", bars->elements);
     if (bars->center - half < -over || bars->center + half > reader->length + over)
-        return deck_error(reader, card_option(card, "LENGTH")->value_place,
+        return deck_error(reader, card_option(reader->card, "LENGTH")->value_place,
                           "bars of %.9g %s reach beyond the rotor, expected them inside 0 to %.6g %s",
                           bars->length / deck_in_si(reader, "m"), deck_length_unit(reader),
                           reader->length / deck_in_si(reader, "m"), deck_length_unit(reader));
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
     hz = 0.5596 * sqrt(bars->material.e / bars->material.rho) * radius / (half * half);
     if (bars->model == BUNDLE_RODS && hz < 5000)
-        deck_note(reader, card->place,
+        deck_note(reader, reader->card->place,
                   "bars fixed at their centre alone have a mode of their own near %.0f Hz, which may lie among those of the "
                   "rotor and shift the mode numbers; MODEL=TUBE has none so low",
                   hz);
@@ -343,12 +343,11 @@ int deck_check_bars(struct deck_reader *reader, const struct card *card, const s
 
 #define MORE_THAN_ROUNDING 1.02 /* of inertias stated with two or three digits */
 
-int deck_check_disk(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_disk(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct rotor *rotor = &reader->job->rotor;
     const struct disk *disk = item;
     double from = disk->position - disk->hub_length / 2, to = disk->position + disk->hub_length / 2, z = 0, outer, inner;
-    (void)card;
     if ((disk->hub_length > 0) != (disk->hub_outer > 0))
         return deck_error(reader, line->field[deck_has(line, 5) ? 5 : 4].place,
                           "a hub has a length and an outer diameter above zero, expected both or neither");

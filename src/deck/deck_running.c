@@ -320,18 +320,6 @@ void deck_bearing(struct deck_reader *reader, const struct card *card)
         check_bearing(reader, card->place, &b);
 }
 
-/* Of a measured dynamic stiffness k - m w^2 + i w c the mass takes its share: at the frequency of the spin, where critical speeds
- * and responses are, nothing depends on it but what is interpolated between the rows, k and c. */
-static void split_mass(const double m[2], struct coefficients *pedestal)
-{
-    for (int i = 0; i < pedestal->count; i++)
-        for (int plane = 0; plane < 2; plane++) {
-            ptrdiff_t at = 4 * (ptrdiff_t)i + (plane ? YY : XX);
-            pedestal->k[at] += m[plane] * pedestal->speed[i] * pedestal->speed[i];
-            pedestal->c[at] /= pedestal->speed[i];
-        }
-}
-
 void deck_pedestal(struct deck_reader *reader, const struct card *card)
 {
     const struct card_option *option = card_option(card, "BEARING"), *file = card_option(card, "FILE");
@@ -352,15 +340,16 @@ void deck_pedestal(struct deck_reader *reader, const struct card *card)
     }
     if (file ? read_coefficients(reader, card, file, &of_pedestal, &b->pedestal) : room_of_table(reader, &b->pedestal, 1))
         return;
-    for (int plane = 0; plane < 2; plane++) {
-        b->m[plane] = value.m[plane];
-        if (!file) {
-            b->pedestal.k[plane ? YY : XX] = value.k[plane];
-            b->pedestal.c[plane ? YY : XX] = value.c[plane];
+    memcpy(b->m, value.m, sizeof b->m);
+    /* Of a measured dynamic stiffness k - m w^2 + i w c the mass takes its share: at the frequency of the spin, where critical
+     * speeds and responses are, nothing depends on it but what is interpolated between the rows, k and c. */
+    for (int i = 0; i < b->pedestal.count; i++)
+        for (int plane = 0; plane < 2; plane++) {
+            ptrdiff_t at = 4 * (ptrdiff_t)i + (plane ? YY : XX);
+            double *k = &b->pedestal.k[at], *c = &b->pedestal.c[at], speed = b->pedestal.speed[i];
+            *k = file ? *k + b->m[plane] * speed * speed : value.k[plane];
+            *c = file ? *c / speed : value.c[plane];
         }
-    }
-    if (file)
-        split_mass(b->m, &b->pedestal);
 }
 
 /* ---- losses, pull, change */
@@ -388,10 +377,10 @@ static int loss_from_test(struct deck_reader *reader, struct place place, struct
     return 0;
 }
 
-int deck_check_loss(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_loss(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     struct loss *loss = item;
-    loss->from_test = card_option(card, "TEST") != NULL;
+    loss->from_test = card_option(reader->card, "TEST") != NULL;
     if (loss->from_test && line->count > 1)
         return deck_error(reader, line->field[1].place, "'%s' is one value too many, expected group alone with TEST",
                           line->field[1].text);
@@ -400,11 +389,10 @@ int deck_check_loss(struct deck_reader *reader, const struct card *card, const s
     return deck_has(line, 1) ? 0 : deck_number(reader, line, 1, "loss", NOT_NEGATIVE, &loss->value);
 }
 
-int deck_check_change(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_change(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     struct change *change = item;
     const char *unit;
-    (void)card;
     if (deck_find_parameter(reader, &line->field[0], &change->parameter, &unit))
         return 1;
     if (change->parameter.kind == PARAMETER_G && reader->job->rotor.group[change->parameter.index].material.isotropic)
@@ -452,11 +440,10 @@ void deck_operation(struct deck_reader *reader, const struct card *card)
                   120 * m->line_hz / m->poles, m->poles, m->line_hz);
 }
 
-int deck_check_runup(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_runup(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     const struct machine *machine = reader->machine;
     struct runup_reading *reading = item;
-    (void)card;
     reading->place = line->place;
     for (int j = 0; j < machine->nrunup; j++)
         if (machine->runup[j].number == reading->number && machine->runup[j].backward == reading->backward)
@@ -484,12 +471,11 @@ static int unknown_bearing(struct deck_reader *reader, const struct field *field
 }
 
 /* *IDENTIFY behind *RUNNING */
-int deck_check_unknown(struct deck_reader *reader, const struct card *card, const struct data_line *line, void *item)
+int deck_check_unknown(struct deck_reader *reader, const struct data_line *line, void *item)
 {
     struct machine *machine = reader->machine;
     struct machine_unknown *u = item;
     int twice = 0;
-    (void)card;
     u->bounds.unit = "1";
     u->bearing = unknown_bearing(reader, &line->field[0], &u->damping);
     if (u->bearing < 0)
