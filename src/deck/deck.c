@@ -445,17 +445,6 @@ void deck_read_cards(struct deck_reader *reader)
     note_assumptions(reader);
 }
 
-static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)
-{
-    for (int i = 0; i < ncard; i++) {
-        struct card *added = deck_text_add_card(pool, text, card[i].name, card[i].place);
-        if (!added)
-            return ROTID_ERROR_MEMORY;
-        *added = card[i];
-    }
-    return ROTID_OK;
-}
-
 /* `memory`: or NULL, a file */
 static int read_deck(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
                      const struct override *override, int ncard, const struct card *card, struct message_list *messages,
@@ -484,7 +473,9 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     for (int i = 0; i < noverride; i++)
         if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)
             return ROTID_ERROR_MEMORY;
-    if (add_cards(pool, &reader.text, ncard, card))
+    for (int i = 0; i < ncard; i++)
+        (void)POOL_ADD(pool, reader.text.card, reader.text.ncard, &card[i]);
+    if (pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
     /* Each state by itself, then the machine, which is made of the first one. */

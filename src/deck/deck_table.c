@@ -562,11 +562,10 @@ int deck_read_tables(struct deck_reader *reader, int *nread)
     for (int c = 0; c < text->ncard && !reader->pool->out_of_memory; c++) {
         const struct card *card = &text->card[c];
         const struct table_kind *kind = card_option(card, "FILE") ? table_kind_of(card->name) : NULL;
-        struct card *same = kind ? NULL : deck_text_add_card(reader->pool, &to, card->name, card->place);
         if (kind)
             take_table(reader, card, kind, &to);
-        else if (same)
-            *same = *card;
+        else
+            (void)POOL_ADD(reader->pool, to.card, to.ncard, card);
         if (c == front - 1)
             *nread = to.ncard;
     }
