@@ -156,6 +156,7 @@ struct fit {
     double *bounded;        /* dr/dx that was asked for last */
     const double *known;    /* r at the start, where the joint stands there already, until it is asked for */
     const double *accepted; /* y of the last accepted point, NULL before the first */
+    int before;             /* iterations before those of the minimiser that runs */
     double begin;           /* on the clock */
 };
 
@@ -283,7 +284,7 @@ static int trace(void *user, const rotid_lm_iteration *now)
         if (row)
             step += (x[p] - x[p - n]) * (x[p] - x[p - n]) / (unit * unit);
     }
-    result->history[row] = (rotid_fit_iteration){.iteration = now->iteration,
+    result->history[row] = (rotid_fit_iteration){.iteration = fit->before + now->iteration,
                                                  .objective = now->objective,
                                                  .gradient = gradient,
                                                  .mu = now->mu,
@@ -293,7 +294,7 @@ static int trace(void *user, const rotid_lm_iteration *now)
     result->nhistory++;
     const rotid_environment *environment = fit->environment;
     if (environment && environment->progress)
-        environment->progress(environment->context, "Levenberg-Marquardt, iteration", now->iteration);
+        environment->progress(environment->context, "Levenberg-Marquardt, iteration", fit->before + now->iteration);
     return environment && environment->cancelled && environment->cancelled(environment->context);
 }
 
@@ -541,6 +542,53 @@ static int begin_near(struct pool *pool, struct fit *fit, const struct fit_probl
     return status;
 }
 
+#define BESIDE_BOUND 1e-3 /* of the interval: from here a minimum at the bound is tried where no step of y lowers f any more */
+#define ON_BOUND     1e-9
+#define NO_RISE      1e-6 /* of f: its rounding, and nothing beside its own spread */
+
+/* Towards a bound x(y) flattens, and the minimiser stalls short of a minimum there, where rounding has it. Unknowns beside a
+ * bound are put to it and the others fitted on from there; that is the end unless it raises f, else *lm and what
+ * is kept of its end stay. ROTID_OK or ROTID_ERROR_MEMORY. */
+static int press_to_bounds(struct pool *pool, struct fit *fit, const rotid_lm_options *options, rotid_lm_result *lm)
+{
+    int n = fit->n, m = fit->joint.nresidual, found = 0;
+    double chi = fit->options.bijection_chi, *y = POOL_COPY(pool, fit->y, n, 0);
+    rotid_lm_options rest = *options;
+    rotid_lm_result trial, last;
+    if (!y)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++) {
+        const rotid_parameter *q = &fit->parameter[p];
+        double x = fit->result->x[p], span = q->upper - q->lower, part = (x - q->lower) / span;
+        int side = part < BESIDE_BOUND ? -1 : part > 1 - BESIDE_BOUND;
+        if (side && !bounds_pressed(q, x)) {
+            y[p] = bounds_to_y(q, chi, side < 0 ? q->lower + ON_BOUND * span : q->upper - ON_BOUND * span);
+            found |= isfinite(y[p]);
+        }
+    }
+    rest.max_iterations -= lm->iterations + 1;
+    rest.trace = trace_near;
+    fit->accepted = NULL;
+    if (!found || rest.max_iterations < 1 ||
+        rotid_lm(m, n, residual, fit, &rest, NULL, y, fit->r, fit->jacobian, fit->work, &trial) < 0)
+        return ROTID_OK;
+    fit->beside += trial.evaluations;
+    if (trial.status == ROTID_STOP_CANCELLED)
+        lm->status = trial.status;
+    if (trial.status == ROTID_STOP_CANCELLED || !(trial.objective <= (1 + NO_RISE) * lm->objective))
+        return ROTID_OK;
+    rest.trace = trace;
+    fit->accepted = NULL;
+    fit->before = lm->iterations + 1;
+    if (rotid_lm(m, n, residual, fit, &rest, NULL, y, fit->r, fit->jacobian, fit->work, &last) < 0)
+        return ROTID_OK;
+    last.iterations += fit->before;
+    last.evaluations += lm->evaluations;
+    last.jacobians += lm->jacobians;
+    *lm = last;
+    return ROTID_OK;
+}
+
 static int run(struct pool *keep, struct pool *pool, struct fit *fit, const struct fit_problem *problem)
 {
     const rotid_fit_options *options = &fit->options;
@@ -590,6 +638,8 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
         return status;
     status = n && !end ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
                        : compare_only(fit, end ? end : ROTID_STOP_GRADIENT, &lm);
+    if (status == ROTID_STOP_STALLED && !fit->history_failed && press_to_bounds(pool, fit, &lm_options, &lm))
+        return ROTID_ERROR_MEMORY;
     fit->result->seconds = clock_seconds() - fit->begin;
     if (fit->history_failed)
         return ROTID_ERROR_MEMORY;
