@@ -10,8 +10,8 @@
  *   deck_state.c         deck_read_all_states: the text of each *STATE with the common cards; unknowns common to states
  *   deck.c               deck_read_cards: the readers in phases, so that what a card refers to is there; then checks, functional
  *   card_table.c         a row a card: phase, routine; cards of plain numbers have rows alone, lists of rotor or machine
- *   deck_fields.c        one number, option or position with range and unit; a row of them: read, written, compared
- *   deck_units.c         factors to SI
+ *   deck_fields.c        one number, option or position with range and unit; options and data lines by the rows of the card
+ *   deck_units.c         *UNITS, factors to SI; sizes that rotors have
  *   deck_model.c         materials, sections, rings; tie rods, bars, holes, *PRELOAD (group.preload)
  *   deck_measured.c      sensors, modes, shapes, noise; *MEASURED, FILE
  *   deck_fit.c           *IDENTIFY, *FIT: unknowns, bounds, HOLDOUT; *FRF; deck_state.c: *SET, what a state has of its own
@@ -19,7 +19,7 @@
  *   deck_running.c       *RUNNING and what stands behind it: struct machine of src/running
  *
  * Writing: there is one writer, deck_write (deck_write.c): the text that was read, in parts (deck_edit.c), with what has to
- * change in it, printed by deck_print.c and the rows of the cards; read back and compared field by field (deck_compare.c).
+ * change in it, printed by deck_print.c and the rows of the cards; read back and compared by these rows (deck_compare.c).
  * deck_extended.c gives it a diagnosis and finds the result its place; deck_proposed.c adds the *STATE of a test that src/suggest
  * proposes. Callers: src/api, src/cli, src/study; src/report writes numbers by deck_number_text. The room computes no K, no M, no
  * fit. */
