@@ -159,13 +159,14 @@ void deck_edit_set(struct deck_edit *e, int part, const char *name, const char *
 void deck_edit_lines(struct deck_edit *e, int part, void (*edit)(struct deck_line_edit *, void *), void *context)
 {
     const struct deck_part *p = &e->part[part];
-    const char *done = p->text;
+    const char *done = p->text, *begin = p->text, *stop = p->text + p->length;
     struct deck_writer w = {.pool = e->pool};
-    for (int i = 0; i < p->read.nline; i++) {
+    for (int i = 0, number = 1; i < p->read.nline; i++) {
         struct deck_line_edit line = {.line = &p->read.line[i], .number = i};
         edit(&line, context);
+        for (; number < line.line->place.line; number++)
+            begin += line_length(begin, stop);
         if (line.before) {
-            const char *begin = text_at(p, (struct place){.line = line.line->place.line, .column = 1});
             put_span(&w, done, begin);
             deck_put(&w, "%s", line.before);
             done = begin;
@@ -175,7 +176,7 @@ void deck_edit_lines(struct deck_edit *e, int part, void (*edit)(struct deck_lin
                 continue;
             int is_new = f >= line.line->count;
             const struct field *field = &line.line->field[is_new ? line.line->count - 1 : f];
-            const char *at = text_at(p, field->place), *behind = at + strlen(field->text);
+            const char *at = begin + field->place.column - 1, *behind = at + strlen(field->text);
             put_span(&w, done, is_new ? behind : at);
             deck_put(&w, "%s%s", is_new ? ", " : "", line.value[f]);
             done = behind;
@@ -183,7 +184,7 @@ void deck_edit_lines(struct deck_edit *e, int part, void (*edit)(struct deck_lin
     }
     if (done == p->text)
         return;
-    put_span(&w, done, p->text + p->length);
+    put_span(&w, done, stop);
     replace(e, part, &w);
 }
 
