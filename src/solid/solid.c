@@ -529,9 +529,22 @@ static int refuse_tubes(const struct rotor *rotor, int *failed)
     return ROTID_OK;
 }
 
+#define MOST_BULK                                                                                                                \
+    1e7 /* C11/C66, of nu 0.49999995: rounding of K leaves 0.01 % of frequencies there, 0.5 % at a hundred times that */
+
+static int keeps_its_volume(const struct group *group)
+{
+    struct elasticity c = elasticity_of(&group->material, &(struct elasticity_factors){1, 1, 1});
+    return !(fabs(c.c11) < MOST_BULK * c.c66);
+}
+
 const char *solid_refusal(const struct rotor *rotor, int failed)
 {
     int rod = failed - rotor->ngroup, bars = rod - rotor->ntierod;
+    if (rod < 0 && keeps_its_volume(&rotor->group[failed]))
+        return "the *ELASTIC of this group has a Poisson ratio of 0.5, with which a solid cannot change its volume and has no "
+               "finite "
+               "stiffness, expected nu of at most 0.4999999, or *FIT, MODEL=BEAM";
     if (bars >= rotor->nbars && outline_slenderness(rotor) > SOLID_MOST_SLENDER)
         return "the rotor is more than 1000 times as long as its largest diameter, which a solid loses in rounding, expected a "
                "thicker one, or *FIT, MODEL=BEAM";
@@ -594,6 +607,9 @@ int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, co
     int status = rotor_copy(pool, rotor, &solid->rotor);
     if (!status)
         status = refuse_tubes(rotor, failed);
+    for (int g = 0; g < rotor->ngroup && !status; g++)
+        if (keeps_its_volume(&rotor->group[ *failed = g]))
+            status = ROTID_ERROR_SECTION;
     if (!status)
         status = solid_mesh_build(pool, &solid->rotor, rule ? rule : &from_rotor, refine, &solid->mesh, failed);
     if (status)

@@ -230,8 +230,8 @@ struct solid {
 };
 
 /* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows
- * from the rotor; refine as for solid_mesh_build. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or
- * bars in *failed (groups, then tie rods, then bars, then the mesh as a whole). */
+ * from the rotor; refine as for solid_mesh_build. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, also
+ * one that keeps its volume, tie rod or bars in *failed (groups, then tie rods, then bars, then the mesh as a whole). */
 int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                 const struct solid_rule *rule, int refine, struct solid *solid, int *failed);
 
