@@ -1953,7 +1953,7 @@ contains
     character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status
     character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
-    status = rotid_matrix_add(matrix, int(i - 1, c_int), int(j - 1, c_int), value, c_loc(why))
+    status = rotid_matrix_add(matrix, int(max(i, 0) - 1, c_int), int(max(j, 0) - 1, c_int), value, c_loc(why))
     if (present(failure)) failure = rotid_string(c_loc(why))
   end function rotid_add
 
@@ -1969,7 +1969,7 @@ contains
     status = ROTID_ERROR_ARGUMENT
     if (present(failure)) failure = 'e has another shape than size(dof) x size(dof)'
     if (size(e, 1) /= size(dof) .or. size(e, 2) /= size(dof)) return
-    status = rotid_matrix_add_element(matrix, size(dof, kind=c_int), int(dof, c_int) - 1_c_int, e, c_loc(why))
+    status = rotid_matrix_add_element(matrix, size(dof, kind=c_int), int(max(dof, 0) - 1, c_int), e, c_loc(why))
     if (present(failure)) failure = rotid_string(c_loc(why))
   end function rotid_add_element
 

@@ -176,10 +176,13 @@ contains
     call check(rotid_add(a, 1, 3, 1.0_dp, failure) == ROTID_ERROR_ARGUMENT, 'no place')
     call check(index(failure, 'entry (0, 2) lies outside the band') == 1, 'which place')
     call check(rotid_add(a, 0, 1, 1.0_dp) == ROTID_ERROR_ARGUMENT, 'no row 0')
+    call check(rotid_add(a, -huge(1) - 1, 1, 1.0_dp, failure) == ROTID_ERROR_ARGUMENT, 'no row of the least integer')
+    call check(index(failure, '-1') > 0, 'nor one that it would wrap to')
     call check(rotid_add(a, 4, 1, 0.5_dp, failure) == ROTID_OK, 'A(4, 1)')
     call check(failure == '', 'nothing to say of it')
     call check(block(1, 2) == -6.5_dp .and. block(2, 1) == -6.5_dp, 'where A(4, 1) goes')
     ! the second of three is held
+    call check(rotid_add_element(a, [-huge(1) - 1, -1], full(1:2, 1:2)) == ROTID_OK, 'an element whose ends are held')
     call check(rotid_add_element(a, [2, 0, 3], reshape([1.0_dp, 99.0_dp, 2.0_dp, 99.0_dp, 99.0_dp, &
                                                        99.0_dp, 2.0_dp, 99.0_dp, 3.0_dp], [3, 3])) &
                == ROTID_OK, 'an element')
