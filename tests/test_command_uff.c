@@ -39,6 +39,28 @@ static void doubts_are(const char *name, const char *expected)
     assert_string_equal(kinds, expected);
 }
 
+/* A record of 33 levels, longer than what is read at a time, and one of a thousand. */
+UNIT_TEST(records_of_few_levels_are_doubtful)
+{
+    struct uff_function f = function(UFF_TIME, 1, 9000);
+    FILE *stream = create("coarse.uff");
+    assert_status(uff_write_units(stream, &uff_si), ROTID_OK);
+    put_nodes(stream, 2);
+    for (int levels = 32; levels <= 1000; levels += 968) {
+        struct uff_function_writer writer;
+        f.response_node = levels == 32 ? 1 : 2;
+        assert_status(uff_write_function(stream, &f, &writer), ROTID_OK);
+        for (int i = 0; i < 9000; i++) {
+            double x = i, value = round(levels / 2. * sin(0.9 * i)) / levels;
+            assert_status(uff_write_values(&writer, 1, &x, &value, NULL), ROTID_OK);
+        }
+        assert_status(uff_end_function(&writer), ROTID_OK);
+    }
+    assert_int_equal(fclose(stream), 0);
+    doubts_are("coarse.uff", ",coarse,");
+    says("coarse.uff", 0, "coarse, 33 levels, expected 256 or more");
+}
+
 UNIT_TEST(doubtful_places_are_found)
 {
     FILE *stream = create("doubt.uff");

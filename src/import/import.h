@@ -100,6 +100,7 @@ struct listing_function {
     struct values values;          /* min, max, rms NaN without any */
     double si_factor, x_si_factor; /* a value, an abscissa times this is in SI */
     int group;                     /* of functions that differ in their places alone, from 0 */
+    int levels;                    /* of a record: values_levels */
     /* as it is told: type and ordinate in words, places as place_text has them; */
     const char *kind, *ordinate, *response, *reference;
     int is_time;

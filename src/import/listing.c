@@ -110,27 +110,38 @@ int values_are_clipped(const struct values *values)
 #define LEVELS_LEAST     6    /* by chance one in half a million sets of six values has the distances of a grid */
 #define LEVELS_TOLERANCE 0.02 /* of a step: six digits of a text round 256 of them to 0.0013 */
 
-int values_levels(long long count, const double *sample)
+struct levels { /* met so far, rising; a count above COARSE_LEVELS: too many */
+    int count;
+    double level[COARSE_LEVELS];
+};
+
+static void levels_add(struct levels *l, long long count, const double *sample)
 {
-    double level[COARSE_LEVELS], step = INFINITY; /* rising */
-    int n = 0;
-    for (long long i = 0; i < count; ++i) {
-        int low = 0, high = n;
+    for (long long i = 0; i < count && l->count <= COARSE_LEVELS; ++i) {
+        int low = 0, high = l->count;
         while (low < high) {
             int middle = (low + high) / 2;
-            if (level[middle] < sample[i])
+            if (l->level[middle] < sample[i])
                 low = middle + 1;
             else
                 high = middle;
         }
-        if (low < n && level[low] == sample[i])
+        if (low < l->count && l->level[low] == sample[i])
             continue;
-        if (n == COARSE_LEVELS)
-            return 0;
-        memmove(level + low + 1, level + low, (size_t)(n - low) * sizeof *level);
-        level[low] = sample[i];
-        ++n;
+        if (l->count++ == COARSE_LEVELS)
+            return;
+        memmove(l->level + low + 1, l->level + low, (size_t)(l->count - 1 - low) * sizeof *l->level);
+        l->level[low] = sample[i];
     }
+}
+
+static int levels_found(const struct levels *l)
+{
+    const double *level = l->level;
+    double step = INFINITY;
+    int n = l->count;
+    if (n > COARSE_LEVELS)
+        return 0;
     for (int i = 1; i < n; ++i)
         step = fmin(step, level[i] - level[i - 1]);
     if (n < LEVELS_LEAST || !((level[n - 1] - level[0]) / step < COARSE_LEVELS - 1.5))
@@ -141,6 +152,13 @@ int values_levels(long long count, const double *sample)
             return 0;
     }
     return 1 + (int)lround((level[n - 1] - level[0]) / step);
+}
+
+int values_levels(long long count, const double *sample)
+{
+    struct levels levels = {.count = 0};
+    levels_add(&levels, count, sample);
+    return levels_found(&levels);
 }
 
 int values_are_same(const struct values *a, const struct values *b)
@@ -301,6 +319,8 @@ static void check_function(struct search *search, const struct listing_set *set)
     if (f->type == UFF_TIME && values_are_clipped(v))
         add(search, "clipped", line, "%s: clipped, up to %lld values in a row at %g or %g", name,
             v->plateau[0] > v->plateau[1] ? v->plateau[0] : v->plateau[1], v->min, v->max);
+    if (entry->levels)
+        add(search, "coarse", line, "%s: coarse, %d levels, expected %d or more", name, entry->levels, COARSE_LEVELS);
     if (f->type == UFF_COHERENCE && v->max > COHERENCE_MOST)
         add(search, "coherence", line, "%s: the coherence goes up to %g, above 1", name, v->max);
     check_abscissa(search, line, name, entry);
@@ -433,6 +453,7 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     struct listing *listing = job->listing;
     struct listing_function entry = {0};
     struct uff_function *function = &entry.function;
+    struct levels levels = {.count = 0};
     int status = uff_read_function(job->reader, function);
     int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
     long long got = 1;
@@ -441,11 +462,14 @@ static int read_function(struct listing_work *job, struct listing_set *set)
         status = uff_read_values(job->reader, PIECE, job->x, job->real, job->imag, &got);
         if (!status)
             values_add(&entry.values, got, job->x, job->real, job->imag, is_complex);
+        if (!status && function->type == UFF_TIME && !is_complex)
+            levels_add(&levels, got, job->real);
         if (!status && cancelled(job))
             status = ROTID_STOP_CANCELLED;
     }
     if (status)
         return status;
+    entry.levels = levels_found(&levels);
     values_close(&entry.values);
     set->size = (double)function->count;
     set->item = listing->function_count;

@@ -33,8 +33,8 @@ const char *const transfer_unit_words[] = {"m/N", "m/(s N)", "m/(s2 N)", NULL};
 const char *const transfer_damping_words[] = {"measured", "stated", "smallest_measured", "mean_measured", NULL};
 static const char *const states[] = {"read", "read_over", "not_known", "malformed", NULL};
 static const char *const doubts[] = {
-    "malformed", "unknown_set", "no_units",  "node_twice", "no_coordinates", "abscissa_order", "uneven",          "unit",
-    "dead",      "clipped",     "coherence", "identical",  "length",         "resolution",     "frequency_order", NULL};
+    "malformed", "unknown_set", "no_units",  "node_twice", "no_coordinates", "abscissa_order", "uneven",          "unit", "dead",
+    "clipped",   "coarse",      "coherence", "identical",  "length",         "resolution",     "frequency_order", NULL};
 
 /* ---- keys that stand together or not at all */
 
