@@ -381,6 +381,20 @@ POOL_TEST(states_share_the_machine)
     rotid_identification_free(found);
 }
 
+/* A search so far beyond the third mode would take minutes. */
+POOL_TEST(a_speed_far_beyond_the_machine_is_refused)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck;
+    rotid_identification *found;
+    char *text = deck_of(2e8, "", "*RUNUP\n1, 5000, 10\n2, 1e7, 10\n");
+    assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, failure, &deck), ROTID_OK);
+    assert_status(rotid_identify(deck, 0, NULL, failure, &found), ROTID_ERROR_ARGUMENT);
+    print_message("%s\n", failure);
+    assert_non_null(strstr(failure, "speeds up to 1.1e+07 rpm, expected at most 2.31e+05 rpm for this machine"));
+    rotid_deck_free(deck);
+}
+
 POOL_TEST(a_number_that_the_model_does_not_have_is_refused)
 {
     char failure[ROTID_FAILURE_LENGTH];

@@ -5,6 +5,7 @@
 #include "running/running.h"
 
 #define BEYOND      1.3 /* times the running range, or the third critical speed */
+#define FARTHEST    10  /* times that, and as many more as the square of the number of the critical speed: a measured one */
 #define FARTHER     1.6 /* the range where too few were found within it */
 #define MODES_FIRST 14
 #define MODES_MOST  48
@@ -166,7 +167,12 @@ int search_until(struct pool *pool, double least, int forward, int backward, str
     status = pairs_all(pool, &s->system, STANDSTILL * s->system.highest, &count, all, NULL);
     if (!status && !count)
         return ROTID_ERROR_EIGEN;
-    double to = status ? 0 : fmax(least, BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / s->harmonic);
+    double third = status ? 0 : BEYOND * cimag(all[count > 6 ? 5 : count - 1].lambda) / s->harmonic, to = fmax(least, third);
+    double most = third * (FARTHEST + fmax(forward * forward, backward * backward));
+    if (!status && least > most) /* it takes minutes */
+        status = message_refuse(notes, ROTID_ERROR_ARGUMENT, s->machine->runup->place.file, s->machine->runup->place.line,
+                                s->machine->runup->place.column,
+                                "speeds up to %.6g rpm, expected at most %.3g rpm for this machine", least / RPM, most / RPM);
     for (int attempt = 0; attempt < ATTEMPTS && !status; attempt++, to *= FARTHER) {
         status = search_within(pool, to, notes, s);
         if (!status && search_count(s, 0) >= forward && search_count(s, 1) >= backward)
