@@ -344,10 +344,10 @@ void discrete_member_deflection(const struct discrete *discrete, int i, const do
     4.0 /* C11/C66 up to which elements follow a change of volume; beside spectral elements (24 bodies) they leave 1.1 to 2.2    \
            times as much at 26 (nu 0.48), 1.9 to 4.5 at 500, 2.5 to 5.8 at 5000 */
 
-/* Two materials that differ have a singular edge where they meet the surface, which leaves up to OF_SMOOTH times the root of E
- * over E, at most this. Beside spectral elements 0.1 to 0.2 at a ratio of 3, 0.15 to 0.4 at 10, 0.3 to 0.7 at 100 (up to 1.4
- * where that is 0.03 %), and no more than OF_SMOOTH in a slender body, whose frequency is therefore left as it is. */
-#define OF_INTERFACE 0.5
+/* Materials that differ have a singular edge at the surface: up to OF_SMOOTH E/E, at most this, or OF_CORNER times the fourth
+ * root, at most MORE; most often less, so that frequencies stay as they are. */
+#define OF_INTERFACE 1.5
+#define MORE         2.4
 
 /* How many times OF_SMOOTH a material leaves. */
 static double share_of(const struct material *m, int twist)
@@ -356,6 +356,15 @@ static double share_of(const struct material *m, int twist)
     struct elasticity c = elasticity_of(m, &(struct elasticity_factors){1, 1, 1});
     double shear = stiff / c.c44 / RESOLVED;
     return twist ? shear : fmax(shear, pow(c.c11 / c.c66 / COMPRESSIBLE, 0.25));
+}
+
+/* The same of all materials, 1 at least. */
+static double largest_share(const struct rotor *rotor, int twist)
+{
+    double most = 1;
+    for (int i = 0; i < rotor->ngroup; i++)
+        most = fmax(most, share_of(&rotor->group[i].material, twist));
+    return most;
 }
 
 /* E of the stiffest over that of the softest material */
@@ -377,19 +386,20 @@ struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor
         return (struct mesh_limit){2, -4.0 / 3, 0, 0, 0, 1};
     int twist = as == AS_SOLID_TORSION;
     if (!solid_has_corners(rotor)) {
-        double soft = 1;
-        for (int i = 0; i < rotor->ngroup; i++)
-            soft = fmax(soft, share_of(&rotor->group[i].material, twist));
-        double share = fmin(OF_SMOOTH * soft, OF_EDGE);
-        double most = twist ? share : fmax(share, fmin(OF_SMOOTH * sqrt(contrast(rotor)), OF_INTERFACE));
+        double share = fmin(OF_SMOOTH * largest_share(rotor, twist), OF_EDGE);
+        double most = twist ? share : fmax(share, fmin(OF_SMOOTH * contrast(rotor), OF_INTERFACE));
         return (struct mesh_limit){COARSE_MESH, share, 1, 4, share, most / share};
     }
-    return (struct mesh_limit){COARSE_MESH, twist ? OF_TWIST : OF_CORNER, 1, 4, twist ? OF_FINER_TWIST : OF_FINER, 1};
+    double more = twist ? 1 : fmax(largest_share(rotor, twist), as == AS_SOLID ? pow(contrast(rotor), 0.25) : 1);
+    double share = twist ? OF_TWIST : OF_CORNER, finer = twist ? OF_FINER_TWIST : OF_FINER;
+    return (struct mesh_limit){COARSE_MESH, share, 1, 4, finer, fmin(more, MORE)};
 }
 
 double discrete_passage(const struct discrete *discrete)
 {
-    return is_solid(discrete) && solid_has_corners(&discrete->solid.rotor) ? solid_longest_passage(&discrete->solid) : 0;
+    const struct rotor *rotor = &discrete->solid.rotor;
+    double longest = is_solid(discrete) && solid_has_corners(rotor) ? solid_longest_passage(&discrete->solid) : 0;
+    return longest * pow(largest_share(rotor, discrete->as == AS_SOLID_TORSION), 0.25);
 }
 
 int discrete_transfer(const struct discrete *from, const double *u, const struct discrete *to, double *v)

@@ -113,8 +113,8 @@ struct mesh_limit {
 };
 struct mesh_limit discrete_mesh_limit(enum discretisation as, const struct rotor *rotor);
 
-/* Time [s] in which a shear wave passes the longest element of a solid (solid_longest_passage). 0: of a beam, and of a solid
- * without re-entrant corners, whose coarse mesh has no element of the same length. */
+/* Time [s] in which a shear wave passes the longest element of a solid (solid_longest_passage), more of one
+ * that locks (nu near 1/2). 0: of a beam, and of a solid without corners, whose coarse mesh has no element of the same length. */
 double discrete_passage(const struct discrete *discrete);
 
 /* v := the motion u of the same rotor on another mesh, a beginning for its modes: of a solid any, of a beam one whose elements

@@ -337,6 +337,7 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < s->nmaster; i++)
         s->master_z[i] = model_master_z(own.model, i);
+    double passage = discrete_passage(&own.model->discrete);
     for (int j = 0; j < count; j++) {
         double hz = own.hz[s->nrigid + j];
         s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
@@ -346,7 +347,9 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         int partner = coarse_first ? partner_of(&own, j) : partner_from(&other, count, j);
         s->other_hz[j] = other.hz[other.model->equations.nrigid + j];
         lead(hz, &other, partner, limit.share, limit.counts, s, j);
-        s->mesh_error_percent[j] *= limit.may_be_off;
+        /* elements along the axis of a solid with corners are in both meshes, whose distance does not tell (k h)^4/1440 */
+        double *error = &s->mesh_error_percent[j];
+        *error = copysign(limit.may_be_off * fabs(*error) + 100 * pow(TWO_PI * passage * hz, 4) / 1440, *error);
     }
     if (limit.counts && coarse_first)
         status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s, &missed);
