@@ -121,15 +121,17 @@ POOL_TEST(bad_channels_are_named)
         set.frf[5].variance[i] *= 101;
     }
     set.frf[3].h[100] = CMPLX(NAN, 0);
+    set.frf[9].h[100] = CMPLX(1e200, 0); /* its square has no double */
     compute(&set, &ema);
     assert_int_equal(ema.nmode, 3);
     assert_true(ema.channel[2].quality_flags & EMA_DEAD);
     assert_true(ema.channel[3].quality_flags & EMA_NOT_FINITE);
+    assert_true(ema.channel[9].quality_flags & EMA_NOT_FINITE);
     assert_true(ema.channel[5].quality_flags & EMA_NOISY);
     assert_true(ema.channel[8].quality_flags & EMA_DUPLICATE);
     assert_int_equal(ema.channel[8].duplicate_of, 7);
     for (int c = 0; c < 10; c++)
-        if (c != 2 && c != 3 && c != 5 && c != 8)
+        if (c != 2 && c != 3 && c != 5 && c < 8)
             assert_int_equal(ema.channel[c].quality_flags, 0);
     assert_true(isnan(ema.mode[0].shape[3]) && isnan(ema.mode[0].shape[2]) && !isnan(ema.mode[0].shape[4]));
     assert_true(ema.channel[0].fit > 0.99);

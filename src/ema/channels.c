@@ -12,18 +12,20 @@
 #define MISFIT_RATIO   3
 #define LEAST_COHERENT 0.8
 
-static int is_finite(const struct frf *frf, int first, int last)
-{
-    for (int i = first; i < last; i++)
-        if (!isfinite(creal(frf->h[i])) || !isfinite(cimag(frf->h[i])) ||
-            (frf->variance && !(frf->variance[i] >= 0))) /* INFINITY: the line says nothing */
-            return 0;
-    return 1;
-}
-
 static double square(double complex z)
 {
     return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
+#define MOST_SQUARE 1e290 /* sums of squares over lines and channels have a double */
+
+static int is_finite(const struct frf *frf, int first, int last)
+{
+    for (int i = first; i < last; i++)
+        if (!(square(frf->h[i]) < MOST_SQUARE) ||
+            (frf->variance && !(frf->variance[i] >= 0))) /* INFINITY: the line says nothing */
+            return 0;
+    return 1;
 }
 
 /* Largest |H|, sum |H|^2; whether all values are the same */
