@@ -750,6 +750,20 @@ POOL_TEST(modes_that_are_held_out_stay_with_their_state)
     assert_memory_equal(states.state[1].job.measurement.holdout, held, 2 * sizeof *held);
 }
 
+/* *IDENTIFY may have a stiffness that the card of the support lacks: it starts from there and the card says none. Refused once.
+ */
+POOL_TEST(a_stiffness_that_identify_alone_states_is_left_to_it)
+{
+    static const enum test_kind kinds[] = {TEST_STIFF, TEST_FREE, TEST_MOVED};
+    struct message_list notes;
+    char *text;
+    (void)folder_write("turning.inp", STEEL_BAR "*SPRING, NAME=foam\n0.1, 500\n*MODES\n1, 200\n2, 550\n"
+                                                "*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\nfoam.k_rot, 0.1, 10, 1\n");
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (propose(folder_path("turning.inp"), folder_path("next.inp"), NULL, kinds[k], NULL, &notes, &text))
+            fail_msg("%s: %s", test_id(kinds[k]), notes.count ? notes.item[0].text : "no message");
+}
+
 /* A rival with a parameter that no datum feels, of a lap whose bending and shear are sought apart: it has a prior of 100 %. */
 POOL_TEST(a_parameter_that_nothing_feels_ends_no_suggestion)
 {

@@ -273,9 +273,10 @@ static int is_changed_rotor(struct pool *pool, const struct job *job, const stru
     if (!x || !unused || test_apply(pool, test, like, x, &expected, x + n, unused) || deck_copy_rotor(pool, &job->rotor, &own))
         return 0;
     expected.rotor.effect = like->rotor.effect;          /* whatever the sensors */
-    for (int p = 0; p < job->unknowns.nparameter; p++) { /* of what changes the value is a start */
+    for (int p = 0; p < job->unknowns.nparameter; p++) { /* an unknown of the state alone has its value as a start */
         const struct parameter *parameter = &job->unknowns.parameter[p];
-        if ((parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT) &&
+        if (strchr(job->unknowns.bounds[p].name, ':') &&
+            (parameter->kind == PARAMETER_SPRING_K || parameter->kind == PARAMETER_SPRING_K_ROT) &&
             (test->kind == TEST_STIFF || test->kind == TEST_FREE || parameter->index == moved || parameter->index == last))
             *parameter_value(&own, *parameter) = job->unknowns.bounds[p].start;
     }
