@@ -31,28 +31,26 @@ static int add_modes(struct pool *pool, const struct frf_result *r, struct trans
     out->modes = POOL_ARRAY(pool, struct transfer_mode, s->nmode);
     if (!out->modes || !agrees)
         return 1;
-    for (; out->nmodes < s->nmode; out->nmodes++) {
-        int m = out->nmodes, number = m - s->nrigid + 1;
+    for (int m = 0; m < s->nmode; m++)
         out->modes[m] = (struct transfer_mode){.rigid = m < s->nrigid,
-                                               .mode = m < s->nrigid ? ROTID_NONE : number,
+                                               .mode = m < s->nrigid ? ROTID_NONE : m - s->nrigid + 1,
                                                .model_hz = sqrt(fmax(s->lambda[m], 0)) / TWO_PI,
                                                .measured_hz = NAN,
                                                .damping = r->zeta[m],
                                                .damping_from = transfer_damping_words[r->damping[m]]};
-        for (int b = 0; b < r->nband; b++) {
-            const struct frf_band *band = &r->band[b];
-            if (band->mode != number)
-                continue;
-            out->modes[m].measured_hz = band->measured_hz;
-            agrees[b] = (struct transfer_mode_agreement){
-                .frac = frf_sums_frac(&band->sums),
-                .frac_at_measured_frequencies = frf_sums_frac(&band->moved),
-                .level_db = frf_sums_level(&band->resonance),
-                .phase_deg = carg(band->resonance.cross) * DEGREES,
-                .worst_function = band->worst >= 0 ? band->worst : ROTID_NONE,
-            };
-            out->modes[m].agreement = r->is_measured ? &agrees[b] : NULL;
-        }
+    out->nmodes = s->nmode;
+    for (int b = 0; b < r->nband; b++) {
+        const struct frf_band *band = &r->band[b];
+        struct transfer_mode *mode = &out->modes[s->nrigid + band->mode - 1];
+        mode->measured_hz = band->measured_hz;
+        agrees[b] = (struct transfer_mode_agreement){
+            .frac = frf_sums_frac(&band->sums),
+            .frac_at_measured_frequencies = frf_sums_frac(&band->moved),
+            .level_db = frf_sums_level(&band->resonance),
+            .phase_deg = carg(band->resonance.cross) * DEGREES,
+            .worst_function = band->worst >= 0 ? band->worst : ROTID_NONE,
+        };
+        mode->agreement = r->is_measured ? &agrees[b] : NULL;
     }
     return 0;
 }

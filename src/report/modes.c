@@ -4,10 +4,11 @@
 
 #include "report/report.h"
 
-/* What a command found, of several states one after the other; job: of each, or NULL. */
+/* The heading and what a command found, of several states one after the other; job: of each, or NULL. */
 static void print_states(const struct screen *to, const struct result *result, const struct job *const *job,
                          void (*print)(const struct screen *to, const struct result *result, const struct job *job))
 {
+    screen_heading(to, &result->head);
     if (!result->nstates)
         print(to, result, job ? job[0] : NULL);
     for (int s = 0; s < result->nstates; s++) {
@@ -152,7 +153,6 @@ static void print_check(const struct screen *to, const struct result *result, co
 
 void screen_check(const struct screen *to, const struct result *result, const struct job *const *job)
 {
-    screen_heading(to, &result->head);
     print_states(to, result, job, print_check);
 }
 
@@ -250,7 +250,6 @@ static void print_modes(const struct screen *to, const struct result *result, co
 
 void screen_modes(const struct screen *to, const struct result *result)
 {
-    screen_heading(to, &result->head);
     print_states(to, result, NULL, print_modes);
 }
 
@@ -320,6 +319,5 @@ static void print_sensitivity(const struct screen *to, const struct result *resu
 
 void screen_sensitivity(const struct screen *to, const struct result *result)
 {
-    screen_heading(to, &result->head);
     print_states(to, result, NULL, print_sensitivity);
 }

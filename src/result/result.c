@@ -111,62 +111,38 @@ STATE(modes, spectrum_record);
 STATE(sensitivity, sensitivity_record);
 STATE(frf, transfer_result_record);
 
-static const struct record_field check_fields[] = {HEAD, OWN(check, check_record), STATES(check), WARNINGS, {0}};
-static const struct record_field modes_fields[] = {HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS, {0}};
-static const struct record_field identify_fields[] = {
-    HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
-static const struct record_field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
-static const struct record_field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
-static const struct record_field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
-static const struct record_field speeds_fields[] = {HEAD, OWN(speeds, speeds_record), WARNINGS, {0}};
-static const struct record_field frf_fields[] = {HEAD, OWN(frf, transfer_result_record), STATES(frf), WARNINGS, {0}};
-static const struct record_field ema_fields[] = {PROVENANCE, OWN(ema, ema_result_record), WARNINGS, {0}};
-static const struct record_field uff_fields[] = {PROVENANCE, OWN(uff, uff_result_record), {0}};
-static const struct record_field export_fields[] = {HEAD, OWN(export, export_result_record), WARNINGS, {0}};
-static const struct record_field study_fields[] = {PROVENANCE, OWN(study, study_result_record), {0}};
+#define KIND(COMMAND, HAS_PAGE, ...)                                                                                             \
+    {                                                                                                                            \
+#COMMAND, RECORD(struct result, ((const struct record_field[]){__VA_ARGS__, {0}})), HAS_PAGE                             \
+    }
 
-static const struct {
-    const char *command;
-    struct record record;
-    int has_page;
-} commands[] = {
-    {"check", RECORD(struct result, check_fields), 1},       {"modes", RECORD(struct result, modes_fields), 1},
-    {"identify", RECORD(struct result, identify_fields), 1}, {"diagnose", RECORD(struct result, diagnose_fields), 1},
-    {"suggest", RECORD(struct result, suggest_fields), 1},   {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
-    {"speeds", RECORD(struct result, speeds_fields), 1},     {"frf", RECORD(struct result, frf_fields), 1},
-    {"ema", RECORD(struct result, ema_fields), 1},           {"uff", RECORD(struct result, uff_fields), 0},
-    {"export", RECORD(struct result, export_fields), 0},     {"study", RECORD(struct result, study_fields), 1},
+const struct result_kind result_kinds[] = {
+    KIND(check, 1, HEAD, OWN(check, check_record), STATES(check), WARNINGS),
+    KIND(modes, 1, HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS),
+    KIND(identify, 1, HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS),
+    KIND(diagnose, 1, HEAD, OWN(diagnose, diagnosis_record), WARNINGS),
+    KIND(suggest, 1, HEAD, OWN(suggest, suggestion_record), WARNINGS),
+    KIND(sensitivity, 1, HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity)),
+    KIND(speeds, 1, HEAD, OWN(speeds, speeds_record), WARNINGS),
+    KIND(frf, 1, HEAD, OWN(frf, transfer_result_record), STATES(frf), WARNINGS),
+    KIND(ema, 1, PROVENANCE, OWN(ema, ema_result_record), WARNINGS),
+    KIND(uff, 0, PROVENANCE, OWN(uff, uff_result_record)),
+    KIND(export, 0, HEAD, OWN(export, export_result_record), WARNINGS),
+    KIND(study, 1, PROVENANCE, OWN(study, study_result_record)),
+    {0},
 };
-#define COMMANDS (int)(sizeof commands / sizeof *commands)
 
-static int find(const char *command)
+const struct result_kind *result_kind(const char *command)
 {
-    int i = 0;
-    while (i < COMMANDS && strcmp(commands[i].command, command) != 0)
-        i++;
-    return i;
-}
-
-const char *result_command(int i)
-{
-    return i < COMMANDS ? commands[i].command : NULL;
-}
-
-const struct record *result_record(const char *command)
-{
-    int i = find(command);
-    return i < COMMANDS ? &commands[i].record : NULL;
-}
-
-int result_has_page(const char *command)
-{
-    int i = find(command);
-    return i < COMMANDS && commands[i].has_page;
+    const struct result_kind *kind = result_kinds;
+    while (kind->command && strcmp(kind->command, command) != 0)
+        kind++;
+    return kind->command ? kind : NULL;
 }
 
 char *result_json(const struct result *result)
 {
-    const struct record *record = result_record(result->head.command);
+    const struct record *record = &result_kind(result->head.command)->record;
     for (const struct record_field *field = record->field; field->key; field++)
         if (field->bits & BEHIND_POINTER && !*(void *const *)((const char *)result + field->offset))
             return NULL;

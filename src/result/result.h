@@ -5,7 +5,7 @@
  *
  * Comes in: struct result, with head and the struct of one command; or a file. Goes out: JSON text; or the same struct.
  *
- *   result.c          result_json: the struct of the command as JSON by its table (result_record), a row of the table a key
+ *   result.c          result_json: the struct of the command as JSON by its table (result_kinds), a row of the table a key
  *   result_read.c     result_read: a file to struct result, then contradictions between its parts
  *   json_write.c, json_read.c  any struct that has a table of src/record, to JSON and from JSON; a value with its path:
  *                     "result.json: modes[2].measured_hz: is a text, expected a number"
@@ -23,6 +23,7 @@
 
 #include "base/base.h"
 #include "ema/ema.h"
+#include "record/record.h"
 #include "rotid.h"
 
 /* ----------------------------------------------------------------------------------------------------------- cause place */
@@ -88,7 +89,6 @@ extern const char *const transfer_quantity_words[], *const transfer_unit_words[]
 #define MEMBER_INLINE_IN(M, T)        struct T M;
 #define MEMBER_STRUCT_AT(M, T)        struct T *M;
 #define MEMBER_INLINE_AT(M, T)        struct T *M;
-struct record;
 #include "result/results.def"
 #undef BEGIN
 #undef END
@@ -235,8 +235,6 @@ struct json_place place_first(const struct json_place *list, enum place_kind kin
 
 /* The tables of the results of src/run and of this room, and what JSON is made of a table and read by it. */
 
-struct record;
-
 /* The struct `from`, which `record` describes, as an object of JSON with a line feed at its end; lines: a key a line, else all in
  * one line. To be freed; NULL where memory is out. */
 char *record_text(const struct record *record, const void *from, int lines);
@@ -251,12 +249,15 @@ extern const struct record deck_record;       /* the rest, where the command rea
 extern const struct record sensitivity_record; /* struct sensitivity */
 extern const struct record study_run_record;   /* struct study_run */
 
-/* The i-th command that writes results; NULL behind the last. */
-const char *result_command(int i);
-/* The table of the results of a command, NULL where there is no such command. */
-const struct record *result_record(const char *command);
-/* Whether a page is made of its results. */
-int result_has_page(const char *command);
+/* The results of a command. */
+struct result_kind {
+    const char *command;
+    struct record record; /* of struct result */
+    int has_page;         /* a page is made of them */
+};
+extern const struct result_kind result_kinds[]; /* command NULL behind the last */
+/* NULL where there is no such command. */
+const struct result_kind *result_kind(const char *command);
 
 /* ---------------------------------------------------------------------------------------------------------------- result */
 

@@ -136,16 +136,15 @@ static void note_what_is_lacking(const struct json_place *root, struct result *r
 /* "check, modes or study" */
 static const char *list_commands(struct pool *pool)
 {
-    const char *text = "", *last = NULL, *command;
-    for (int i = 0; (command = result_command(i)) && text; i++) {
-        if (!result_has_page(command))
+    const char *text = "", *last = NULL;
+    for (const struct result_kind *kind = result_kinds; kind->command; kind++) {
+        if (!kind->has_page)
             continue;
         if (last)
-            text = pool_format(pool, "%s%s%s", text, *text ? ", " : "", last);
-        last = command;
+            text = pool_text(pool, "%s%s%s", text, *text ? ", " : "", last);
+        last = kind->command;
     }
-    text = text ? pool_format(pool, "%s or %s", text, last) : NULL;
-    return text ? text : "";
+    return pool_text(pool, "%s or %s", text, last);
 }
 
 static void read_root(const struct json_place *root, struct result *result)
@@ -161,7 +160,8 @@ static void read_root(const struct json_place *root, struct result *result)
     command = place_string(root, "command");
     if (root->reader->status)
         return;
-    if (!result_has_page(command)) {
+    const struct result_kind *kind = result_kind(command);
+    if (!kind || !kind->has_page) {
         place_wrong(root, "command: is '%s', of which no page is made, expected %s", command, list_commands(root->reader->pool));
         return;
     }
@@ -170,7 +170,7 @@ static void read_root(const struct json_place *root, struct result *result)
         place_wrong(root, "is the file of results of a study and holds no run yet, expected the line of a run at least");
         return;
     }
-    record_read(root, result_record(command), result);
+    record_read(root, &kind->record, result);
     if (root->reader->status)
         return;
     note_what_is_lacking(root, result);

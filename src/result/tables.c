@@ -96,9 +96,7 @@ PART_TABLE(listed_nodes_every_node_record, struct listed_nodes) = {
 PART_TABLE(parameter_record, struct sensitivity_parameter) = {
     COUNT_OF(struct sensitivity_parameter, nfrequency_hz, struct sensitivity, nfrequency_hz),
     COUNT_OF(struct sensitivity_parameter, nrelative_value, struct sensitivity, nrelative_value),
-    TEXT(struct sensitivity_parameter, name, 0),
-    TEXT(struct sensitivity_parameter, unit, 0),
-    NUMBER(struct sensitivity_parameter, reference, 0),
+    KEYS(struct sensitivity_parameter, 0, name, unit, reference),
     NUMBERS_BY(struct sensitivity_parameter, sensitivity, 0, nfrequency_hz, "frequency_hz"),
     NUMBERS_BY(struct sensitivity_parameter, derivative, 0, nfrequency_hz, "frequency_hz"),
     NUMBERS_BY(struct sensitivity_parameter, frequency_change, SINCE_LATER, nfrequency_hz, "frequency_hz"),

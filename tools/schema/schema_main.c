@@ -52,9 +52,9 @@ int main(int argc, char **argv)
         }
     }
     int failed = 0;
-    for (int i = 0; result_command(i); i++) {
-        out = create(&pool, argv[1], result_command(i));
-        missing += schema_write(out, result_command(i), result_record(result_command(i)), &comments);
+    for (const struct result_kind *kind = result_kinds; kind->command; kind++) {
+        out = create(&pool, argv[1], kind->command);
+        missing += schema_write(out, kind->command, &kind->record, &comments);
         failed |= fclose(out);
     }
     out = create(&pool, argv[1], "study_line");
