@@ -51,8 +51,6 @@ int call_close(struct call *call, int status);
 
 /* ----------------------------------------------------------------------------------------------------- deck handle, keep */
 
-/* What stands behind the `memory` of a rotid_deck. */
-
 /* The states of a deck, for reading alone; NULL where there is none to compute with (deck NULL, or with errors): the notes of the
  * call say why then. */
 const struct states *deck_states(const rotid_deck *deck, struct call *call);

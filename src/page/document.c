@@ -123,8 +123,7 @@ static void write_run(FILE *out, const cJSON *run)
 /* A study: the summary, and of a file of results its runs, evenly thinned. */
 static void write_study(FILE *out, struct pool *pool, const struct result *result)
 {
-    struct result summary = *result;
-    char *text = result_json(&summary);
+    char *text = result_json(result);
     cJSON *json = text ? cJSON_Parse(text) : NULL;
     pool->out_of_memory |= !json;
     write_value(out, json, 0);

@@ -1,5 +1,4 @@
 /* What a page is made of: a result of a command, or the file of results of a study. */
-#include <string.h>
 
 #include "page/page.h"
 #include "study/study.h"

@@ -18,7 +18,6 @@
  * Callers: src/cli, src/page (struct table, html), src/study and src/export (files, tables). The room computes nothing: which
  * numbers are good or bad is judged in src/result/judgement.c. No other room writes files, but for the results of src/study. */
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "base/base.h"

@@ -101,30 +101,26 @@ double reference_value(const rotid_reference *reference, int k)
 #define OWN(M, R)  INLINE(struct result, M, BEHIND_POINTER, R)
 
 /* The same of each state. */
-#define STATE(M, R)                                                                                                              \
-    PART_TABLE(M##_state_record, struct result_state) = {                                                                        \
-        TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R), {0}}
-#define STATES(M) STRUCTS(struct result, states, IF_KNOWN, M##_state_record)
-
-STATE(check, check_record);
-STATE(modes, spectrum_record);
-STATE(sensitivity, sensitivity_record);
-STATE(frf, transfer_result_record);
+#define STATES(M, R)                                                                                                             \
+    STRUCTS(                                                                                                                     \
+        struct result, states, IF_KNOWN,                                                                                         \
+        RECORD_OF(struct result_state, TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R)))
 
 #define KIND(COMMAND, HAS_PAGE, ...)                                                                                             \
     {                                                                                                                            \
-#COMMAND, RECORD(struct result, ((const struct record_field[]){__VA_ARGS__, {0}})), HAS_PAGE                             \
+        .command = #COMMAND, .has_page = (HAS_PAGE),                                                                             \
+        .record = RECORD(struct result, ((const struct record_field[]){__VA_ARGS__, {0}}))                                       \
     }
 
 const struct result_kind result_kinds[] = {
-    KIND(check, 1, HEAD, OWN(check, check_record), STATES(check), WARNINGS),
-    KIND(modes, 1, HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS),
+    KIND(check, 1, HEAD, OWN(check, check_record), STATES(check, check_record), WARNINGS),
+    KIND(modes, 1, HEAD, OWN(modes, spectrum_record), STATES(modes, spectrum_record), WARNINGS),
     KIND(identify, 1, HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS),
     KIND(diagnose, 1, HEAD, OWN(diagnose, diagnosis_record), WARNINGS),
     KIND(suggest, 1, HEAD, OWN(suggest, suggestion_record), WARNINGS),
-    KIND(sensitivity, 1, HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity)),
+    KIND(sensitivity, 1, HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity, sensitivity_record)),
     KIND(speeds, 1, HEAD, OWN(speeds, speeds_record), WARNINGS),
-    KIND(frf, 1, HEAD, OWN(frf, transfer_result_record), STATES(frf), WARNINGS),
+    KIND(frf, 1, HEAD, OWN(frf, transfer_result_record), STATES(frf, transfer_result_record), WARNINGS),
     KIND(ema, 1, PROVENANCE, OWN(ema, ema_result_record), WARNINGS),
     KIND(uff, 0, PROVENANCE, OWN(uff, uff_result_record)),
     KIND(export, 0, HEAD, OWN(export, export_result_record), WARNINGS),
