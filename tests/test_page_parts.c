@@ -91,7 +91,7 @@ static void write_text(FILE *out, const struct table *table)
 
 static void write_html(FILE *out, const struct table *table)
 {
-    table_write_html(out, table, 7);
+    table_write_html(out, table, 7, plain_text);
 }
 
 POOL_TEST(a_table_is_shown_in_three_ways)

@@ -306,31 +306,13 @@ void document_table(struct document *document, const struct table *table)
 {
     if (!table || table->pool->out_of_memory || !table_rows(table))
         return;
-    struct table own = *table;
-    struct table_cell *cell = POOL_ARRAY(document->pool, struct table_cell, own.ncells);
-    struct table_column *column = POOL_ARRAY(document->pool, struct table_column, own.ncolumns);
     int folded = table_rows(table) > FOLDED;
-    for (int i = 0; i < own.ncells && cell; i++) {
-        cell[i] = own.cell[i];
-        cell[i].text = cell[i].is_number ? cell[i].text : shown(document, cell[i].text);
-        cell[i].note = shown(document, cell[i].note);
-    }
-    for (int j = 0; j < own.ncolumns && column; j++) {
-        column[j] = own.column[j];
-        column[j].name = shown(document, column[j].name);
-    }
-    if (document->pool->out_of_memory)
-        return;
-    own.cell = cell;
-    own.column = column;
-    own.caption = shown(document, own.caption);
-    own.note = shown(document, own.note);
     if (folded) {
         (void)fprintf(document->body, "<details class=\"fold\" open=\"\"><summary>%d rows: ", table_rows(table));
-        html_text(document->body, own.caption);
+        html_text(document->body, plain_text(document->pool, table->caption));
         (void)fputs("</summary>\n", document->body);
     }
-    table_write_html(document->body, &own, ++document->ntables);
+    table_write_html(document->body, table, ++document->ntables, plain_text);
     (void)fputs(folded ? "</details>\n" : "", document->body);
 }
 

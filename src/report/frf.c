@@ -93,12 +93,9 @@ static int add_functions(const struct frf_view *view, struct transfer_result *ou
     struct pool *pool = view->pool;
     const struct frf_result *r = view->result;
     double complex *h = POOL_ARRAY(pool, double complex, r->nline), *work = POOL_ARRAY(pool, double complex, r->nline);
-    double *frequency_hz = POOL_ARRAY(pool, double, r->nline);
     out->functions = POOL_ARRAY(pool, struct transfer_function, r->ndone);
-    if (!h || !work || !frequency_hz || !out->functions)
+    if (!h || !work || !out->functions)
         return 1;
-    for (int l = 0; l < r->nline; l++)
-        frequency_hz[l] = r->frequency_hz[l];
     for (; out->nfunctions < r->ndone; out->nfunctions++) {
         const struct frf_row *row = &r->row[out->nfunctions];
         struct transfer_function *f = &out->functions[out->nfunctions];
@@ -111,7 +108,7 @@ static int add_functions(const struct frf_view *view, struct transfer_result *ou
         if (!out->with_curves)
             continue;
         f->nfrequency_hz = r->nline;
-        f->frequency_hz = frequency_hz;
+        f->frequency_hz = r->frequency_hz;
         frf_synthesised(r, out->nfunctions, 1, h, work);
         if (complex_parts(pool, r->nline, h, &f->synthesised_re, &f->synthesised_im))
             return 1;

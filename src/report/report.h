@@ -331,8 +331,9 @@ int table_column_is_shown(const struct table *table, int column);
 void table_write_text(FILE *out, const struct table *table, int width);
 /* A head and a line a row; numbers in SI with the digits that give them back, blank where there is none. */
 void table_write_csv(FILE *out, const struct table *table);
-/* <table> with caption; number: of the table on its page, for the id of the caption. */
-void table_write_html(FILE *out, const struct table *table, int number);
+/* <table> with caption; number: of the table on its page, for the id of the caption; words: its texts as the page shows them. */
+typedef const char *table_words(struct pool *pool, const char *text);
+void table_write_html(FILE *out, const struct table *table, int number, table_words *words);
 
 /* ------------------------------------------------------------------------------------------------------ tables of results */
 

@@ -322,7 +322,7 @@ void table_write_text(FILE *out, const struct table *table, int width)
         wrap_text(out, 2, width, "", ascii(table->pool, table->note));
 }
 
-static void html_row(FILE *out, const struct table *table, int row)
+static void html_row(FILE *out, const struct table *table, int row, table_words *words)
 {
     int first = 1, shown = 0;
     (void)fputs("<tr>", out);
@@ -336,32 +336,32 @@ static void html_row(FILE *out, const struct table *table, int row)
         first &= !*text; /* the first cell that says something is the head of its row */
         shown++;
         (void)fprintf(out, "<%s%s>", element, (table->column[j].show & SHOW_FORMAT) != SHOW_TEXT ? " class=\"n\"" : "");
-        html_text(out, text);
+        html_text(out, words(table->pool, text));
         (void)fprintf(out, "</%.2s>", element);
     }
     (void)fputs("</tr>\n", out);
     if (row >= 0 && cell_at(table, row, 0)->note) {
         (void)fprintf(out, "<tr class=\"under\"><td colspan=\"%d\">", shown);
-        html_text(out, cell_at(table, row, 0)->note);
+        html_text(out, words(table->pool, cell_at(table, row, 0)->note));
         (void)fputs("</td></tr>\n", out);
     }
 }
 
-void table_write_html(FILE *out, const struct table *table, int number)
+void table_write_html(FILE *out, const struct table *table, int number, table_words *words)
 {
     (void)fprintf(out,
                   "<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-labelledby=\"table-%d\">\n<table>\n<caption "
                   "id=\"table-%d\"><span>",
                   number, number);
-    html_text(out, table->caption);
+    html_text(out, words(table->pool, table->caption));
     (void)fputs("</span></caption>\n<thead>", out);
-    html_row(out, table, -1);
+    html_row(out, table, -1, words);
     (void)fputs("</thead>\n<tbody>\n", out);
     for (int i = 0; i < table_rows(table); i++)
-        html_row(out, table, i);
+        html_row(out, table, i, words);
     (void)fputs("</tbody></table></div>\n", out);
     if (*table->note)
-        html_element(out, "p class=\"note\"", table->note);
+        html_element(out, "p class=\"note\"", words(table->pool, table->note));
 }
 
 #define CSV_MOST_FILES 3
