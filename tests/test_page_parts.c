@@ -54,7 +54,6 @@ POOL_TEST(numbers_are_written_for_people)
     assert_string_equal(human_count(pool, 13), "13");
     assert_string_equal(human_seconds(pool, 0.0301), "30" SPACE "ms");
     assert_string_equal(human_seconds(pool, 600), "10" SPACE "min");
-    assert_close(human_half_width_percent(-2, (double[]){-3, -1}), 50, 1e-15, 0);
 }
 
 UNIT_TEST(texts_are_escaped)

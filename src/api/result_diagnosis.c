@@ -34,11 +34,11 @@ static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_ver
     out->nlikely_causes = fill_causes(pool, d->nlikely, d->cause + d->ncause, &out->likely_causes);
     out->nalternative_causes = fill_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
-    for (int i = 0; i < out->nalternatives; i++)
-        out->alternatives[i] = d->alternative[i].cause->id;
     out->nalternative_sets = POOL_LIST(pool, out->alternative_sets, d->nalternative);
-    for (int i = 0; i < out->nalternative_sets; i++)
+    for (int i = 0; i < out->nalternatives && i < out->nalternative_sets; i++) {
+        out->alternatives[i] = d->alternative[i].cause->id;
         out->alternative_sets[i] = d->alternative[i].set;
+    }
 }
 
 /* The likeliest, together SHARED, and the marginals of all causes that are worth a line. */

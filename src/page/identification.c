@@ -108,7 +108,7 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
     double widest = 0;
     int none = 0;
     for (int p = 0; p < fit->nparameters; p++) {
-        double half = human_half_width_percent(fit->parameters[p].value, fit->parameters[p].ci95);
+        const double *ci = fit->parameters[p].ci95, half = interval_half_percent(fit->parameters[p].value, ci[0], ci[1]);
         if (!isfinite(half)) {
             none++;
             continue;

@@ -191,11 +191,6 @@ const char *human_interval(struct pool *pool, double value, const double ci[2], 
                      human_fixed(pool, ci[1] * f, decimals));
 }
 
-double human_half_width_percent(double value, const double ci[2])
-{
-    return value != 0 ? 50 * (ci[1] - ci[0]) / fabs(value) : (double)NAN;
-}
-
 const char *human_count(struct pool *pool, int count)
 {
     static const char *const words[] = {"no",    "one",   "two",  "three", "four",   "five",  "six",

@@ -132,8 +132,6 @@ const char *human_quote(struct pool *pool, double value, const double ci[2], con
 const char *human_range(struct pool *pool, double from, double to, const char *unit);
 /* "115.7 GPa (95 %: 55.1 to 176.4)", without the bracket where there is no interval. */
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit);
-/* Half an interval in per cent of the value, NaN where there is none. */
-double human_half_width_percent(double value, const double ci[2]);
 
 /* "one", "two", ... "twelve", "13": for running text. */
 const char *human_count(struct pool *pool, int count);
