@@ -454,8 +454,7 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = &job};
     *states = (struct states){0};
     rotid_fit_defaults(sizeof job.options.fit, &job.options.fit);
-    int status =
-        memory ? deck_text_read_memory(pool, memory, messages, &reader.text) : deck_text_read(pool, path, messages, &reader.text);
+    int status = deck_text_read(pool, path, memory, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {
         if (!messages->errors && status != ROTID_ERROR_MEMORY)
             deck_error(&reader, reader.text.end, "the deck is empty, expected cards such as *SHAFT");

@@ -118,13 +118,10 @@ struct deck_text {
     struct deck_origin origin; /* without overrides */
 };
 
-/* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or
- * ROTID_ERROR_MEMORY. */
-int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text);
-
-/* The same of a deck that is no file; its name is kept, not copied. */
-int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
-                          struct deck_text *text);
+/* Reads a deck, a file or one from memory (not NULL), whose name is kept, and what it includes. Errors go to the list with their
+ * place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
+int deck_text_read(struct pool *pool, const char *path, const struct deck_memory *memory, struct message_list *messages,
+                   struct deck_text *text);
 
 /* The bytes of a file with a zero behind them; *about as by fstat. *length above `most`: it is longer, and of a regular file
  * nothing was read. NULL: memory is out, or *failed is the error number of the opening; else it is that of the reading, or 0. */

@@ -368,32 +368,26 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     return ROTID_OK;
 }
 
-static int conclude(const struct reader *reader, int status)
+int deck_text_read(struct pool *pool, const char *path, const struct deck_memory *memory, struct message_list *messages,
+                   struct deck_text *text)
 {
-    if (reader->pool->out_of_memory || reader->messages->pool->out_of_memory)
+    struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
+    int status = ROTID_OK, more = memory && memory->length > DECK_MOST_BYTES;
+    size_t length = memory && !more ? memory->length : 0;
+    *text = (struct deck_text){.origin = {.path = memory ? memory->name : path, .memory = memory != NULL}};
+    text->end = (struct place){text->origin.path, 1, 1};
+    if (memory) {
+        const struct deck_file read = {memory->name, pool_copy(pool, memory->text, length, 1, 1)};
+        text->origin.directory = memory->directory;
+        if (read.text)
+            read_lines(&reader, memory->name, read.text, length, more);
+        (void)POOL_ADD(pool, text->origin.file, text->origin.nfile, &read);
+    } else {
+        status = read_file(&reader, path, (struct place){NULL, 1, 1});
+    }
+    if (pool->out_of_memory || messages->pool->out_of_memory)
         return ROTID_ERROR_MEMORY;
-    return status ? status : reader->messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
-}
-
-int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text)
-{
-    struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
-    *text = (struct deck_text){.end = {path, 1, 1}, .origin.path = path};
-    return conclude(&reader, read_file(&reader, path, (struct place){NULL, 1, 1}));
-}
-
-int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
-                          struct deck_text *text)
-{
-    struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
-    int more = memory->length > DECK_MOST_BYTES;
-    const struct deck_file read = {memory->name, pool_copy(pool, memory->text, more ? 0 : memory->length, 1, 1)};
-    *text = (struct deck_text){.end = {memory->name, 1, 1},
-                               .origin = {.path = memory->name, .directory = memory->directory, .memory = 1}};
-    if (read.text)
-        read_lines(&reader, memory->name, read.text, more ? 0 : memory->length, more);
-    (void)POOL_ADD(pool, text->origin.file, text->origin.nfile, &read);
-    return conclude(&reader, ROTID_OK);
+    return status ? status : messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }
 
 void deck_text_read_piece(struct pool *pool, size_t length, const char *piece, struct deck_text *text)

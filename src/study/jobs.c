@@ -104,11 +104,10 @@ static void take_values(const struct job *job, struct truth *truth, double *valu
 static const struct card *shape_card(struct pool *pool, const struct job *job)
 {
     const char *words = pool_format(pool, "*SHAPE, MODE=%d\n%d, 1\n", job->measurement.number[0], job->rotor.sensor[0].id);
-    const struct deck_memory memory = {.name = job->deck, .length = words ? strlen(words) : 0, .text = words};
-    struct message_list unheard;
-    struct deck_text text;
-    message_open(&unheard, pool);
-    return words && !deck_text_read_memory(pool, &memory, &unheard, &text) ? text.card : NULL;
+    struct deck_text text = {.ncard = 0};
+    if (words)
+        deck_text_read_piece(pool, strlen(words), words, &text);
+    return text.card;
 }
 
 static int makes_shapes(const struct plan *plan)

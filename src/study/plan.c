@@ -372,7 +372,7 @@ int plan_read(struct pool *pool, const char *path, struct message_list *messages
 {
     struct plan_reader reader = {.fields = {.pool = pool, .messages = messages}, .plan = plan};
     *plan = empty(pool_copy_text(pool, path));
-    int status = deck_text_read(pool, path, messages, &plan->text);
+    int status = deck_text_read(pool, path, NULL, messages, &plan->text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !plan->path)
         return plan->path ? status : ROTID_ERROR_MEMORY;
     for (int c = 0; c < plan->text.ncard && !pool->out_of_memory; c++)
@@ -402,7 +402,7 @@ int plan_is(const char *path)
     int found = 0;
     pool_open(&pool, NULL);
     message_open(&unheard, &pool);
-    if (deck_text_read(&pool, path, &unheard, &text) == ROTID_ERROR_MEMORY)
+    if (deck_text_read(&pool, path, NULL, &unheard, &text) == ROTID_ERROR_MEMORY)
         found = ROTID_ERROR_MEMORY;
     else
         for (int c = 0; c < text.ncard; c++)

@@ -275,7 +275,7 @@ static int check_deck(struct checker *c, int d)
     digest_open(&c->cards);
     digest_open(&c->data);
     digest_text(&c->cards, deck->name);
-    int status = deck_text_read(&c->scratch, deck->path, &found, &text); /* what is wrong with it is said again below */
+    int status = deck_text_read(&c->scratch, deck->path, NULL, &found, &text); /* what is wrong with it is said again below */
     if (status == ROTID_ERROR_MEMORY)
         return status;
     digest_cards(&c->cards, &text);
