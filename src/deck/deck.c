@@ -445,10 +445,9 @@ void deck_read_cards(struct deck_reader *reader)
     note_assumptions(reader);
 }
 
-/* `memory`: or NULL, a file */
-static int read_deck(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
-                     const struct override *override, int ncard, const struct card *card, struct message_list *messages,
-                     struct states *states)
+int deck_read_with(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
+                   const struct override *override, int ncard, const struct card *card, struct message_list *messages,
+                   struct states *states)
 {
     struct job job = {.deck = pool_copy_text(pool, path), .options.frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = &job};
@@ -494,11 +493,5 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
 int deck_read_states(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
                      const struct override *override, struct message_list *messages, struct states *states)
 {
-    return read_deck(pool, path, memory, noverride, override, 0, NULL, messages, states);
-}
-
-int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct states *states)
-{
-    return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, states);
+    return deck_read_with(pool, path, memory, noverride, override, 0, NULL, messages, states);
 }

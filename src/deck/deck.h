@@ -166,8 +166,9 @@ int deck_read_states(struct pool *pool, const char *path, const struct deck_memo
 
 /* All states with cards [ncard] of somebody else behind those of the deck, common to all. They keep their own places, which
  * errors name. */
-int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct states *states);
+int deck_read_with(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
+                   const struct override *override, int ncard, const struct card *card, struct message_list *messages,
+                   struct states *states);
 
 /* ------------------------------------------------------------------------------------------------------------ deck cards */
 

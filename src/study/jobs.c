@@ -170,7 +170,7 @@ int jobs_read_truth(struct pool *pool, const struct study *study, const struct s
     }
     for (int end = 0; end < 2 && !status; end++) {
         card[0] = *hidden->end[end];
-        status = deck_read_with(pool, path, count, list, ncard, card, messages, &with[end]);
+        status = deck_read_with(pool, path, NULL, count, list, ncard, card, messages, &with[end]);
     }
     for (int s = 0; s < states.nstate && !status; s++)
         status = hide(hidden, &with[0].state[s].job, &with[1].state[s].job, messages, &truth[s]);
