@@ -725,8 +725,6 @@ module rotid
     integer(c_int) :: dof = 0
     integer(c_int) :: frequencies = 0
     real(c_double) :: largest = 0
-    real(c_double) :: threshold = 0
-    real(c_double) :: p_scan = 0
     real(c_double) :: p_frequency = 0
     real(c_double) :: p_total = 0
   end type rotid_round
@@ -1103,10 +1101,8 @@ module rotid
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 40
+    integer(c_size_t) :: size = 32
     integer(c_int) :: threads = 0
-    integer(c_int) :: replicates = 0
-    integer(c_long) :: seed = 0
     type(c_ptr) :: before = c_null_ptr ! text
     type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnose_options
@@ -1114,7 +1110,7 @@ module rotid
   type, bind(C) :: rotid_suggest_options
     integer(c_size_t) :: size = 72
     real(c_double) :: wanted_percent = 0, frequency_noise = 0, shape_noise = 0, set_up_cost = 0
-    integer(c_int) :: sensors = 0, modes = 0, threads = 0, replicates = 0
+    integer(c_int) :: sensors = 0, modes = 0, threads = 0
     integer(c_long) :: seed = 0
     integer(c_int) :: speed = 0, speed_backward = 0
   end type rotid_suggest_options

@@ -831,8 +831,6 @@ typedef struct rotid_round {
     int dof;               /* degrees of freedom */
     int frequencies;       /* number of frequencies that were fitted */
     double largest;        /* predicted drop of chi2 in the scan [1] */
-    double threshold;      /* that noise alone exceeds in 3 % of tests [1] */
-    double p_scan;         /* of the largest drop */
     double p_frequency;    /* of the frequencies */
     double p_total;        /* of chi2 */
 } rotid_round;
@@ -1276,8 +1274,6 @@ ROTID_API void rotid_identification_free(rotid_identification *result);
 typedef struct rotid_diagnose_options {
     size_t size;
     int threads;                /* [1] of this call; its BLAS should have one then */
-    int replicates;             /* [1000] of the bootstrap, at most 1e6 */
-    long seed;                  /* [1] >= 0, of the random numbers */
     const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
 } rotid_diagnose_options;
 
@@ -1302,7 +1298,6 @@ typedef struct rotid_suggest_options {
     int sensors;            /* [those of the deck, else 8] of a plan, at most 1000 */
     int modes;              /* [those of the deck, else 5] of a plan, 2 ... 100 */
     int threads;            /* [1] of the diagnosis */
-    int replicates;         /* [1000] of bootstrap and draws, at most 1e6 */
     long seed;              /* [1] >= 0 */
     int speed;              /* [none] number of the critical speed, from 1, that tests at rest are to narrow, in place of the
                                rest: of those with forward or mixed whirl, */

@@ -238,7 +238,6 @@ void fuzz_one_suggest(const uint8_t *bytes, size_t count)
                                            .set_up_cost = bytes[3],
                                            .sensors = bytes[4] % 40,
                                            .modes = bytes[5] % 25,
-                                           .replicates = 1 + bytes[6] % 100,
                                            .seed = bytes[7]};
     int polls = bytes[8];
     const rotid_environment environment = {.size = sizeof environment, .cancelled = ends_after, .context = &polls};

@@ -67,7 +67,7 @@ static int diagnose(struct pool *pool, const struct hidden_case *c, const char *
     struct message_list messages;
     struct job job;
     struct diagnosis d;
-    struct diagnose_options options = {.threads = 1, .seed = (unsigned long)c->request.seed + 1};
+    const struct diagnose_options options = {.threads = 1};
     message_open(&messages, pool);
     int status = deck_read(pool, path, 0, NULL, &messages, &job);
     double begin = clock_seconds();

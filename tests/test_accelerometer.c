@@ -123,7 +123,7 @@ static void write_deck(const struct simulation *s, const char *cards)
 
 static void diagnose(const struct job *job, struct message_list *notes, struct diagnosis *out)
 {
-    const struct diagnose_options options = {.threads = 1, .seed = 1, .replicates = 300};
+    const struct diagnose_options options = {.threads = 1};
     message_open(notes, &test_pool);
     assert_status(diagnose_run(&test_pool, job, &options, NULL, notes, out), ROTID_OK);
 }

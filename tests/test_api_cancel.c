@@ -162,7 +162,7 @@ UNIT_TEST(a_diagnosis_shows_what_was_finished)
 {
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     for (int threads = 1; threads <= 2; threads++) {
-        const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100, .threads = threads};
+        const rotid_diagnose_options options = {.size = sizeof options, .threads = threads};
         struct host whole = {.stop_at = INT_MAX};
         const rotid_environment undisturbed = environment_of(&whole, NULL);
         rotid_diagnosis *r;
@@ -211,7 +211,7 @@ UNIT_TEST(a_diagnosis_shows_what_was_finished)
 /* Broken off in the first fit, which ends with a point and without a judged model: at every poll. */
 UNIT_TEST(a_diagnosis_may_end_in_its_first_fit)
 {
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     rotid_deck *deck;
     assert_status(rotid_deck_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp", 0, NULL, NULL, NULL, &deck), ROTID_OK);
     for (int k = 1; k <= 40; k++) {
@@ -232,7 +232,7 @@ UNIT_TEST(a_diagnosis_may_end_in_its_first_fit)
 /* Broken off while the final models are fitted: each is there whole or not at all. */
 UNIT_TEST(a_broken_off_model_is_no_result)
 {
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;

@@ -188,7 +188,7 @@ UNIT_TEST(a_verdict_on_a_fit_that_did_not_end_says_so)
         "*SENSORS\n1, 0.31515\n2, 0.37338\n*NOISE, FREQUENCY=0.0001, SHAPE=0.01\n*IDENTIFY\na.E, 1e10, 1e12, 1.8e11\n"
         "b.E, 1e10, 1e12, 1.8e11\n*STATE, NAME=st0\n*MODES\n1, 106.799489901\n*SHAPE, MODE=1\n1, 0.931894\n2, 1.00742\n"
         "*STATE, NAME=st1\n*MODES\n1, 106.807294634\n*SHAPE, MODE=1\n1, 0.937621\n2, 0.987944\n";
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     rotid_deck *deck;
     rotid_diagnosis *d;
     assert_status(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
@@ -202,7 +202,7 @@ UNIT_TEST(a_verdict_on_a_fit_that_did_not_end_says_so)
 UNIT_TEST(what_was_hidden_is_named)
 {
     rotid_diagnosis *d;
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2, .seed = 4};
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};
     bench_hidden_deck(folder_path("deck.inp"), 0.4, 3);
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);

@@ -82,7 +82,7 @@ static void free_identification(void *result)
 
 static int try_diagnose(const rotid_deck *deck, const rotid_environment *environment, void **result)
 {
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     char failure[512];
     rotid_diagnosis *made = (void *)1;
     int status = rotid_diagnose(deck, &options, environment, failure, &made);
@@ -98,7 +98,7 @@ static void free_diagnosis(void *result)
 
 static int try_suggest(const rotid_deck *deck, const rotid_environment *environment, void **result)
 {
-    const rotid_suggest_options options = {.size = sizeof options, .replicates = 100, .sensors = 3, .modes = 3};
+    const rotid_suggest_options options = {.size = sizeof options, .sensors = 3, .modes = 3};
     char failure[512];
     rotid_suggestion *made = (void *)1;
     int status = rotid_suggest(deck, &options, environment, failure, &made);
@@ -219,7 +219,7 @@ UNIT_TEST(results_outlive_the_deck_and_live_on_the_allocator)
     rotid_spectrum *spectrum;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     bench_memory_open(&memory);
     const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
     assert_status(rotid_deck_read(folder_path("deck.inp"), 0, NULL, &environment, NULL, &deck), ROTID_OK);
@@ -261,7 +261,7 @@ UNIT_TEST(results_are_small)
     struct bench_memory memory;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options};
     bench_memory_open(&memory);
     const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
     rotid_deck *deck = bench_deck(folder_path("deck.inp"));

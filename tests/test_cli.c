@@ -186,19 +186,6 @@ UNIT_TEST(every_command_writes_json)
     }
 }
 
-/* the library takes a seed of 0 for its default */
-UNIT_TEST(a_diagnosis_states_the_seed_that_was_used)
-{
-    for (int seed = 0; seed < 3; seed++) {
-        char text[2] = {(char)('0' + seed), 0};
-        struct outcome outcome = run("diagnose", BRAKE, "--json", "-", "--replicates=100", "--seed", text);
-        cJSON *json = cJSON_Parse(outcome.out);
-        assert_int_equal(get(json, "seed")->valueint, seed ? seed : 1);
-        cJSON_Delete(json);
-        forget(&outcome);
-    }
-}
-
 UNIT_TEST(json_is_utf_8_whatever_the_deck_holds)
 {
     const char *deck =

@@ -52,7 +52,7 @@ struct run {
 
 static void diagnose(const char *text, struct run *r)
 {
-    const struct diagnose_options options = {.threads = 2, .seed = 1};
+    const struct diagnose_options options = {.threads = 2};
     const char *path = folder_write("deck.inp", text);
     pool_open(&r->pool, NULL);
     message_open(&r->messages, &r->pool);

@@ -54,7 +54,7 @@ static void read_deck(struct pool *pool, struct message_list *messages, const ch
 
 static void diagnose(struct run *r, const char *path)
 {
-    const struct diagnose_options options = {.threads = 2, .seed = 1};
+    const struct diagnose_options options = {.threads = 2};
     pool_open(&r->pool, NULL);
     read_deck(&r->pool, &r->messages, path, &r->job);
     message_open(&r->notes, &r->pool);

@@ -73,7 +73,7 @@ static void put_measured(const struct effect *effect, double share, int copied, 
 
 static void diagnose(const struct effect *effect, int copied, const char *fit, struct diagnosis *d)
 {
-    const struct diagnose_options options = {.threads = 2, .seed = 1, .replicates = 300};
+    const struct diagnose_options options = {.threads = 2};
     struct message_list messages;
     struct job job;
     char text[16384];

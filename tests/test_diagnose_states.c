@@ -42,7 +42,7 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
                                  const char *before, const char *after)
 {
     const rotid_diagnose_options options = {
-        .size = sizeof options, .replicates = 200, .threads = 2, .before = before, .after = after};
+        .size = sizeof options, .threads = 2, .before = before, .after = after};
     char message[300], failure[ROTID_FAILURE_LENGTH], *text = hidden_states_deck(r, 2, state, NULL, message, sizeof message);
     rotid_diagnosis *d;
     if (!text)
@@ -84,7 +84,7 @@ POOL_TEST(what_states_share_is_possible_in_each)
 
 static rotid_diagnosis *diagnose_text(const char *text)
 {
-    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2};
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};
     rotid_deck *deck = read_handle(text, 0, NULL);
     rotid_diagnosis *d;
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
@@ -303,7 +303,7 @@ UNIT_TEST(what_changed_is_named_and_what_stays_is_not)
 static void read_changed(const char *text, struct states *read, struct job *out)
 {
     const struct deck_memory memory = {"deck", strlen(text), text, NULL};
-    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    const struct diagnose_options options = {.threads = 1};
     struct message_list notes;
     message_open(&notes, &test_pool);
     assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, read), ROTID_OK);
@@ -454,7 +454,7 @@ UNIT_TEST(failing_allocations_are_survived)
     assert_non_null(text);
     for (int question = 0; question < 2; question++) {
         const rotid_diagnose_options options = {
-            .size = sizeof options, .replicates = 100, .before = question ? "before" : NULL, .after = question ? "after" : NULL};
+            .size = sizeof options, .before = question ? "before" : NULL, .after = question ? "after" : NULL};
         rotid_deck *deck = read_handle(text, 0, NULL);
         for (int n = 1, done = 0; !done; n += 1 + n) {
             struct failing_allocator failing;

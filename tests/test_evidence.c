@@ -358,6 +358,33 @@ POOL_TEST(a_size_at_its_bound)
     rotid_fit_free(fit);
 }
 
+/* A residual along a column with the drop that is said gains so much by it. */
+POOL_TEST(a_gain_has_its_drop)
+{
+    double x[8];
+    struct states base;
+    struct state alone;
+    struct scan scan;
+    int seen = 0;
+    open_bar(1);
+    (void)evidence(NULL, NULL, NULL, x);
+    base = states_of(&job, &alone);
+    assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_ALL, &scan), ROTID_OK);
+    for (int i = 0; i < scan.nitem; i++)
+        for (double gain = 2; gain < 20 && scan.item[i].usable; gain *= 3) {
+            const struct scan_item *item = &scan.item[i];
+            double drop = evidence_drop_for(&scan, &job.rotor, i, gain);
+            if (!(sqrt(drop) < item->norm * fmax(item->upper, -item->lower)))
+                continue;
+            assert_true(drop > gain);
+            seen++;
+            for (int row = 0; row < scan.nrow; row++)
+                scan.r[row] = -scan_side(item) * sqrt(drop) * scan.column[row + (ptrdiff_t)i * scan.nrow];
+            assert_close(evidence_of_item(&scan, &job.rotor, i), gain, 0, 2e-3);
+        }
+    assert_true(seen > 100);
+}
+
 /* Something else needs the columns of its fields alone, one width of a zone at each place: the same as among all. */
 POOL_TEST(fields_have_the_columns_of_a_whole_scan)
 {
@@ -671,8 +698,8 @@ static void hide(const char *id, const double *value, int shapes)
     job.measurement.shape = shapes ? shape : NULL;
 }
 
-/* The cause of an id as it is fitted beside the base, its evidence, and the states of the fit. */
-static double hidden_evidence(const char *id, struct refit *refit)
+/* The cause of an id as it is fitted beside the base, its evidence over both places that it may have, and the fits. */
+static double hidden_evidence(const char *id, struct refit refit[2])
 {
     struct state one;
     struct states states = states_of(&job, &one);
@@ -688,16 +715,19 @@ static double hidden_evidence(const char *id, struct refit *refit)
     while (at < scan.ncandidate && (strcmp(scan.candidate[at].cause->id, id) != 0 || scan.candidate[at].effect.variant))
         at++;
     assert_true(at < scan.ncandidate);
-    assert_status(refit_cause(&test_pool, &states, number, holdout, fit->x, NULL, &scan, at, NULL, refit), ROTID_OK);
+    assert_status(refit_cause(&test_pool, &states, number, holdout, fit->x, fit->x, &scan, at, NULL, refit), ROTID_OK);
     assert_non_null(refit->fit);
-    assert_status(evidence_of_fit(data, &refit->states, job.unknowns.nparameter, refit->fit, 0, NULL, 0, NULL, NULL, &e),
-                  ROTID_OK);
     rotid_fit_free(fit);
-    e.log_z += evidence_of_other_place(refit);
-    const struct strip_case strips = {
-        .states = &refit->states, .fit = refit->fit, .number = number, .holdout = holdout, .nown = job.unknowns.nparameter};
-    assert_status(evidence_over_widths(&test_pool, data, &strips, &e), ROTID_OK);
-    return e.log_z;
+    double sum = -INFINITY;
+    for (int i = 0; i < 2 && refit[i].fit; i++) {
+        const struct refit *r = &refit[i];
+        const struct strip_case strips = {
+            .states = &r->states, .fit = r->fit, .number = number, .holdout = holdout, .nown = job.unknowns.nparameter};
+        assert_status(evidence_of_fit(data, &r->states, job.unknowns.nparameter, r->fit, 0, NULL, 0, NULL, NULL, &e), ROTID_OK);
+        assert_status(evidence_over_widths(&test_pool, data, &strips, &e), ROTID_OK);
+        sum = log_sum(sum, e.log_z);
+    }
+    return sum;
 }
 
 /* By its frequencies a bar without supports does not know its left end from its right one, though it was weighed; shapes of eight
@@ -705,24 +735,29 @@ static double hidden_evidence(const char *id, struct refit *refit)
 POOL_TEST(two_places)
 {
     const double value[EFFECT_MOST_PARAMETERS] = {0.012, 0.15};
+    struct random_stream stream = {1};
     for (int i = 0; i < 3; i++) {
-        struct refit refit;
+        struct refit refit[2];
         struct likelihood l;
         open_bar(1);
         hide("added_mass", value, i == 1);
         if (i == 2)
             job.measurement.weighed = (struct weighed){.mass = rotor_mass(&job.rotor) + 0.0125, .mass_std = 0.001};
-        for (int at = 0; at < job.rotor.nsensor * job.measurement.nmode; at++)
+        for (int at = 0; at < job.rotor.nsensor * job.measurement.nmode; at++) { /* noise as stated: its level is a part of Z */
             job.measurement.shape_std[at] *= 8;
-        double z = hidden_evidence("added_mass", &refit);
-        heaviest = refit.states.bounds[1].upper;
-        bar_length = refit.states.bounds[2].upper;
+            if (i == 1)
+                job.measurement.shape[at] += job.measurement.shape_std[at] * random_normal(&stream);
+        }
+        double z = hidden_evidence("added_mass", refit);
+        heaviest = refit->states.bounds[1].upper;
+        bar_length = refit->states.bounds[2].upper;
         const struct axis axis[3] = {
-            modulus_axis(refit.fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {80, 0, 0, bar_length, of_place}};
-        open_likelihood(&refit.states.state->job, &l);
+            modulus_axis(refit->fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {80, 0, 0, bar_length, of_place}};
+        open_likelihood(&refit->states.state->job, &l);
         check("a mass at one of two places", z, over_grid(&l, 3, axis));
-        assert_true(refit.other_chi2 < refit.chi2 + 4);
-        rotid_fit_free(refit.fit);
+        assert_true(refit[1].fit && refit[1].chi2 < refit->chi2 + 4);
+        rotid_fit_free(refit[0].fit);
+        rotid_fit_free(refit[1].fit);
     }
 }
 
@@ -745,18 +780,19 @@ POOL_TEST(a_free_width)
     } zone[] = {{0.8, 0.008, 1, 0.55, 0.95}, {0.3, 0.025, 0.5, 0.22, 0.42}};
     for (int i = 0; i < 2; i++) {
         const double value[EFFECT_MOST_PARAMETERS] = {zone[i].depth, 0.2, zone[i].width}, reach = 0.008;
-        struct refit refit;
+        struct refit refit[2];
         struct likelihood l;
         open_bar(zone[i].noise);
         hide("stiffness_local", value, 1);
-        double z = hidden_evidence("stiffness_local", &refit), at = refit.fit->x[2];
-        bar_length = refit.states.bounds[2].upper;
-        const struct axis axis[4] = {modulus_axis(refit.fit->x[0], 0.02, 10),
+        double z = hidden_evidence("stiffness_local", refit), at = refit->fit->x[2];
+        bar_length = refit->states.bounds[2].upper;
+        const struct axis axis[4] = {modulus_axis(refit->fit->x[0], 0.02, 10),
                                      {32, 0, zone[i].from, zone[i].to, of_depth},
                                      {8, 0, at - reach, at + reach, of_place},
                                      {12, 1, bar_length / 200, bar_length / 14, of_log_width}};
-        open_likelihood(&refit.states.state->job, &l);
+        open_likelihood(&refit->states.state->job, &l);
         check("a zone of any width", z, over_grid(&l, 4, axis));
-        rotid_fit_free(refit.fit);
+        rotid_fit_free(refit[0].fit);
+        rotid_fit_free(refit[1].fit);
     }
 }

@@ -78,7 +78,7 @@ POOL_TEST(drift_is_told)
         {"    integer(c_int) :: fixed = 0\n", "    real(c_double) :: fixed = 0\n",
          "rotid_cause_value.fixed is real(c_double)(), not integer(c_int)()\n"},
         {"integer(c_long) :: seed", "integer(c_int) :: seed",
-         "rotid_diagnose_options.seed is integer(c_int)(), not integer(c_long)"},
+         "rotid_suggest_options.seed is integer(c_int)(), not integer(c_long)"},
         {"ci95(2)", "ci95(3)", "rotid_fitted_parameter.ci95 is real(c_double)(3), not real(c_double)(2)\n"},
         {"type(c_funptr) :: trace =", "type(c_ptr) :: trace =",
          "rotid_lm_options.trace is type(c_ptr)(), not type(c_funptr)()\n"},

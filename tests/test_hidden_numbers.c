@@ -47,7 +47,7 @@ UNIT_TEST(numbers_are_put_right)
         {{0, 1, 2, 3, 4, 5, 6}, 1, 2, "1 too low: the lowest modes were missed"},
         {{1, 2, 0, 3, 4, 5, 6}, 3, 4, "modes were missed below it"},
     };
-    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    const struct diagnose_options options = {.threads = 1};
     char *text = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp"), *deck = NULL, *truth = NULL, message[300] = "";
     struct hide_request request = hide_request_default();
     assert_non_null(text);

@@ -78,11 +78,11 @@ POOL_TEST(what_fits_is_computed)
     const char *output;
     if (without_limits() || sysconf(_SC_NPROCESSORS_ONLN) > 64)
         return;
-    const char *all = shell(&test_pool, LIMITED "diagnose " DECK " --replicates 100 --json - | grep -v -e seconds -e threads");
+    const char *all = shell(&test_pool, LIMITED "diagnose " DECK " --json - | grep -v -e seconds -e threads");
     for (int kib = 300000; kib <= 1200000; kib += 450000) {
         assert_string_equal(shell(&test_pool,
                                   "unset OPENBLAS_NUM_THREADS; ulimit -v %d; " LIMITED "diagnose " DECK
-                                  " --replicates 100 --json - | grep -v -e seconds -e threads",
+                                  " --json - | grep -v -e seconds -e threads",
                                   kib),
                             all);
         (void)shell(&test_pool, "ulimit -v %d; export OPENBLAS_NUM_THREADS=16; " LIMITED "check " DECK, kib);

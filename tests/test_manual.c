@@ -158,7 +158,6 @@ static const char *value_of(const char *command, const char *option)
                                             {"--extended", "/x/y"},
                                             {"--changed", "before,after"},
                                             {"--csv", "/x/y"},
-                                            {"--replicates", "100"},
                                             {"--interval", "2"},
                                             {"--sensors", "8"},
                                             {"--modes", "5"},

@@ -119,7 +119,7 @@ UNIT_TEST(the_data_of_a_page_are_the_result)
     make_result("frf", PAPER, "frf.json");
     make_result("modes", PAPER, "modes.json");
     make_result("check", PAPER, "check.json");
-    make_result("diagnose", BEAM " --replicates 200", "beam.json");
+    make_result("diagnose", BEAM "", "beam.json");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const char *html = page_made(names[i]), *from = strstr(html, "id=\"data\">");
         assert_non_null(from); /* else this rotid was built without D3: tools/setup */
@@ -205,7 +205,7 @@ UNIT_TEST(folders_ids_and_builds_stand_in_the_last_section)
     page_says(page_read("blank.html"), "rotid diagnose noisy.inp looks for the cause");
     assert_null(strstr(before_provenance(page_read("blank.html")), page_path("a")));
     make_result("identify", PAPER, "paper.json");
-    make_result("diagnose", BEAM " --replicates 200", "beam.json");
+    make_result("diagnose", BEAM "", "beam.json");
     static const char *const results[] = {"paper.json", "beam.json"};
     for (int i = 0; i < 2; i++) {
         cJSON *json = page_json(results[i]);
@@ -233,7 +233,7 @@ UNIT_TEST(the_gravest_answer_comes_first)
 {
     make_result("modes", PAPER, "modes.json");
     make_result("identify", PAPER, "paper.json");
-    make_result("diagnose", BEAM " --replicates 200", "beam.json");
+    make_result("diagnose", BEAM "", "beam.json");
     static const char *const order[] = {"modes.json paper.json beam.json", "beam.json paper.json modes.json",
                                         "paper.json modes.json beam.json"};
     char title[256] = "";

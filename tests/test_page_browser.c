@@ -27,7 +27,7 @@ static const struct {
      "identify " INPUT "strip_states.inp --json",
      {"frequencies", "frequencies-2", "intervals", "convergence"}},
     {"diagnose",
-     "diagnose " INPUT "brake_reuss_lap.inp --replicates 100 --json",
+     "diagnose " INPUT "brake_reuss_lap.inp --json",
      {"motion", "frequencies", "mac", "nco", "gain", "causes-1", "places", "residuals", "limits"}},
     {"suggest", "suggest " INPUT "foam_bar.inp --json", {"rotor", "tests", "plan", "sensor-worth", "counts"}},
     {"ema", "ema " ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff --json", {"shapes", "mac", "stabilisation", "functions"}},

@@ -25,7 +25,7 @@ static void make_results(void)
                  "sensitivity.json && "
                  "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
                  "%s identify %s --quiet --json states.json && %s modes %s --quiet --json states_modes.json && "
-                 "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s study %s %s -o runs.jsonl --quiet --json "
+                 "%s diagnose %s --quiet --json diagnose.json && %s study %s %s -o runs.jsonl --quiet --json "
                  "study.json",
                  page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER,
                  ROTID_PROGRAM, STRIP, ROTID_PROGRAM, STRIP, ROTID_PROGRAM, LAP, ROTID_PROGRAM, SOLID, PAPER),

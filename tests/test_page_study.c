@@ -103,7 +103,7 @@ UNIT_TEST(verdicts_are_counted)
 {
     static const char *const score[] = {"right", "quiet", "in_set", "silent", "wrong", "false_alarm"};
     page_make_study("hidden",
-                    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
+                    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
                     "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a <core>, GROUP=core\nfactor, 1.2\n");
     cJSON *runs = page_runs("hidden.jsonl"), *run;
     const char *html = page_made("hidden.jsonl");

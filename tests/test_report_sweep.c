@@ -309,7 +309,7 @@ POOL_TEST(hostile_texts_stay_texts)
                                                         adequate
                                                       */
                               "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
-                              "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json "
+                              "%s diagnose %s --quiet --json diagnose.json && %s check %s --quiet --json "
                               "check.json && "
                               "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
                               page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM,

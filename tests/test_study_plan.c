@@ -33,7 +33,6 @@ POOL_TEST(every_mistake_has_its_place)
     complains("*STUDY, SEED=-1\n*DECKS\ndeck.inp\n", 1, 14, "SEED is -1, expected a whole number from 0");
     complains("*STUDY, REPLICATES=1.5\n*DECKS\ndeck.inp\n", 1, 20, "REPLICATES is 1.5, expected a whole number");
     complains("*STUDY, SPEED=1\n*DECKS\ndeck.inp\n", 1, 9, "option SPEED of *STUDY is not known, expected COMMAND");
-    complains("*STUDY, BOOTSTRAP=100\n*DECKS\ndeck.inp\n", 1, 9, "BOOTSTRAP has no meaning for COMMAND=IDENTIFY");
     complains("*STUDY, DRAWS=20\n*DECKS\ndeck.inp\n", 1, 9, "DRAWS has no meaning for COMMAND=IDENTIFY, expected COMMAND=SPEEDS");
     complains("*STUDY, COMMAND=DIAGNOSE, BASELINE=YES\n*DECKS\ndeck.inp\n", 1, 27, "BASELINE has no meaning");
     complains("*STUDY\n*STUDY\n*DECKS\ndeck.inp\n", 2, 1, "*STUDY is given twice");

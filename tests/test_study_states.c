@@ -138,7 +138,7 @@ POOL_TEST(all_states_are_diagnosed_together)
 {
     static const char *const fit[] = {"", "*FIT, HOLDOUT=STATE:disc\n"};
     static const char plan[] =
-        "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
+        "*STUDY, COMMAND=DIAGNOSE\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
         "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
     for (int held = 0; held < 2; held++) {
         struct message_list messages;

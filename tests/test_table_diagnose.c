@@ -228,8 +228,6 @@ static void fill_named(void)
                                           .result.dof = 202,
                                           .result.frequencies = MODES,
                                           .result.largest = 103,
-                                          .result.threshold = 10.4,
-                                          .result.p_scan = 1e-3,
                                           .result.p_frequency = 0.0003,
                                           .result.p_total = 1e-6};
     s.round[1] = (struct diagnosis_round){.result.round = 2,
@@ -238,8 +236,6 @@ static void fill_named(void)
                                           .result.dof = 201,
                                           .result.frequencies = MODES,
                                           .result.largest = 4.1,
-                                          .result.threshold = 10.2,
-                                          .result.p_scan = 0.61,
                                           .result.p_frequency = 0.52,
                                           .result.p_total = 0.44};
     s.detectable[0] = (rotid_detectable){"joint", "left|core", "flexibility", 7.1e-11, "rad/(N.m)", NAN, NAN, 0};
@@ -411,8 +407,8 @@ static void everything_nan(void)
             c->effect.value[p] = c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     }
     for (int i = 0; i < 2; i++)
-        s.round[i].result.chi2 = s.round[i].result.chi2_frequency = s.round[i].result.largest = s.round[i].result.threshold =
-            s.round[i].result.p_scan = s.round[i].result.p_frequency = s.round[i].result.p_total = NAN;
+        s.round[i].result.chi2 = s.round[i].result.chi2_frequency = s.round[i].result.largest = s.round[i].result.p_frequency =
+            s.round[i].result.p_total = NAN;
     for (int i = 0; i < 5; i++)
         s.detectable[i].smallest = s.detectable[i].z_m = s.detectable[i].worst = NAN;
     s.data.value = s.data.std = s.data.chi2_drop = s.d.result.verdict.p_value = s.d.result.noise.frequency =
@@ -776,9 +772,9 @@ UNIT_TEST(no_option_lets_a_file_of_the_user_be_lost)
         {"diagnose " DECK " --json " DECK, "is the file that is read"},
         {"diagnose " DECK " --extended /tmp/none.x --json /tmp/../tmp/none.x", "is the file of --json as well"},
         {"diagnose " DECK " --extended -", "--extended -: expected a file"},
-        {"diagnose " DECK " --replicates 3", "--replicates 3: expected a whole number from 100"},
+        {"suggest " DECK " --modes 1", "--modes 1: expected a whole number from 2"},
         {"identify " DECK " --extended /tmp/none.x", "--extended is no option of identify, but of diagnose suggest"},
-        {"check " DECK " --replicates 500", "--replicates is no option of check, but of diagnose suggest"},
+        {"diagnose " DECK " --seed 2", "--seed is no option of diagnose, but of sensitivity suggest speeds study"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(run(wrong[i][0]), 2);

@@ -286,7 +286,7 @@ UNIT_TEST(what_is_no_number_is_a_dash)
     /* as far from the model as the smallest noise makes it: every number keeps its column */
     (void)snprintf(deck, sizeof deck,
                    "%s*MODES\n1, 500\n2, 1300\n3, 2400\n*NOISE, FREQUENCY=1e-30\n*IDENTIFY\ncore.E, 1e11, 4e11, 2e11\n", first);
-    run_deck("diagnose", "--verbose --replicates 100", deck);
+    run_deck("diagnose", "--verbose", deck);
     assert_no_such_word();
     const char *head = strstr(text, "res./sigma"), *row = strstr(text, "\n   1        500.000 ");
     assert_true(head && row);

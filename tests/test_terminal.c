@@ -143,7 +143,7 @@ FIXTURE_TEST(decks_and_their_names, setup, teardown)
         assert_int_not_equal(RUN(commands[c], deck, "--json", "-"), 2);
         assert_json();
     }
-    assert_int_not_equal(RUN("diagnose", deck, "--extended", "extended.inp", "--replicates", "100"), 2);
+    assert_int_not_equal(RUN("diagnose", deck, "--extended", "extended.inp"), 2);
     static const char *const formats[] = {"matrix-market", "dmig"};
     for (size_t f = 0; f < 2; f++)
         assert_run(RUN("export", deck, "--format", formats[f], "-o", HOSTILE), 0);
@@ -175,7 +175,7 @@ FIXTURE_TEST(decks_with_control_characters, setup, teardown)
     /* through --set they reach neither the terminal nor a deck that is written */
     write_file("b.inp", DECK);
     assert_run(RUN("check", "b.inp", "--set", "SHAFT.NAME=" HOSTILE), 2);
-    (void)RUN("diagnose", "b.inp", "--set", "FRF.FILE=" HOSTILE, "--extended", "c.inp", "--replicates", "100");
+    (void)RUN("diagnose", "b.inp", "--set", "FRF.FILE=" HOSTILE, "--extended", "c.inp");
     assert_int_equal(access(in_folder("c.inp"), F_OK), -1);
 }
 
@@ -187,7 +187,7 @@ FIXTURE_TEST(extended_decks, setup, teardown)
                "*HEADING\nL\xe4nge \x96 \xff " LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
                "*SHAFT, NAME=L\xe4ufer, MATERIAL=steel\n1, 0.1, 0, 20\n*MODES\n1, 430\n2, 1150\n3, 2150\n4, 3380\n5, 4700\n"
                "*NOISE, FREQUENCY=0.002\n*DISK, NAME=d\n0.3, 2, 0.01\n*IDENTIFY\nL\xe4ufer.E, 1e11, 4e11, 2e11\n");
-    (void)RUN("diagnose", "a.inp", "--extended", "b.inp", "--replicates", "100");
+    (void)RUN("diagnose", "a.inp", "--extended", "b.inp");
     assert_text_file("b.inp", 1);
     (void)read_file("b.inp", text, sizeof text);
     assert_non_null(strstr(text, "L\xe4nge \xef\xbf\xbd \xff " LETTERS)); /* the words of the user, but for a control */
@@ -204,7 +204,7 @@ FIXTURE_TEST(a_deck_may_come_from_standard_input, setup, teardown)
     write_file("a.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
                         "1, 0.1, 0, 20\n** of today\n*MODES, FILE=modes.csv\n*NOISE, FREQUENCY=0.002\n"
                         "*IDENTIFY\nbar.E, 1e11, 4e11, 2e11\n");
-    assert_int_equal(shell_code(&test_pool, &output, "cd %s && %s diagnose - --quiet --replicates 100 --extended b.inp < a.inp",
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && %s diagnose - --quiet --extended b.inp < a.inp",
                                 folder, ROTID_PROGRAM),
                      0);
     (void)read_file("b.inp", text, sizeof text);

@@ -32,7 +32,7 @@ struct task {
 static void *run(void *argument)
 {
     struct task *task = argument;
-    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2};
     char failure[512];
     if (task->begin)
         (void)pthread_barrier_wait(task->begin);
@@ -58,7 +58,7 @@ static struct expected run_alone(const char *deck_path, int diagnoses)
 {
     struct expected e = {.deck = NULL};
     struct task task = {.path = deck_path, .diagnoses = diagnoses};
-    const rotid_diagnose_options one = {.size = sizeof one, .threads = 1, .replicates = 100};
+    const rotid_diagnose_options one = {.size = sizeof one, .threads = 1};
     (void)run(&task);
     assert_status(task.status, ROTID_OK);
     e.deck = dump_deck(task.own);

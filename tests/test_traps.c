@@ -252,8 +252,8 @@ static void decks(void)
     rotid_suggestion *suggestion;
     rotid_speeds *speeds;
     char failure[ROTID_FAILURE_LENGTH];
-    static const rotid_diagnose_options quick = {.size = sizeof quick, .replicates = 20};
-    static const rotid_suggest_options brief = {.size = sizeof brief, .replicates = 20};
+    static const rotid_diagnose_options quick = {.size = sizeof quick};
+    static const rotid_suggest_options brief = {.size = sizeof brief};
     static const rotid_speeds_options few = {.size = sizeof few, .draws = 25};
     failed |= rotid_deck_read(SOLID, 0, NULL, NULL, failure, &deck);
     rotid_deck_free(deck);

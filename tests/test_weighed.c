@@ -46,8 +46,7 @@ static double share_of(const char *deck, const char *id, const char *target)
     double sum = 0;
     message_open(&messages, &test_pool);
     read_job(deck, &messages, &job);
-    assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1, .seed = 3}, NULL, &messages, &d),
-                  ROTID_OK);
+    assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1}, NULL, &messages, &d), ROTID_OK);
     for (int i = 0; i < d.posterior.nmarginal; i++) {
         const struct marginal *m = &d.posterior.marginal[i];
         sum += !strcmp(m->cause.cause->id, id) && !strcmp(m->cause.target, target) ? m->probability : 0;
@@ -125,8 +124,7 @@ POOL_TEST(what_is_unexplained_is_to_be_weighed)
         struct job job;
         struct diagnosis d;
         read_job(pool_format(&test_pool, "%s%s", bar, cards[i]), &messages, &job);
-        assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1, .seed = 3}, NULL, &messages, &d),
-                      ROTID_OK);
+        assert_status(diagnose_run(&test_pool, &job, &(struct diagnose_options){.threads = 1}, NULL, &messages, &d), ROTID_OK);
         assert_int_equal(d.result.verdict.kind, ROTID_UNEXPLAINED);
         assert_true(said[i] ? strstr(d.result.verdict.sentence, said[i]) != NULL
                             : !strstr(d.result.verdict.sentence, "correct diameters"));

@@ -42,16 +42,10 @@ static int take_options(const rotid_diagnose_options *given, char *failure, stru
         return status;
     if (o.threads < 0)
         return refuse(failure, "options->threads is %d, expected 0 or more", o.threads);
-    if (o.replicates < 0 || o.replicates > 1000000)
-        return refuse(failure, "options->replicates is %d, expected 0 ... 1000000", o.replicates);
-    if (o.seed < 0)
-        return refuse(failure, "options->seed is %ld, expected 0 or more", o.seed);
     if (!o.before != !o.after)
         return refuse(failure, "options->%s is NULL, expected the name of a state as well as in options->%s",
                       o.before ? "after" : "before", o.before ? "before" : "after");
     *options = (struct diagnose_options){.threads = o.threads ? o.threads : 1,
-                                         .seed = o.seed ? (unsigned long)o.seed : 1,
-                                         .replicates = o.replicates,
                                          .before = o.before,
                                          .after = o.after};
     if (options->threads > PARALLEL_MOST)

@@ -24,7 +24,6 @@ static int take_options(const rotid_suggest_options *given, char *failure, rotid
                   {"sensors", o->sensors, 1000},
                   {"modes", o->modes, 100},
                   {"threads", o->threads, INT_MAX},
-                  {"replicates", o->replicates, 1e6},
                   {"seed", (double)o->seed, 1e12},
                   {"speed", o->speed, 100}};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)

@@ -66,7 +66,7 @@ int failure_say_of(char *failure, int status, const char *format, ...)
 
 static const struct sized_struct table[] = {
     [SIZED_ENVIRONMENT] = STRUCT(rotid_environment, "environment", context),
-    [SIZED_DIAGNOSE_OPTIONS] = STRUCT(rotid_diagnose_options, "options", seed),
+    [SIZED_DIAGNOSE_OPTIONS] = STRUCT(rotid_diagnose_options, "options", after),
     [SIZED_SUGGEST_OPTIONS] = STRUCT(rotid_suggest_options, "options", seed),
     [SIZED_SPEEDS_OPTIONS] = STRUCT(rotid_speeds_options, "options", seed),
     [SIZED_MODEL] = STRUCT(rotid_model, "model", user),

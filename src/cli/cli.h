@@ -76,7 +76,7 @@ struct command {
     const char *name, *deck, *json, *at, *extended, *changed, *output, *state, *csv;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, no_baseline, compare, mode_type, points, replicates, start, condensed;
+    int quiet, verbose, threads, no_baseline, compare, mode_type, points, start, condensed;
     int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;

@@ -36,10 +36,8 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
 int command_diagnose(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    if (!command->seed) /* of which the library takes its default: the result states the one that was used */
-        command->head.seed = (double)(command->seed = 1);
     rotid_diagnose_options options = {
-        .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
+        .size = sizeof options, .threads = command->threads};
     const char *comma = command->changed ? strchr(command->changed, ',') : NULL;
     if (comma) {
         options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);

@@ -61,7 +61,6 @@ int command_suggest(struct command *command)
                                            .sensors = given->sensors,
                                            .modes = given->modes,
                                            .threads = command->threads,
-                                           .replicates = command->replicates,
                                            .seed = (long)command->seed,
                                            .speed = speed,
                                            .speed_backward = backward};

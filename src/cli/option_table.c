@@ -21,7 +21,7 @@ const struct option_row option_table[] = {
     {.name = "threads", .commands = DECKS " ema study test", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
      .help = "threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
      .more = "The result does not depend on it."},
-    {.name = "seed", .commands = "sensitivity diagnose suggest speeds study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
+    {.name = "seed", .commands = "sensitivity suggest speeds study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0),
      .standard = 1, .value = "N",
      .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
     {.name = "version", .letter = 'V', .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
@@ -79,8 +79,6 @@ const struct option_row option_table[] = {
      .value = "PERCENT", .help = "of their shapes, of the largest component (default: that of the deck, else 2)"},
     {.name = "set-up-cost", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.set_up_cost), FROM(1e-3, 1e6), .standard = 20,
      .value = "POINTS", .help = "of hanging, mounting or moving something, where measuring a point costs 1"},
-    {.name = "replicates", .commands = "diagnose suggest", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
-     .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
 
     {.name = "speeds", .commands = "speeds", .kind = OPTION_TEXT, AT(speeds.range), .value = "FROM:TO[:N]",
      .help = "of the Campbell diagram [rpm], or a list such as 0,25000,30000 (default: 0 to 1.3 times the running range in 41 steps)",

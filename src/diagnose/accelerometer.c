@@ -137,11 +137,6 @@ int is_moving_accelerometer(const struct effect *effect)
     return cause && !strcmp(cause->id, "accelerometer_mass") && effect->target < 0;
 }
 
-int is_unweighed_accelerometer(const struct job *job, const struct effect *effect)
-{
-    return is_moving_accelerometer(effect) && job_fits_shapes(job) && !job->measurement.point_frequency_hz;
-}
-
 static int open_weighing(struct pool *pool, const struct engine *engine, struct weighing *w)
 {
     int status = columns_open(pool, engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &w->columns);

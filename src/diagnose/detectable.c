@@ -6,18 +6,15 @@
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */
 
-double amplitude_shown(const struct scan_item *item, double threshold)
+double amplitude_shown(const struct scan *scan, const struct rotor *rotor, int item)
 {
-    return item->usable ? (sqrt(threshold) + POWER) / item->norm : INFINITY;
-}
-
-static double size_for(const struct scan_item *item, double threshold)
-{
-    return amplitude_shown(item, threshold) * item->unit;
+    const struct scan_item *i = &scan->item[item];
+    return i->usable ? (sqrt(evidence_drop_for(scan, rotor, item, posterior_gain_shown(scan, i->candidate))) + POWER) / i->norm
+                     : INFINITY;
 }
 
 /* Best and worst over the places, each with the width that shows best. */
-static void over_places(const struct scan *scan, const struct scan_candidate *c, double threshold, rotid_detectable *d)
+static void over_places(const struct scan *scan, const struct rotor *rotor, const struct scan_candidate *c, rotid_detectable *d)
 {
     int place = c->cause->place;
     double smallest = INFINITY, worst = 0;
@@ -25,7 +22,7 @@ static void over_places(const struct scan *scan, const struct scan_candidate *c,
         double here = INFINITY, z = place >= 0 ? scan->item[i].effect.value[place] : NAN;
         int j = i;
         for (; j < c->first + c->count && (j == i || (place >= 0 && scan->item[j].effect.value[place] == z)); j++)
-            here = fmin(here, fabs(size_for(&scan->item[j], threshold)));
+            here = fmin(here, fabs(amplitude_shown(scan, rotor, j) * scan->item[j].unit));
         i = j;
         if (here < smallest) {
             smallest = here;
@@ -37,9 +34,8 @@ static void over_places(const struct scan *scan, const struct scan_candidate *c,
     d->worst = place >= 0 ? worst : NAN;
 }
 
-int detectable_sizes(struct engine *engine, const struct round_result *last)
+int detectable_sizes(struct engine *engine, const struct scan *scan)
 {
-    const struct scan *scan = &last->scan;
     rotid_diagnosis *out = &engine->out->result;
     out->detectable = POOL_ARRAY(engine->pool, rotid_detectable, scan->ncandidate);
     if (!out->detectable)
@@ -51,7 +47,7 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
             continue;
         rotid_detectable *d = &out->detectable[out->ndetectable++];
         *d = (rotid_detectable){.id = cause->id, .target = c->target, .z_m = NAN, .worst = NAN};
-        over_places(scan, c, last->bootstrap.threshold, d);
+        over_places(scan, &engine->states.state[c->home].job.rotor, c, d);
         if (engine->moving.usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
             d->smallest = fmin(d->smallest, engine->moving.smallest);
         if (!cause->effect->nparameter) { /* there or not: a part of it would show */

@@ -5,9 +5,6 @@
 
 #include "base/base.h"
 
-#define MOST               3
-#define CHANGED_REPLICATES 200 /* of a threshold that names nothing */
-
 /* Whether an effect may stay in a rotor beside another one of its kind at its target: factors of fields over z multiply, masses
  * and springs at points add up. */
 static int effect_can_stay(const struct effect *effect)
@@ -19,53 +16,16 @@ static int effect_can_stay(const struct effect *effect)
 /* before: number of effects without the set of the fit */
 static int can_stay(const struct refit *refit, int before)
 {
-    const struct rotor *rotor = &refit->states.state->job.rotor;
-    int all = rotor->neffect > before; /* a beam that became a solid has none more */
-    for (int e = before; e < rotor->neffect && all; e++)
+    const struct rotor *rotor = refit ? &refit->states.state->job.rotor : NULL;
+    int all = rotor && rotor->neffect > before; /* a beam that became a solid has none more */
+    for (int e = before; all && e < rotor->neffect; e++)
         all = effect_can_stay(&rotor->effect[e]);
     return all;
 }
 
-/* The best fit of the round among those, NULL where none gains what a name has to. */
-static struct refit *best_of(const struct engine *engine, struct round_result *result)
-{
-    struct refit *best = NULL;
-    double least = engine->fit->chi2 - LEAST_MARGIN;
-    for (int i = 0; i < result->nrefit; i++) {
-        struct refit *refit = &result->refit[i];
-        if (!refit->fit)
-            continue;
-        double score = refit->chi2 + PARAMETER_PENALTY * (refit->fit->n - engine->fit->n);
-        if (score >= least || !can_stay(refit, engine->job->rotor.neffect))
-            continue;
-        least = score;
-        best = refit;
-    }
-    return best;
-}
-
-/* One effect more, *done: or none. */
-static int take_one(struct engine *engine, int *done)
-{
-    struct diagnosis_round round;
-    struct round_result result = {0};
-    int status = round_fit(engine, &round, &result);
-    struct refit *best = status || result.adequate ? NULL : best_of(engine, &result);
-    *done = !best;
-    if (best) {
-        if (engine->fit != engine->out->base.fit)
-            rotid_fit_free(engine->fit);
-        engine->fit = best->fit;
-        best->fit = NULL;
-        status = engine_take_states(engine, &best->states);
-    }
-    round_free(&result);
-    return status;
-}
-
-/* *out := the job, whose FIT is that of a diagnosis, with up to three effects that can stay, each the one whose fit is best
- * beside those before, as long as noise does not explain what is left and the gain is that of a name; the job itself where its
- * data do not suffice to judge a model by. Statuses of memory and cancellation only. */
+/* *out := the job, whose FIT is that of a diagnosis, with the likeliest explanation of its data among those whose effects can
+ * stay, or the job itself where that is none, or the data do not suffice to judge a model by. Statuses of memory and cancellation
+ * only. */
 static int imitate(struct pool *pool, const struct job *job, const struct diagnose_options *options,
                    const rotid_environment *environment, struct job *out)
 {
@@ -80,31 +40,34 @@ static int imitate(struct pool *pool, const struct job *job, const struct diagno
                                 .result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS)};
     struct engine engine = {.pool = pool,
                             .threads = options->threads > 0 ? options->threads : 1,
-                            .replicates = CHANGED_REPLICATES,
-                            .seed = options->seed,
                             .environment = environment,
                             .notes = &quiet,
                             .out = &scratch,
                             .clock = clock_seconds()};
-    int done = 0, status = scratch.result.steps && scratch.result.numerical_findings ? ROTID_OK : ROTID_ERROR_MEMORY;
+    struct diagnosis_round round;
+    struct round_result result = {0};
+    struct posterior *p = &scratch.posterior;
+    int status = scratch.result.steps && scratch.result.numerical_findings ? ROTID_OK : ROTID_ERROR_MEMORY, item = 0;
     message_open(&quiet, pool);
     if (!status)
         status = data_prepare(&engine, &only);
     if (!status)
         status = base_prepare(&engine);
-    for (int i = 0; i < MOST && !status && !done; i++)
-        status = take_one(&engine, &done);
+    if (!status)
+        status = round_run(&engine, 0, &round, &result, p);
     *out = *job;
-    if (!status) {
-        struct rotor rotor = engine.job->rotor;
-        rotor.segment = job->rotor.segment; /* as fine as the whole needs it, which is seen later */
-        out->rotor = rotor;
-        out->unknowns = engine.job->unknowns;
+    while (!status && item < p->count &&
+           (p->item[item].something_else || (p->item[item].nmember && !can_stay(p->item[item].refit, engine.job->rotor.neffect))))
+        item++;
+    if (!status && item < p->count) {
+        const struct job *likeliest = &explanation_states(&engine, &p->item[item])->state->job;
+        out->rotor = likeliest->rotor;
+        out->rotor.segment = job->rotor.segment; /* as fine as the whole needs it, which is seen later */
+        out->unknowns = likeliest->unknowns;
     }
+    round_free(&result);
     models_end_run(pool, judged.models, job->models);
-    if (engine.fit != scratch.base.fit)
-        rotid_fit_free(engine.fit);
-    rotid_fit_free(scratch.base.fit);
+    rotid_fit_free(engine.fit);
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
@@ -492,22 +455,21 @@ static int settle_states(struct engine *engine)
     return status;
 }
 
-#define REPLICATES 1000
-
 /* The search, and what it says. */
-static int search(struct engine *engine, struct round_result *last)
+static int search(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
+    struct round_result *last = out->last;
     struct diagnosis_round *round = out->round = POOL_NEW(engine->pool, struct diagnosis_round);
     int status = round ? round_run(engine, engine->states.nstate == 1, round, last, &out->posterior) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     out->nround = 1;
-    status = evidence_collect(engine, last, &out->posterior, round);
+    status = evidence_collect(engine, &last->scan, &out->posterior, round);
     engine_step(engine, "held out");
     if (!status)
         status = localise(engine, &last->scan);
-    out->result.verdict.p_value = fmin(round->result.p_scan, fmin(round->result.p_frequency, round->result.p_total));
+    out->result.verdict.p_value = fmin(round->result.p_frequency, round->result.p_total);
     if (!status)
         status = posterior_verdict(engine, &out->posterior);
     if (!status && out->ncause) /* the limits are those of the extended model */
@@ -526,7 +488,7 @@ static int fit_today(struct engine *engine, const struct states *states)
     return !ends ? ROTID_OK : today ? today : ROTID_STOP_CANCELLED;
 }
 
-static int run(struct engine *engine, const struct states *states, struct round_result *last)
+static int run(struct engine *engine, const struct states *states)
 {
     int status = data_prepare(engine, states);
     engine_step(engine, "data");
@@ -545,12 +507,12 @@ static int run(struct engine *engine, const struct states *states, struct round_
         status = base_residuals(engine);
     engine_step(engine, "base");
     if (!status)
-        status = search(engine, last);
-    return status ? status : finalise(engine, last);
+        status = search(engine);
+    return status ? status : finalise(engine);
 }
 
 /* The same with models for the run. */
-static int run_with_models(struct engine *engine, const struct states *given, struct round_result *last)
+static int run_with_models(struct engine *engine, const struct states *given)
 {
     struct states states;
     int begun = 0, status = states_copy(engine->pool, given, &states);
@@ -560,7 +522,7 @@ static int run_with_models(struct engine *engine, const struct states *given, st
         status = job->models ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
     if (!status)
-        status = run(engine, &states, last);
+        status = run(engine, &states);
     for (int s = 0; s < begun; s++)
         if (states.state[s].job.models)
             models_end_run(engine->pool, states.state[s].job.models, given->state[s].job.models);
@@ -579,8 +541,6 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
 {
     struct engine engine = {.pool = pool,
                             .threads = options->threads > 0 ? options->threads : 1,
-                            .replicates = options->replicates > 0 ? options->replicates : REPLICATES,
-                            .seed = options->seed,
                             .environment = environment,
                             .notes = notes,
                             .before = options->before,
@@ -589,19 +549,17 @@ static int diagnose(struct pool *pool, const struct states *states, const struct
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,
                             .clock = clock_seconds()};
-    struct round_result last = {0};
     engine.user_reduction = states->state->job.options.fit.reduction;
-    *out = (struct diagnosis){.result = nothing};
+    *out = (struct diagnosis){.result = nothing, .last = POOL_NEW(pool, struct round_result)};
     out->result.before = options->before;
     out->result.after = options->after;
     out->result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS);
     out->result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS * states->nstate);
-    if (!out->result.steps || !out->result.numerical_findings)
+    if (!out->result.steps || !out->result.numerical_findings || !out->last)
         return ROTID_ERROR_MEMORY;
     int status = states_copy(pool, states, &out->given);
     if (!status)
-        status = run_with_models(&engine, states, &last);
-    round_free(&last);
+        status = run_with_models(&engine, states);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
     if (out->judged.nstate)
@@ -639,6 +597,8 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
 
 void diagnose_free(struct diagnosis *out)
 {
+    if (out->last)
+        round_free(out->last);
     rotid_fit_free(out->today.fit);
     rotid_fit_free(out->base.fit);
     rotid_fit_free(out->extended.fit);

@@ -2,20 +2,19 @@
 #define ROTID_DIAGNOSE_DIAGNOSE_H
 
 /* Diagnosis: whether the model explains the data and, if it does not, which cause of the catalogue (src/diagnose/causes) does.
- * In: states of a deck (struct states), seed, replicates. Out: struct diagnosis: verdict, causes, extended model, gain, limits.
+ * In: states of a deck (struct states). Out: struct diagnosis: verdict, causes, extended model, gain, limits.
  * diagnose.c (diagnose_states) runs the steps on struct engine (engine.c); changed_job there: what changed between two states.
  *
  *   1 data       data.c (data_prepare): copies, assumed noise; correct.c (data_correct): takes a fault out of the data
  *   2 base       base.c (base_prepare): fit of the full model, mesh refined; accelerometer.c: mass of a roving one
  *   3 scan       scan_list.c: causes at all targets and places; columns.c: c = dr/da by adjoints (K - lambda M)^+; scan.c
  *                (scan_run): c_perp = c - QQ'c, drop of chi2 (c_perp'r)^2/|c_perp|^2; as_solid.c: the beam as a solid
- *   4 chance     bootstrap.c (bootstrap_run): threshold and p-value of the largest drop in simulated noise
- *   5 refit      refit.c (refit_cause): fits with one cause more; far_starts.c
- *   6 posterior  posterior.c (posterior_run): probabilities, averaged moduli; search.c, scan_pairs.c: beam search over sets;
- *                laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; place_interval.c; verdict.c; advice.c
- *   7 data       3 to 6 again behind what they show (round.c, round_run): pairing.c; faults.c: channels; level of the noise
- *   8 evidence   evidence.c, leave_out.c: single causes for the reader, modes and sensors left out
- *   9 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
+ *   4 posterior  posterior.c (posterior_run): probabilities, averaged moduli; search.c, scan_pairs.c: beam search over sets;
+ *                refit.c: fits with causes; laplace.c (evidence_of_fit): ln Z of a fit; over_width.c; place_interval.c
+ *   5 data       3 and 4 again behind what they show (round.c, round_run): far_starts.c; pairing.c; faults.c: channels; level of
+ *                the noise
+ *   6 evidence   verdict.c; advice.c; evidence.c, leave_out.c: single causes for the reader, modes and sensors left out
+ *   7 result     finalise.c: final fit, gain; detectable.c: |a| = (sqrt(T) + 1.28)/|c_perp|; hidden.c: dx = (J'J)^-1 J'c s
  *
  * Callers: api, study, suggest; deck writes the extended deck. The room reaches fits by src/run alone and the
  * properties of a cause by struct cause_kind; it must not read files, print, or change the deck. */
@@ -37,8 +36,6 @@
 
 struct diagnose_options {
     int threads;
-    unsigned long seed;
-    int replicates;             /* of the bootstrap; 0: 1000 */
     const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
 };
 
@@ -55,9 +52,8 @@ struct candidate {
     int sensor[2];          /* ids, of a fault of one or two channels, else 0 */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
-    double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
-    int set;                        /* of an alternative, from 1: those of one number are the causes of one explanation */
-    double probability;             /* of that explanation */
+    int set;            /* of an alternative, from 1: those of one number are the causes of one explanation */
+    double probability; /* of that explanation */
 };
 
 struct diagnosis_round {
@@ -66,10 +62,11 @@ struct diagnosis_round {
     struct candidate *candidate; /* best first; only those worth a line: refitted, or a visible share of the misfit */
 };
 
-#define MOST_MEMBERS  3
-#define VERDICT_NAMED 0.95 /* probability of a name */
-#define SEARCH_PASSES 4
-#define SEARCH_FITS   48 /* of all passes, at most */
+#define MOST_MEMBERS     3
+#define VERDICT_NAMED    0.95 /* probability of a name */
+#define VERDICT_HARMLESS 0.2  /* a cause below it is none */
+#define SEARCH_PASSES    4
+#define SEARCH_FITS      48 /* of all passes, at most */
 
 struct evidence {
     double log_z;       /* over the noise's factors too */
@@ -122,8 +119,11 @@ struct posterior {
     rotid_averaged_parameter *averaged; /* [naveraged] the deck's unknowns over all explanations */
 };
 
+struct round_result;
+
 struct diagnosis {
     struct posterior posterior;
+    struct round_result *last;   /* the fits of its explanations */
     rotid_diagnosis result;      /* as the steps find it; candidates, causes and the fits are put there at the end, from below */
     struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
@@ -341,6 +341,10 @@ int scan_run(struct pool *pool, const struct states *states, const int *number, 
 struct effect scan_effect(const struct scan *scan, int item, double amplitude);
 /* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
 double scan_best_drop(const struct scan *scan, int candidate);
+/* The sign of an amplitude that physics leaves most room for. */
+int scan_side(const struct scan_item *item);
+/* Probability that noise as stated makes the chi2 of the frequencies as large; NaN where memory is out. */
+double scan_chance_of_frequencies(struct pool *pool, const struct scan *scan);
 
 /* ---------------------------------------------------------------------------------------------------------------- engine */
 
@@ -350,8 +354,7 @@ struct far_start; /* below */
 
 struct engine {
     struct pool *pool;
-    int threads, replicates;
-    unsigned long seed;
+    int threads;
     const rotid_environment *environment;
     struct message_list *notes;
     const char *before, *after; /* the question is what changed between these states, or NULL */
@@ -413,37 +416,6 @@ int data_weigh_accelerometer(struct engine *engine, int *changed);
 void data_note_readings(struct engine *engine);
 int is_moving_accelerometer(const struct effect *effect);
 
-/* Such an effect beside fitted shapes that nothing has freed of it: there are no frequencies at single sensors. */
-int is_unweighed_accelerometer(const struct job *job, const struct effect *effect);
-
-/* ------------------------------------------------------------------------------------------------------------- bootstrap */
-
-/* How good the best of many looks by chance: a parametric bootstrap of the linearised scan. Each replicate is white noise on the
- * whitened residuals, taken orthogonal to what is fitted, and asks the same three questions of it as the diagnosis asks of the
- * data: the largest drop over all columns, the chi2 of the frequencies, the whole chi2. */
-
-#define FAMILY_WISE 0.03 /* false alarms of the three tests together */
-#define BLOCK_LEVEL 0.01 /* of the frequency block and of the whole chi2 alone */
-
-struct bootstrap {
-    int replicates;
-    double *largest;   /* [replicates] sorted, increasing: of the scan */
-    double *frequency; /* [replicates] sorted */
-    double threshold;  /* of the scan: with the two other tests it makes FAMILY_WISE */
-    double p_scan, p_frequency, p_total;
-};
-
-/* The same numbers for any number of threads. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
-int bootstrap_run(struct pool *pool, const struct scan *scan, int replicates, unsigned long seed, int threads,
-                  const rotid_environment *environment, struct bootstrap *b);
-
-/* Probability that the largest drop of a sound data set exceeds this one. */
-double bootstrap_p(const struct bootstrap *b, double drop);
-
-/* The threshold where the replicates are too few to show its tail: looks are taken for as many independent ones as make their 90
- * % quantile, whose share of replicates beyond it is that of FAMILY_WISE which the two other tests leave to the scan. */
-double bootstrap_extrapolated(const struct bootstrap *b);
-
 /* ----------------------------------------------------------------------------------------------------------------- refit */
 
 /* Fits of all states with one more cause in them, or two, from several starts, and the small bookkeeping of jobs that grow.
@@ -486,17 +458,16 @@ struct refit {
     struct states states;  /* with the effects of the set at the best values, which are also the starts */
     rotid_fit_result *fit; /* NULL where no start led anywhere */
     double chi2;
-    double other_chi2,
-        other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
-/* Best of the fits from the most promising places of a candidate, the states' own parameters starting at x [nparameter], which is
- * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded, one of these
- * parameters ends at a bound, or one at x is more than three times as large or small as in the deck. Statuses of memory and
- * cancellation only: where every fit fails, or ends above the model without the cause, which it contains, fit is NULL. */
+/* The best of the fits from the most promising places of a candidate, and the best of those that end at another place, more than
+ * a width or 3 % of the length away. The states' own parameters start at x [nparameter], which is where the scan was made; and at
+ * `deck` [nparameter] as well where none of those fits succeeded, one of these parameters ends at a bound, or one at x is more
+ * than three times as large or small as in the deck. Statuses of memory and cancellation only: where every fit fails, or ends
+ * above the model without the cause, which it contains, fit is NULL. */
 int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                 const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
-                struct refit *refit);
+                struct refit refit[2]);
 
 /* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);
@@ -524,18 +495,12 @@ int effect_unknown(const struct state *state, int effect, int component);
 
 struct round_result {
     struct scan scan;
-    struct bootstrap bootstrap;
-    int adequate;   /* noise explains what the base leaves */
-    int nsingle;    /* the first fits are of these candidates; those of the search for explanations follow */
-    int *candidate; /* [nsingle] */
     int nrefit, room;
-    struct refit *refit; /* [nrefit] */
+    struct refit *refit; /* [nrefit] of the search for explanations */
 };
 
-/* Scan and fits of single causes. Statuses of the fits. */
-int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
-/* These and the explanations; doubt: of the data as well, pairing, channels, noise, of a job that is the only state: where they
- * were at fault all is done again. */
+/* The scan and the explanations; doubt: of the data as well, pairing, channels, noise, of a job that is the only state: where
+ * they were at fault all is done again. Statuses of the fits. */
 int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, struct round_result *result,
               struct posterior *posterior);
 void round_free(struct round_result *result);
@@ -641,12 +606,13 @@ int data_add_pairing(struct engine *engine, int first, int second, const char *t
 
 /* What could not be seen, and where along the axis it would show. */
 
-/* The amplitude that the scan finds in 9 of 10 tests, >= 0: an amplitude a moves the whitened residual by a |c|, the score is
- * normal about that with variance 1, so a |c| = sqrt(threshold) + 1.28. INFINITY where the item is not usable. */
-double amplitude_shown(const struct scan_item *item, double threshold);
+/* The amplitude of an item that shows in 9 of 10 tests, >= 0: an amplitude a moves the whitened residual by a |c|, the score is
+ * normal about that with variance 1, so a |c| = sqrt(T) + 1.28, T the drop of chi2 that gives the cause, beside nothing, the
+ * probability above which a model is not called adequate (VERDICT_HARMLESS). INFINITY where the item is not usable. */
+double amplitude_shown(const struct scan *scan, const struct rotor *rotor, int item);
 
-/* result.detectable of *engine->out by the scan of the last round. ROTID_OK or ROTID_ERROR_MEMORY. */
-int detectable_sizes(struct engine *engine, const struct round_result *last);
+/* result.detectable of *engine->out by the scan of the last search. ROTID_OK or ROTID_ERROR_MEMORY. */
+int detectable_sizes(struct engine *engine, const struct scan *scan);
 int localise(struct engine *engine, const struct scan *scan);
 
 /* ----------------------------------------------------------------------------------------------------------- discrepancy */
@@ -666,11 +632,13 @@ void candidate_values(const struct refit *refit, const struct state *state, int 
 /* Candidate `index` of the scan as it was listed. */
 struct candidate candidate_listed(const struct scan *scan, int index);
 
+#define BLOCK_LEVEL 0.01
+
 /* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
  * does not count. data: of the fit, from which faults may have taken rows of the scan. */
 int fit_explains(const struct scan *scan, const struct evidence_data *data, const rotid_fit_result *fit);
 /* The candidates of the search, the most probable first. ROTID_OK or ROTID_ERROR_MEMORY. */
-int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,
+int evidence_collect(struct engine *engine, const struct scan *scan, const struct posterior *posterior,
                      struct diagnosis_round *round);
 /* Prediction of modes left out in turn beside the fit of states that start where it ended: rms of *error in percent, and of
  * *shape. Statuses of memory and cancellation only. */
@@ -687,12 +655,12 @@ struct far_start {
     struct effect effect; /* with its target, at the values to start from */
 };
 
-/* Behind the refits of a round, while nothing is named and where even the best leaves more than FAR_RATE of chi2 a degree of
- * freedom; once in a diagnosis, of one state, as a beam. Every candidate is looked at with sizes over all of its bounds, at
+/* Behind a search where even the best single cause leaves more than FAR_RATE of chi2 a degree of freedom; once in a diagnosis, of
+ * one state, as a beam. Every candidate is looked at with sizes over all of its bounds, at
  * places along the rotor, the modes paired anew with each; what comes nearest is fitted with its own pairing. Where one of these
  * fits leaves less than half of what all others do, a degree of freedom, it is the start of its candidate from then on, its
  * pairing is settled for all, and the round has to be repeated: *changed. Statuses of memory and cancellation only. */
-int far_starts_search(struct engine *engine, const struct round_result *result, int *changed);
+int far_starts_search(struct engine *engine, const struct round_result *result, const struct posterior *posterior, int *changed);
 
 /* Gives the scan's candidate the start that was found. */
 void far_starts_mark(const struct engine *engine, struct scan *scan);
@@ -710,8 +678,8 @@ double shape_data_model(const struct shape_data *data, int k, double z);
 
 /* -------------------------------------------------------------------------------------------------------------- finalise */
 
-/* The final model, the gain, the verdict in words. last: the round that named nothing more, or NULL. */
-int finalise(struct engine *engine, const struct round_result *last);
+/* The final model, the gain, the verdict in words. */
+int finalise(struct engine *engine);
 
 /* ---------------------------------------------------------------------------------------------------------------- hidden */
 
@@ -724,14 +692,14 @@ int finalise(struct engine *engine, const struct round_result *last);
  * Of all places and widths of a cause the one counts that moves a parameter most; of all causes those that move it most, three at
  * most. A cause in one state alone, a suspect, and one whose column lies within those of J (its size is not bounded by the data)
  * are left out, as is a parameter at its bound. ROTID_OK or ROTID_ERROR_MEMORY. */
-int hidden_shifts(struct engine *engine, const struct round_result *last);
+int hidden_shifts(struct engine *engine, const struct scan *scan);
 
 /* The same of a fit that no diagnosis made: of the states, whose noise is stated, at the values of their unknowns in `fit`, the
  * full model by the likelihood; found [nstate] and number of all modes as paired: what that fit gave. A solid is scanned on its
- * coarse mesh, held by the spectrum of `found`. The threshold of the scan is extrapolated from few replicates.
- * list [*n] on the pool; none where there is nothing to judge by. Statuses of scan_run and bootstrap_run. */
+ * coarse mesh, held by the spectrum of `found`. list [*n] on the pool; none where there is nothing to judge by. Statuses of
+ * scan_run. */
 int hidden_of_fit(struct pool *pool, const struct states *states, const struct identification *found, const int *number,
-                  const rotid_fit_result *fit, const rotid_environment *environment, int *n, rotid_hidden **list);
+                  const rotid_fit_result *fit, int *n, rotid_hidden **list);
 
 /* ----------------------------------------------------------------------------------------------------------------- items */
 
@@ -853,8 +821,6 @@ int evidence_of_fit(const struct evidence_data *data, const struct states *state
  * their number, 0 where the scan has none. */
 #define EVIDENCE_PROFILE_TERMS 12
 int evidence_profile(const struct scan *scan, const struct states *states, const struct cause_kind *cause, double *column);
-/* ln of what a minimum at another place adds to Z as a factor, if that is as wide; 0 where there is none. */
-double evidence_of_other_place(const struct refit *refit);
 
 /* What the widths that are free make of the evidence of such a fit (over_width.c): the differences of ln Z are added to *out, and
  * the moments of the nown unknowns take the place of those there. ROTID_OK, memory, cancellation, library. */
@@ -869,9 +835,9 @@ struct strip_case {
 };
 int evidence_over_widths(struct pool *pool, const struct evidence_data *data, const struct strip_case *c, struct evidence *out);
 
-/* The 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2 (place_interval.c), into `fit`: where the
- * least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by which its intervals are widened, to a
- * hundredth of the range or a seventh of the distance. Statuses of memory and cancellation only. Time: two to fourteen fits. */
+/* The 95 % interval of unknown p, a place between its bounds [m], by the profile of chi2 (place_interval.c), into `fit`: where
+ * the least chi2 of all other unknowns is within 3.84 of that of the fit, times the square by which its intervals are widened, to
+ * a hundredth of the range or a seventh of the distance. Statuses of memory and cancellation only. Time: two to fourteen fits. */
 int place_interval(const struct engine *engine, const struct states *states, rotid_fit_result *fit, int p);
 
 struct model_prior { /* of a parameter of a host: normal about neutral, deviation 0: uniform, of a positive one in ln */
@@ -885,8 +851,10 @@ int evidence_open_model(struct pool *pool, const rotid_measured *measured, int n
 int evidence_of_model(const struct evidence_data *data, const struct model_prior *prior, int nown, const rotid_fit_result *fit,
                       int with_else, struct evidence *out);
 
-/* ln Z of the model of a scan with item i over that without it, at the place and width of the item. */
+/* ln Z of the model of a scan with item i over that without it, at the place and width of the item; the drop of chi2 by the item
+ * that makes so much of it, or one beyond what its size can make. */
 double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i);
+double evidence_drop_for(const struct scan *scan, const struct rotor *rotor, int i, double gain);
 
 /* ---------------------------------------------------------------------------------------------------------------- faults */
 
@@ -943,6 +911,9 @@ int posterior_same_model(const struct candidate *a, const struct candidate *b);
 int posterior_has(const struct posterior *p, const struct explanation *e, const struct candidate *c);
 int posterior_same_set(const struct explanation *a, const struct explanation *b);
 struct explanation *posterior_find(const struct posterior *p, const struct explanation *e);
+/* ln Z that a candidate of a scan has to gain at its best place and width to be more than harmless where the other explanation is
+ * that nothing is wrong: its items are alike before, and the other ones are taken to gain nothing. */
+double posterior_gain_shown(const struct scan *scan, int candidate);
 /* ln of the prior of a set. */
 double posterior_prior_of(const struct posterior *p, const struct explanation *e);
 /* Behind the list; NULL: it is full. */

@@ -20,9 +20,7 @@ struct candidate candidate_blank(const struct cause_kind *cause, const char *tar
         .result = {.chi2 = NAN, .chi2_drop = NAN, .chi2_frequency = NAN, .holdout_rms = NAN, .sensor_out_rms = NAN},
         .cause = cause,
         .target = target,
-        .state = -1,
-        .other_place = NAN,
-        .other_chi2 = NAN};
+        .state = -1};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c.std[p] = c.ci_lower[p] = c.ci_upper[p] = NAN;
     return c;

@@ -102,9 +102,8 @@ struct candidate candidate_listed(const struct scan *scan, int index)
 }
 
 /* The candidate, and where the scan sees it. */
-static struct candidate scanned(const struct round_result *result, int index)
+static struct candidate scanned(const struct scan *scan, int index)
 {
-    const struct scan *scan = &result->scan;
     const struct scan_candidate *s = &scan->candidate[index];
     struct candidate c = candidate_listed(scan, index);
     c.result.predicted_drop = scan_best_drop(scan, index);
@@ -113,26 +112,17 @@ static struct candidate scanned(const struct round_result *result, int index)
     return c;
 }
 
-/* Fit `number` of the search. */
-static int fill_candidate(struct engine *engine, const struct round_result *result, int number, struct candidate *c)
+/* Candidate `index` by the explanation of it alone. */
+static int fill_candidate(struct engine *engine, const struct scan *scan, int index, const struct explanation *e,
+                          struct candidate *c)
 {
-    const struct scan *scan = &result->scan;
-    const struct refit *refit = &result->refit[number];
-    *c = scanned(result, result->candidate[number]);
-    c->result.refitted = 1;
-    if (!refit->fit)
-        return ROTID_OK;
-    c->other_place = refit->other_place;
-    c->other_chi2 = refit->other_chi2;
     double unused, shape;
-    c->result.chi2 = refit->chi2;
-    c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
-    c->result.chi2_frequency = frequency_chi2(scan, refit->fit);
-    const struct state *home = &refit->states.state[c->home];
-    candidate_values(refit, home, home->job.rotor.neffect - 1, c);
-    mend_intervals(scan, &scan->candidate[result->candidate[number]], c);
-    fitted_errors(&refit->states, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
-    return sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
+    *c = e->member[0];
+    c->result.predicted_drop = scan_best_drop(scan, index);
+    c->result.chi2_frequency = frequency_chi2(scan, e->refit->fit);
+    mend_intervals(scan, &scan->candidate[index], c);
+    fitted_errors(&e->refit->states, engine->holdout, e->refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
+    return sensor_out(engine->pool, &e->refit->states, engine->holdout, e->refit->fit, &c->result.sensor_out_rms, &shape);
 }
 
 struct leave_out {
@@ -192,22 +182,24 @@ static int compare(const void *left, const void *right)
            ((one == two) ? (a->predicted_drop < b->predicted_drop) - (a->predicted_drop > b->predicted_drop) : 0);
 }
 
-int evidence_collect(struct engine *engine, const struct round_result *result, const struct posterior *posterior,
+int evidence_collect(struct engine *engine, const struct scan *scan, const struct posterior *posterior,
                      struct diagnosis_round *round)
 {
-    const struct scan *scan = &result->scan;
     int status = ROTID_OK;
     round->candidate = POOL_ARRAY(engine->pool, struct candidate, scan->ncandidate + 1);
     if (!round->candidate)
         return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < result->nsingle && !status; i++)
-        status = fill_candidate(engine, result, i, &round->candidate[round->ncandidate++]);
     for (int i = 0; i < scan->ncandidate && !status; i++) {
-        int taken = 0;
-        for (int j = 0; j < result->nsingle; j++)
-            taken |= result->candidate[j] == i;
-        if (!taken && scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0)
-            round->candidate[round->ncandidate++] = scanned(result, i);
+        const struct candidate listed = candidate_listed(scan, i);
+        const struct explanation *alone = NULL; /* the likeliest place comes first */
+        for (int k = 0; k < posterior->count && !alone; k++) {
+            const struct explanation *e = &posterior->item[k];
+            alone = e->nmember == 1 && e->refit && !e->something_else && posterior_same_model(&e->member[0], &listed) ? e : NULL;
+        }
+        if (alone)
+            status = fill_candidate(engine, scan, i, alone, &round->candidate[round->ncandidate++]);
+        else if (scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0)
+            round->candidate[round->ncandidate++] = scanned(scan, i);
     }
     for (int i = 0; i < round->ncandidate; i++) {
         round->candidate[i].result.probability = posterior_of_cause(posterior, &round->candidate[i]);

@@ -188,12 +188,17 @@ static int fit_trial(struct engine *engine, const struct scan_candidate *c, cons
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
-static double least_rate(const struct engine *engine, const struct round_result *result)
+/* Of the single causes and of none. */
+static double least_rate(const struct engine *engine, const struct posterior *p)
 {
-    double rate = engine->fit->dof > 0 ? engine->fit->chi2 / engine->fit->dof : INFINITY;
-    for (int i = 0; i < result->nrefit; i++)
-        if (result->refit[i].fit && result->refit[i].fit->dof > 0)
-            rate = fmin(rate, result->refit[i].chi2 / result->refit[i].fit->dof);
+    double rate = INFINITY;
+    for (int i = 0; i < p->count; i++) {
+        const struct explanation *e = &p->item[i];
+        const rotid_fit_result *fit = explanation_fit(engine, e);
+        if (!e->something_else && (e->refit ? e->nmember == 1 && !candidate_is_fault(&e->member[0]) : !e->nmember) &&
+            fit->dof > 0)
+            rate = fmin(rate, fit->chi2 / fit->dof);
+    }
     return rate;
 }
 
@@ -228,12 +233,12 @@ static int fit_nearest(struct engine *engine, const struct trials *trials, doubl
     return pairing_adopt(engine, trials->measured, number);
 }
 
-int far_starts_search(struct engine *engine, const struct round_result *result, int *changed)
+int far_starts_search(struct engine *engine, const struct round_result *result, const struct posterior *posterior, int *changed)
 {
     const struct job_measurement now = engine->job->measurement;
     struct trials trials = {engine, &result->scan, &now, POOL_ARRAY(engine->pool, struct trial, result->scan.ncandidate),
                             POOL_ARRAY(engine->pool, struct pool, result->scan.ncandidate)};
-    double rate = least_rate(engine, result);
+    double rate = least_rate(engine, posterior);
     *changed = 0;
     if (engine->searched_far || engine->states.nstate > 1 || engine->job->options.solid || !(rate > FAR_RATE))
         return ROTID_OK;

@@ -504,7 +504,7 @@ int fault_refit(struct pool *pool, const struct states *states, int nown, const 
                 struct evidence_data **data)
 {
     double *own = POOL_ARRAY(pool, double, nown + 1), *std = POOL_ARRAY(pool, double, nown + 1);
-    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    *refit = (struct refit){.chi2 = INFINITY};
     if (!own || !std)
         return ROTID_ERROR_MEMORY;
     for (int pass = 0; pass < STEPS; pass++) {

@@ -115,8 +115,6 @@ static const char *describe(struct pool *pool, const struct job_units *units, co
 {
     const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists */
     const char *text = candidate_label(pool, c);
-    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
-        text = pool_format(pool, "%s, or at z = %s", text, job_value_text(pool, units, 3, c->other_place, "m"));
     if (!cause->effect) { /* a rival that is no part of a model */
         const struct effect_parameter_name *name;
         for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
@@ -448,9 +446,10 @@ static int fit_extended(struct engine *engine)
     return status;
 }
 
-int finalise(struct engine *engine, const struct round_result *last)
+int finalise(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
+    const struct scan *scan = &out->last->scan;
     int status = engine_stage(engine, "final model, causes", out->ncause);
     if (!status)
         status = refine_base(engine);
@@ -459,10 +458,10 @@ int finalise(struct engine *engine, const struct round_result *last)
     if (!status && out->ncause)
         status = fit_extended(engine);
     engine_step(engine, "gain");
-    if (!status && last && last->scan.ncandidate)
-        status = detectable_sizes(engine, last);
-    if (!status && last && last->scan.ncandidate)
-        status = hidden_shifts(engine, last);
+    if (!status && scan->ncandidate)
+        status = detectable_sizes(engine, scan);
+    if (!status && scan->ncandidate)
+        status = hidden_shifts(engine, scan);
     engine_step(engine, "detection limits");
     if (status)
         return status;

@@ -3,27 +3,24 @@
 #include <math.h>
 #include <string.h>
 
-#define LISTED     3   /* causes of a parameter */
-#define REPLICATES 100 /* without a diagnosis: sizes to 6 % */
+#define LISTED 3 /* causes of a parameter */
 
 /* What a list is made of. */
 struct source {
     struct pool *pool;
-    int nown;                                  /* unknowns of the deck, the first ones */
-    const rotid_parameter *bounds;             /* of the states */
+    int nown; /* unknowns of the deck, the first ones */
+    const struct states *states;
     const int *at_bound;                       /* [nown] */
     const struct roving_accelerometer *moving; /* NULL: none */
     const struct scan *scan;
-    double threshold;
 };
 
 /* The largest amplitude of an item that stays hidden, with the sign that physics allows; *beyond: the physical bound is less than
  * what would show. */
-static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, const struct scan_item *item,
-                               int *beyond)
+static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, int i, int *beyond)
 {
-    double shown = amplitude_shown(item, from->threshold),
-           side = item->side < 0 || (!item->side && -item->lower > item->upper) ? -1 : 1,
+    const struct scan_item *item = &from->scan->item[i];
+    double shown = amplitude_shown(from->scan, &from->states->state[c->home].job.rotor, i), side = scan_side(item),
            most = side < 0 ? -item->lower : item->upper;
     if (from->moving && from->moving->usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
         shown = fmin(shown, from->moving->smallest / fabs(item->unit));
@@ -45,12 +42,11 @@ static void largest_of(const struct source *from, const struct scan_candidate *c
         int beyond;
         if (!item->usable)
             continue;
-        double amplitude = hidden_amplitude(from, c, item, &beyond),
-               shift = amplitude * scan->shift[p + (ptrdiff_t)i * scan->nfree];
+        double amplitude = hidden_amplitude(from, c, i, &beyond), shift = amplitude * scan->shift[p + (ptrdiff_t)i * scan->nfree];
         if (!(fabs(shift) > fabs(row->shift)) || !isfinite(shift))
             continue;
-        *row = (rotid_hidden){.parameter = from->bounds[p].name,
-                              .unit = from->bounds[p].unit,
+        *row = (rotid_hidden){.parameter = from->states->bounds[p].name,
+                              .unit = from->states->bounds[p].unit,
                               .shift = shift,
                               .id = cause->id,
                               .target = c->target,
@@ -94,11 +90,10 @@ static int fill(const struct source *from, int *n, rotid_hidden **list)
     return ROTID_OK;
 }
 
-int hidden_shifts(struct engine *engine, const struct round_result *last)
+int hidden_shifts(struct engine *engine, const struct scan *scan)
 {
     rotid_diagnosis *out = &engine->out->result;
-    const struct source from = {engine->pool,    engine->nown, engine->states.bounds,    engine->fit->at_bound,
-                                &engine->moving, &last->scan,  last->bootstrap.threshold};
+    const struct source from = {engine->pool, engine->nown, &engine->states, engine->fit->at_bound, &engine->moving, scan};
     return fill(&from, &out->nhidden, &out->hidden);
 }
 
@@ -123,10 +118,9 @@ static int scan_fit(struct pool *pool, const struct states *given, const struct 
 }
 
 int hidden_of_fit(struct pool *pool, const struct states *states, const struct identification *found, const int *number,
-                  const rotid_fit_result *fit, const rotid_environment *environment, int *n, rotid_hidden **list)
+                  const rotid_fit_result *fit, int *n, rotid_hidden **list)
 {
     struct scan scan = {0};
-    struct bootstrap bootstrap = {0};
     int *holdout = POOL_ARRAY(pool, int, states_modes(states, states->nstate));
     *n = 0;
     if (!holdout)
@@ -137,8 +131,6 @@ int hidden_of_fit(struct pool *pool, const struct states *states, const struct i
     int status = scan_fit(pool, states, found, number, holdout, fit->x, &scan);
     if (status || scan.dof < 1 || !scan.nitem)
         return status;
-    status = bootstrap_run(pool, &scan, REPLICATES, 1, 1, environment, &bootstrap);
-    const struct source from = {
-        pool, fit->n, states->bounds, fit->at_bound, NULL, &scan, status ? 0 : bootstrap_extrapolated(&bootstrap)};
-    return status ? status : fill(&from, n, list);
+    const struct source from = {pool, fit->n, states, fit->at_bound, NULL, &scan};
+    return fill(&from, n, list);
 }

@@ -710,21 +710,16 @@ int evidence_of_fit(const struct evidence_data *d, const struct states *states, 
     return status;
 }
 
-double evidence_of_other_place(const struct refit *refit)
-{
-    return isfinite(refit->other_chi2) ? log_sum(0, -fmax(0, refit->other_chi2 - refit->chi2) / 2) : 0;
-}
-
 /* ---- a column of the scan */
 
-double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i)
+/* along: minus the product of the column and the residual */
+static double gain_of_item(const struct scan *scan, const struct rotor *rotor, int i, double along)
 {
     const struct scan_item *item = &scan->item[i];
     const struct scan_candidate *c = &scan->candidate[item->candidate];
     const struct cause_kind *cause = c->cause;
     const struct cause_parameter *size = &cause->parameter[cause->size];
-    double lower = 0, upper = 1, along = -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r),
-           square = item->norm * item->norm;
+    double lower = 0, upper = 1, square = item->norm * item->norm;
     if (!item->usable)
         return 0;
     if (!cause->effect->nparameter || c->fixed[cause->size])
@@ -747,4 +742,26 @@ double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int 
     return along * mean / 2 - log(precision * deviation * deviation) / 2 +
            log_share((item->lower - mean) * root, (item->upper - mean) * root) -
            log_share(item->lower / deviation, item->upper / deviation);
+}
+
+double evidence_of_item(const struct scan *scan, const struct rotor *rotor, int i)
+{
+    const struct scan_item *item = &scan->item[i];
+    return gain_of_item(scan, rotor, i, -item->norm * product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r));
+}
+
+#define STEPS 20 /* of a search that takes four */
+
+/* ln Z rises by nearly half of what the drop does, less what the range of the size costs. */
+double evidence_drop_for(const struct scan *scan, const struct rotor *rotor, int i, double gain)
+{
+    const struct scan_item *item = &scan->item[i];
+    const struct scan_candidate *c = &scan->candidate[item->candidate];
+    int is_known = !c->cause->effect->nparameter || c->fixed[c->cause->size];
+    double drop = 2 * fmax(gain, 0), missing = INFINITY, most = item->norm * fmax(item->upper, -item->lower);
+    for (int k = 0; k < STEPS && fabs(missing) > 1e-3 && item->usable && !is_known && sqrt(drop) < most; k++) {
+        missing = gain - gain_of_item(scan, rotor, i, scan_side(item) * item->norm * sqrt(drop));
+        drop = fmax(0, drop + 2 * missing);
+    }
+    return drop;
 }

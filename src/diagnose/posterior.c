@@ -102,24 +102,47 @@ static int faults_alike(const struct posterior *p, const struct candidate *c)
     return count > 0 ? count : 1;
 }
 
+/* Kinds of causes: those of the scan, and the faults of channels where there are shapes. */
+static int count_kinds(const struct scan *scan, int shapes)
+{
+    int count = shapes ? DATA_KINDS : 0;
+    for (int i = 0; i < catalogue_count(); i++) {
+        int listed = 0;
+        for (int j = 0; j < scan->ncandidate; j++)
+            listed |= scan->candidate[j].cause == catalogue_item(i);
+        count += listed;
+    }
+    return count;
+}
+
+/* Share of a physical cause among all of its kind. */
+static double share_of_kind(const struct scan *scan, const struct cause_kind *cause, const char *target, int state)
+{
+    int targets = 0, alone = 0;
+    for (int i = 0; i < scan->ncandidate; i++) {
+        const struct scan_candidate *s = &scan->candidate[i];
+        if (s->cause != cause || s->suspect)
+            continue;
+        targets += s->state < 0;
+        alone += s->state >= 0 && !strcmp(s->target, target);
+    }
+    return 1.0 / (targets > 0 ? targets : 1) * (!alone ? 1 : state < 0 ? 0.5 : 0.5 / alone);
+}
+
 /* ln of the probability of a cause among all single ones. */
 static double cause_prior(const struct posterior *p, const struct candidate *c)
 {
-    const struct scan *scan = p->base;
-    int targets = 0, alone = 0;
     if (candidate_is_fault(c))
         return -log((double)p->nkind * faults_alike(p, c));
-    for (int i = 0; i < scan->ncandidate; i++) {
-        const struct scan_candidate *s = &scan->candidate[i];
-        if (s->cause != c->cause || s->suspect)
-            continue;
-        targets += s->state < 0;
-        alone += s->state >= 0 && !strcmp(s->target, c->target);
-    }
-    double share = 1.0 / p->nkind / (targets > 0 ? targets : 1);
-    if (alone)
-        share *= c->state < 0 ? 0.5 : 0.5 / alone;
-    return log(share * (c->result.suspect ? SUSPECTED : 1));
+    return log(share_of_kind(p->base, c->cause, c->target, c->state) / p->nkind * (c->result.suspect ? SUSPECTED : 1));
+}
+
+double posterior_gain_shown(const struct scan *scan, int candidate)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    double one =
+        set_prior[1] * share_of_kind(scan, c->cause, c->target, c->state) / count_kinds(scan, scan->nrow > scan->nfrequency);
+    return log(VERDICT_HARMLESS / (1 - VERDICT_HARMLESS) * set_prior[0] / one * fmax(c->count, 1));
 }
 
 double posterior_log_prior(int nmember, int something_else)
@@ -194,12 +217,6 @@ int posterior_score(struct engine *engine, struct posterior *p, const struct sca
     if (status == ROTID_ERROR_ARGUMENT) { /* a solid whose data are others */
         e->evidence.log_z = e->evidence.log_stated = e->evidence.log_exact = e->evidence.log_else = -INFINITY;
         status = ROTID_OK;
-    }
-    if (e->nmember && e->member[e->nmember - 1].cause->place >= 0 && e->refit) {
-        double more = evidence_of_other_place(e->refit);
-        e->evidence.log_z += more;
-        e->evidence.log_stated += more;
-        e->evidence.log_exact += more;
     }
     e->log_prior = posterior_prior_of(p, e);
     e->log_posterior = e->evidence.log_z + e->log_prior;
@@ -424,15 +441,10 @@ int posterior_run(struct engine *engine, struct round_result *result, struct pos
                             .nothing_prior = set_prior[0] * (1 - ELSE_PRIOR)};
     if (!p->item)
         return ROTID_ERROR_MEMORY;
+    int shapes = 0;
     for (int s = 0; s < engine->states.nstate; s++)
-        if (job_fits_shapes(&engine->states.state[s].job))
-            p->nkind = DATA_KINDS;
-    for (int i = 0; i < catalogue_count(); i++) {
-        int listed = 0;
-        for (int j = 0; j < result->scan.ncandidate; j++)
-            listed |= result->scan.candidate[j].cause == catalogue_item(i);
-        p->nkind += listed;
-    }
+        shapes |= job_fits_shapes(&engine->states.state[s].job);
+    p->nkind = count_kinds(&result->scan, shapes);
     int status = evidence_open(engine->pool, &engine->states, engine->number, engine->holdout, &p->data);
     if (!status)
         status = search_run(engine, result, p);

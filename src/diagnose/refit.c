@@ -12,6 +12,8 @@
 #define STRAYED    3    /* times as large or small as in the deck */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
 
+static const struct refit no_refit = {.chi2 = INFINITY};
+
 static double inside(const rotid_parameter *bounds, double value)
 {
     double margin = OFF * (bounds->upper - bounds->lower);
@@ -296,28 +298,35 @@ static int starting_effects(const struct scan *scan, const struct scan_candidate
     return count;
 }
 
-/* Another minimum at another place that is nearly as good means that the place is not known. */
-static void note_place(const struct states *extended, const struct scan_candidate *c, const rotid_fit_result *fit,
-                       struct refit *refit)
+/* Whether a fit ended at quite another place than that of the refit. */
+static int is_elsewhere(const struct states *extended, const struct scan_candidate *c, const rotid_fit_result *fit,
+                        const struct refit *refit)
 {
     struct effect here;
     const struct state *home = &extended->state[c->home];
     int last = home->job.rotor.neffect - 1, place = c->cause->place, width = c->cause->width;
-    if (place < 0)
-        return;
+    if (place < 0 || !refit->fit)
+        return 0;
     effect_at(home, last, fit->x, &here);
     double near = fmax(SAME_PLACE * rotor_length(&home->job.rotor), width < 0 ? 0 : here.value[width]);
-    if (!refit->fit)
-        return;
-    double there = refit->states.state[c->home].job.rotor.effect[last].value[place];
-    if (fabs(here.value[place] - there) <= near)
-        return;
-    int better = fit->chi2 < refit->chi2; /* the one before becomes the other one */
-    double chi2 = better ? refit->chi2 : fit->chi2;
-    if (!(refit->other_chi2 <= chi2)) {
-        refit->other_chi2 = chi2;
-        refit->other_place = better ? there : here.value[place];
+    return fabs(here.value[place] - refit->states.state[c->home].job.rotor.effect[last].value[place]) > near;
+}
+
+/* Takes the fit over: the best one first, behind it the best one at another place. */
+static int keep_best(struct pool *pool, const struct states *extended, const struct scan_candidate *c, rotid_fit_result *fit,
+                     struct refit refit[2])
+{
+    int elsewhere = is_elsewhere(extended, c, fit, refit);
+    if (elsewhere && fit->chi2 < refit->chi2) { /* the one before becomes the other one */
+        rotid_fit_free(refit[1].fit);
+        refit[1] = refit[0];
+        refit[0] = no_refit;
+        elsewhere = 0;
     }
+    if (fit->chi2 < refit[elsewhere].chi2)
+        return refit_keep(pool, extended, fit, &refit[elsewhere]);
+    rotid_fit_free(fit);
+    return ROTID_OK;
 }
 
 static int fit_at_bound(const rotid_fit_result *fit, int nown)
@@ -355,10 +364,10 @@ int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result 
     return ROTID_OK;
 }
 
-/* Fits from the scan's places with the own parameters at x; the best is kept. Statuses of memory and cancellation only. */
+/* Fits from the scan's places with the own parameters at x; the best two are kept. Statuses of memory and cancellation only. */
 static int fit_from(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                     const struct scan *scan, const struct scan_candidate *c, const rotid_environment *environment,
-                    struct refit *refit)
+                    struct refit refit[2])
 {
     struct effect start[STARTS + 1];
     int count = starting_effects(scan, c, rotor_length(&states->state[c->home].job.rotor), start);
@@ -370,14 +379,11 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
             status = refit_states(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
-        if (!status)
-            note_place(&extended, c, fit, refit);
-        if (status || !(fit->chi2 < refit->chi2)) {
-            rotid_fit_free(fit);
+        if (status)
             continue;
-        }
-        status = refit_keep(pool, &extended, fit, refit);
-        if (!status && c->cause->solid && refit->chi2 < scan->chi2 - PROMISES)
+        double before = refit->chi2;
+        status = keep_best(pool, &extended, c, fit, refit);
+        if (!status && c->cause->solid && refit->chi2 < fmin(before, scan->chi2 - PROMISES))
             status = refit_held(pool, number, holdout, environment, refit);
         if (status)
             return status;
@@ -387,20 +393,20 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
 
 int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                 const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
-                struct refit *refit)
+                struct refit refit[2])
 {
     const struct scan_candidate *c = &scan->candidate[candidate];
     /* without its cause it is the model that the scan looked at, unless a user has fixed the size, or there is none */
     int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
-    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    refit[0] = refit[1] = no_refit;
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
-    if (!status && deck &&
-        (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) || fit_at_bound(refit->fit, states->nparameter) ||
-         strayed(states->nparameter, x, deck)))
+    if (!status && (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) ||
+                    fit_at_bound(refit->fit, states->nparameter) || strayed(states->nparameter, x, deck)))
         status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
-    if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
-        return status;
-    rotid_fit_free(refit->fit);
-    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
-    return ROTID_OK;
+    for (int i = 0; i < 2 && nested && !status; i++)
+        if (refit[i].fit && refit[i].chi2 > scan->chi2 + REFIT_WORSE) {
+            rotid_fit_free(refit[i].fit);
+            refit[i] = no_refit;
+        }
+    return status;
 }

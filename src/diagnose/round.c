@@ -1,5 +1,4 @@
-/* The search once: scan, chance by the bootstrap, fits of what is promising, explanations; and again where they show that the
- * data are at fault. */
+/* The search once: scan, chance, explanations; and again where they show that the data are at fault. */
 #include "diagnose/diagnose.h"
 
 #include <math.h>
@@ -7,6 +6,7 @@
 
 #include "base/base.h"
 #include "diagnose/causes/causes.h"
+#include "fit/fit.h"
 #include "linalg/linalg.h"
 
 /* The level of the noise of the shapes: judged by what the best model so far leaves, said, used from there on. */
@@ -133,83 +133,26 @@ static int noise_settle(struct engine *engine, const struct posterior *p, int *c
     return status;
 }
 
-#define MOST_REFITS 16
-#define MOST_PASSES 6    /* of a round, each with better data */
-#define WORTH       3.0  /* a promised drop below this is noise */
-#define SHARE       0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
+#define MOST_PASSES 6 /* of a search, each with better data */
 
-struct refits {
-    const struct engine *engine;
-    struct round_result *result;
-    const double *deck; /* [nparameter] the starts of the deck, of causes that were named their values */
-    struct pool *pool;  /* one a task: pools are not shared between threads */
-};
-
-static int refit_task(void *context, int index, int worker)
-{
-    struct refits *refits = context;
-    const struct engine *e = refits->engine;
-    (void)worker;
-    return refit_cause(&refits->pool[index], &e->states, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
-                       refits->result->candidate[index], e->environment, &refits->result->refit[index]);
-}
-
-/* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
-static int choose(const struct scan *scan, double threshold, int *chosen)
-{
-    int count = 0;
-    double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
-    for (int rank = 0; rank < scan->ncandidate; rank++) {
-        int best = -1;
-        for (int i = 0; i < scan->ncandidate; i++) {
-            int taken = 0;
-            for (int j = 0; j < count; j++)
-                taken |= chosen[j] == i;
-            if (!taken && (best < 0 || scan_best_drop(scan, i) > scan_best_drop(scan, best)))
-                best = i;
-        }
-        if (best < 0 || scan_best_drop(scan, best) < least || count == MOST_REFITS)
-            break;
-        chosen[count++] = best;
-    }
-    for (int i = 0; i < scan->ncandidate; i++) {
-        int taken = 0;
-        for (int j = 0; j < count; j++)
-            taken |= chosen[j] == i;
-        if (!taken && ((scan->candidate[i].suspect && scan->candidate[i].best >= 0) || scan->candidate[i].far))
-            chosen[count++] = i;
-    }
-    return count;
-}
-
-/* Fits the first `count` of the chosen candidates. */
-static int run_refits(struct engine *engine, struct round_result *result, int count)
-{
-    struct pool *pool = engine->pool;
-    double *deck = POOL_ARRAY(pool, double, engine->states.nparameter);
-    struct refits refits = {engine, result, deck, POOL_ARRAY(pool, struct pool, count)};
-    if (!deck || !refits.pool)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < engine->states.nparameter; p++)
-        deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
-    for (int i = 0; i < count; i++)
-        pool_open(&refits.pool[i], pool->allocator);
-    result->nrefit = result->nsingle = count;
-    int status = parallel_for(engine->threads, count, refit_task, &refits);
-    for (int i = 0; i < count; i++)
-        pool_absorb(pool, &refits.pool[i]);
-    return status;
-}
-
-/* Pairing, faults of channels, of the only state noise, as the explanations have them, and the mesh as the leading one needs it;
- * the search is to be repeated where something was at fault. */
-static int settle_data(struct engine *engine, struct round_result *result, const struct posterior *posterior, int noise,
+/* Far starts and pairing, faults of channels, of the only state noise, as the explanations have them, and the mesh as the leading
+ * one needs it; the search is to be repeated where something was at fault. */
+static int settle_data(struct engine *engine, struct round_result *result, const struct posterior *posterior, int doubt,
                        int *changed)
 {
-    int status = pairing_settle(engine, result, changed);
+    int status = ROTID_OK, far = 0;
+    *changed = 0;
+    if (doubt)
+        status = far_starts_search(engine, result, posterior, &far);
+    if (!status && far) {
+        *changed = 1;
+        return base_again(engine);
+    }
+    if (!status)
+        status = pairing_settle(engine, result, changed);
     if (!status && !*changed)
         status = posterior_take_faults(engine, posterior, changed);
-    if (!status && !*changed && noise)
+    if (!status && !*changed && doubt)
         status = noise_settle(engine, posterior, changed);
     for (int i = 0; i < posterior->count && !status && !*changed; i++)
         if (posterior->item[i].nmember && posterior->item[i].refit && posterior->item[i].refit->fit) {
@@ -222,58 +165,32 @@ static int settle_data(struct engine *engine, struct round_result *result, const
     return status || !*changed ? status : pairing_note_again(engine);
 }
 
-/* Scan, and fits of single causes. */
-static int fit_singles(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+/* The scan, what the rotor as a solid promises, and how probable such data are as noise. */
+static int scan_base(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
 {
     struct pool *pool = engine->pool;
+    struct scan *scan = &result->scan;
     *round = (struct diagnosis_round){0};
     *result = (struct round_result){0};
     int status = engine_stage(engine, "scan", 1);
     if (!status)
-        status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, SCAN_ALL, &result->scan);
-    engine_step(engine, "scan");
+        status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, SCAN_ALL, scan);
     if (!status)
-        far_starts_mark(engine, &result->scan);
-    const struct scan *scan = &result->scan;
-    if (!status)
-        status =
-            bootstrap_run(pool, scan, engine->replicates, engine->seed, engine->threads, engine->environment, &result->bootstrap);
-    engine_step(engine, "bootstrap");
+        status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, scan, engine->notes);
     if (status)
         return status;
-    const struct bootstrap *b = &result->bootstrap;
+    far_starts_mark(engine, scan);
     round->result = (rotid_round){.round = 1,
                                   .chi2 = scan->chi2,
                                   .chi2_frequency = scan->chi2_frequency,
                                   .frequencies = scan->nfrequency,
                                   .dof = scan->dof,
                                   .largest = scan->largest,
-                                  .threshold = b->threshold,
-                                  .p_scan = b->p_scan,
-                                  .p_frequency = b->p_frequency,
-                                  .p_total = b->p_total};
-    result->adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
-    result->room = scan->ncandidate + SEARCH_FITS;
-    result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
+                                  .p_frequency = scan_chance_of_frequencies(pool, scan),
+                                  .p_total = scan->dof > 0 ? chi_square_tail(scan->chi2, scan->dof) : 1};
+    result->room = 2 * (scan->ncandidate + SEARCH_FITS);
     result->refit = POOL_ARRAY(pool, struct refit, result->room);
-    if (!result->candidate || !result->refit)
-        return ROTID_ERROR_MEMORY;
-    /* also where nothing is missed: what holds its mesh there saves the search nine tenths of its fit */
-    status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan, engine->notes);
-    engine_step(engine, "scan");
-    if (status)
-        return status;
-    int single = result->adequate ? 0 : choose(scan, b->threshold, result->candidate);
-    status = engine_stage(engine, "fits of candidates", 1);
-    if (!status)
-        status = run_refits(engine, result, single);
-    engine_step(engine, "refits");
-    return status;
-}
-
-int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
-{
-    return fit_singles(engine, round, result);
+    return result->refit ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, struct round_result *result,
@@ -283,15 +200,8 @@ int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, s
     for (int pass = 1; again && !status; pass++) {
         round_free(result);
         again = 0;
-        status = fit_singles(engine, round, result);
-        if (!status && doubt && pass < MOST_PASSES && !result->adequate) {
-            status = far_starts_search(engine, result, &again);
-            engine_step(engine, "far starts");
-            if (!status && again) {
-                status = base_again(engine);
-                continue;
-            }
-        }
+        status = scan_base(engine, round, result);
+        engine_step(engine, "scan");
         if (!status)
             status = posterior_run(engine, result, posterior);
         engine_step(engine, "posterior");

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/fit.h"
 #include "linalg/linalg.h"
 
 #define MOST_PLACES 250  /* along the axis; meshes are rarely finer */
@@ -379,4 +380,35 @@ double scan_best_drop(const struct scan *scan, int candidate)
 {
     const struct scan_candidate *c = &scan->candidate[candidate];
     return c->best < 0 ? c->promise : scan->item[c->best].drop;
+}
+
+int scan_side(const struct scan_item *item)
+{
+    return item->side < 0 || (!item->side && -item->lower > item->upper) ? -1 : 1;
+}
+
+/* The whitened residual of the frequencies alone, free of what is fitted, has the covariance P = I - Q_f Q_f', Q_f the rows of
+ * the basis that are theirs: chi2 of it has the mean tr P and the variance 2 tr P^2, those of g chi2 with h degrees of freedom,
+ * g = tr P^2/tr P, h = (tr P)^2/tr P^2 (Satterthwaite 1946). */
+double scan_chance_of_frequencies(struct pool *pool, const struct scan *scan)
+{
+    int n = scan->nbasis;
+    double *rows = POOL_ARRAY(pool, double, (size_t)scan->nfrequency *(size_t)n),
+           *gram = POOL_ARRAY(pool, double, (size_t)n *(size_t)n), trace = scan->nfrequency, square = trace;
+    if (!rows || !gram)
+        return NAN;
+    for (int b = 0; b < n; b++)
+        for (int i = 0, at = 0; i < scan->nrow; i++)
+            if (scan->is_frequency[i])
+                rows[at++ + (ptrdiff_t)b * scan->nfrequency] = scan->basis[i + (ptrdiff_t)b * scan->nrow];
+    if (n && scan->nfrequency)
+        product_transposed(n, n, scan->nfrequency, rows, rows, gram);
+    for (int b = 0; b < n; b++) {
+        trace -= gram[b + (ptrdiff_t)b * n];
+        square -= 2 * gram[b + (ptrdiff_t)b * n];
+    }
+    square += product_dot(n * n, gram, gram);
+    return trace > INSEPARABLE && square > INSEPARABLE
+               ? chi_square_tail(scan->chi2_frequency * trace / square, trace * trace / square)
+               : 1;
 }

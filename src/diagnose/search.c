@@ -1,9 +1,10 @@
-/* The search for explanations, a beam: the most probable sets that were not expanded yet are scanned for one more cause, each
- * addition is scored by the evidence of its columns, the most promising are fitted, as is the set with one cause less and, where
- * no single cause leaves nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within
- * SEARCH_WITHIN of the best. What was not fitted enters by its columns; widths that are free are integrated at last
- * (over_width.c), places get their intervals (place_interval.c); something else comes beside the likeliest, where it leads beside
- * every single cause. */
+/* The search for explanations, a beam. Where the model does not explain the data the most promising single causes are fitted
+ * first; then the most probable sets that were not expanded yet are scanned for one more cause, each addition is scored by the
+ * evidence of its columns, the most promising are fitted, as is the set with one cause less and, where no single cause leaves
+ * nothing, pairs of columns (scan_pairs.c), and scored by laplace.c, until none is left within SEARCH_WITHIN of the best. Each
+ * place to which the starts of a cause lead is an explanation of its own. What was not fitted enters by its columns; widths that
+ * are free are integrated at last (over_width.c), places get their intervals (place_interval.c); something else comes beside the
+ * likeliest, where it leads beside every single cause. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,8 @@
 #include "diagnose/diagnose.h"
 #include "fit/fit.h"
 
+#define SINGLES    16   /* causes fitted before anything else, */
+#define WORTH      3.0  /* with a promised drop above noise */
 #define FAULTS     24   /* proposed beside a set */
 #define BEAM       4    /* sets expanded in a pass */
 #define FITTED     8    /* fits of a pass, the first three times as many */
@@ -39,8 +42,6 @@ static void take_values(const struct engine *engine, const struct refit *refit, 
     c->result.refitted = 1;
     c->result.chi2 = refit->chi2;
     c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
-    c->other_chi2 = refit->other_chi2;
-    c->other_place = refit->other_place;
     if (candidate_is_fault(c))
         return;
     const struct state *home = &refit->states.state[c->home];
@@ -121,6 +122,13 @@ static int is_inseparable(const struct proposal *p)
 {
     const struct scan_candidate *c = p->candidate < 0 ? NULL : &p->scan->candidate[p->candidate];
     return c && c->count && c->best < 0;
+}
+
+/* A single cause that is fitted whatever it promises: a suspect of the user, or one with a far start. */
+static int is_asked(const struct proposal *p)
+{
+    const struct scan_candidate *c = p->candidate < 0 || p->parent ? NULL : &p->scan->candidate[p->candidate];
+    return c && (c->far || (c->suspect && c->best >= 0));
 }
 
 /* Those that can be fitted before the others. */
@@ -306,7 +314,7 @@ static int refit_set(struct pool *pool, const struct engine *e, const struct exp
     struct states states = e->states;
     rotid_fit_result *fit = NULL;
     int status = states_started_at(pool, &e->states, x, &states);
-    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    *refit = (struct refit){.chi2 = INFINITY};
     for (int m = 0; m < set->nmember && !status; m++) {
         const struct candidate *c = &set->member[m];
         status = states_with_effect(pool, &states, NULL, &c->effect, c->cause, c->fixed, c->in, &states);
@@ -325,24 +333,80 @@ static int fit_task(void *context, int index, int worker)
     const struct proposal *proposal = &t->proposal[index];
     const struct explanation *parent = &t->p->item[proposal->parent];
     const struct states *states = explanation_states(e, parent);
+    struct refit *refit = &t->refit[2 * (ptrdiff_t)index];
     double *deck = POOL_ARRAY(&t->pool[index], double, states->nparameter);
     (void)worker;
     if (!deck)
         return ROTID_ERROR_MEMORY;
     t->data[index] = parent->data;
     if (proposal->candidate == ANEW)
-        return refit_set(&t->pool[index], e, &proposal->set, explanation_fit(e, parent)->x, &t->refit[index]);
+        return refit_set(&t->pool[index], e, &proposal->set, explanation_fit(e, parent)->x, refit);
     if (proposal->candidate == ADDS_FAULT)
         return fault_refit(&t->pool[index], states, e->nown, e->number, e->holdout, explanation_fit(e, parent), e->environment,
-                           &t->proposal[index].set.member[proposal->set.nmember - 1], &t->refit[index], &t->data[index]);
+                           &t->proposal[index].set.member[proposal->set.nmember - 1], refit, &t->data[index]);
     const double *x = explanation_fit(e, parent)->x;
     for (int p = 0; p < states->nparameter; p++)
         deck[p] = p < e->nown ? e->deck_start[p] : x[p];
     return refit_cause(&t->pool[index], states, e->number, e->holdout, x, deck, proposal->scan, proposal->candidate,
-                       e->environment, &t->refit[index]);
+                       e->environment, refit);
 }
 
-/* Fits the first `count` proposals and enters them; the others enter by their columns. */
+/* Whether the place of a cause is within the interval of the other one: fits along a ridge end somewhere on it. A place without
+ * an interval may be anywhere, but at an end of the rotor. */
+static int is_within(const struct posterior *p, const struct candidate *a, const struct candidate *b)
+{
+    int place = b->cause->place;
+    double z_b = b->effect.value[place];
+    int at_end = !(z_b > AT_END * p->length && z_b < (1 - AT_END) * p->length);
+    double z = a->effect.value[place];
+    return isfinite(b->std[place]) ? z > b->ci_lower[place] && z < b->ci_upper[place] : !at_end;
+}
+
+/* The same cause at the same place. */
+static int is_same(const struct posterior *p, const struct candidate *a, const struct candidate *b)
+{
+    return posterior_same_model(a, b) && (posterior_same_name(p, a, b) || is_within(p, a, b) || is_within(p, b, a));
+}
+
+/* The item with the same models at the same places, NULL: none. */
+static struct explanation *find_there(const struct posterior *p, const struct explanation *e)
+{
+    for (int i = 0; i < p->count; i++) {
+        int same = posterior_same_set(&p->item[i], e);
+        for (int m = 0; m < e->nmember && same; m++) {
+            int any = 0;
+            for (int k = 0; k < e->nmember; k++)
+                any |= is_same(p, &p->item[i].member[k], &e->member[m]);
+            same = any;
+        }
+        if (same)
+            return &p->item[i];
+    }
+    return NULL;
+}
+
+/* Enters a set by its fit, from a proposal or NULL, unless it is there with a better one: not in place of one with less chi2, as
+ * a saddle between two places has a wide normal. */
+static int enter(struct engine *engine, struct posterior *p, struct explanation *e, const struct proposal *from)
+{
+    e->evidence = (struct evidence){0};
+    for (int m = 0; m < e->nmember; m++)
+        take_values(engine, e->refit, &e->member[m]);
+    int status = posterior_score(engine, p, NULL, e);
+    if (status)
+        return status;
+    if (from && from->candidate >= 0)
+        prefer_columns(explanation_states(engine, &p->item[from->parent]), from->scan, from->candidate, &p->item[from->parent],
+                       e);
+    struct explanation *known = find_there(p, e), *first = posterior_find(p, e);
+    if (first)
+        first->again = e->again = 1;
+    if (known && e->log_posterior > known->log_posterior && !(known->refit && known->refit->chi2 < e->refit->chi2))
+        *known = *e;
+    return known || posterior_append(p, e) ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Fits the first `count` proposals and enters them. */
 static int fit_proposals(struct engine *engine, struct round_result *result, struct posterior *p, struct proposal *proposal,
                          int count)
 {
@@ -353,35 +417,20 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
                         refit,
                         POOL_ARRAY(engine->pool, struct evidence_data *, count),
                         POOL_ARRAY(engine->pool, struct pool, count)};
-    if (result->nrefit + count > result->room || !task.pool || !task.data)
+    if (result->nrefit + 2 * count > result->room || !task.pool || !task.data)
         return ROTID_ERROR_MEMORY;
-    result->nrefit += count;
+    result->nrefit += 2 * count;
     for (int i = 0; i < count; i++)
         pool_open(&task.pool[i], engine->pool->allocator);
     int status = parallel_for(engine->threads, count, fit_task, &task);
     for (int i = 0; i < count; i++)
         pool_absorb(engine->pool, &task.pool[i]);
-    for (int i = 0; i < count && !status; i++) {
-        struct explanation e = proposal[i].set;
-        if (!refit[i].fit)
-            continue;
+    for (int i = 0; i < 2 * count && !status; i++) {
+        struct explanation e = proposal[i / 2].set;
         e.refit = &refit[i];
-        e.data = task.data[i];
-        e.evidence = (struct evidence){0};
-        for (int m = 0; m < e.nmember; m++)
-            take_values(engine, &refit[i], &e.member[m]);
-        status = posterior_score(engine, p, NULL, &e);
-        if (!status && proposal[i].candidate >= 0)
-            prefer_columns(explanation_states(engine, &p->item[proposal[i].parent]), proposal[i].scan, proposal[i].candidate,
-                           &p->item[proposal[i].parent], &e);
-        struct explanation *known = posterior_find(p, &e);
-        if (known) {
-            known->again = e.again = 1;
-            if (!status && e.log_posterior > known->log_posterior)
-                *known = e;
-        } else if (!status && !posterior_append(p, &e)) {
-            status = ROTID_ERROR_MEMORY;
-        }
+        e.data = task.data[i / 2];
+        if (refit[i].fit)
+            status = enter(engine, p, &e, &proposal[i / 2]);
     }
     return status;
 }
@@ -421,36 +470,6 @@ static int next_parent(const struct engine *engine, const struct posterior *p, i
     return best >= 0 && (p->item[best].log_posterior >= least || (taken < BEAM && !explained)) ? best : -1;
 }
 
-static int enter_singles(struct engine *engine, const struct round_result *result, struct posterior *p)
-{
-    const struct scan *scan = &result->scan;
-    struct explanation e = {.data = p->data};
-    int status = posterior_score(engine, p, NULL, &e);
-    if (!status)
-        posterior_append(p, &e);
-    for (int i = 0; i < result->nrefit && !status; i++) {
-        const struct refit *refit = &result->refit[i];
-        int index = result->candidate[i];
-        if (!refit->fit || is_common(engine, scan, index))
-            continue;
-        struct candidate member = candidate_listed(scan, index);
-        const struct rotor *rotor = &refit->states.state[member.home].job.rotor;
-        if (!member.cause->solid)
-            member.effect.name = rotor->effect[rotor->neffect - 1].name;
-        take_values(engine, refit, &member);
-        if (is_unweighed_accelerometer(&engine->states.state[member.home].job, &member.effect))
-            continue;
-        e = (struct explanation){.nmember = 1, .refit = refit, .data = p->data};
-        e.member[0] = member;
-        status = posterior_score(engine, p, NULL, &e);
-        if (!status)
-            prefer_columns(&engine->states, scan, index, &p->item[0], &e);
-        if (!status && !posterior_find(p, &e))
-            posterior_append(p, &e);
-    }
-    return status;
-}
-
 /* A set that several parents lead to stays once, from where it promises most. Returns how many there are. */
 static int keep_first(struct proposal *proposal, int count)
 {
@@ -463,6 +482,23 @@ static int keep_first(struct proposal *proposal, int count)
             proposal[kept++] = proposal[i];
     }
     return kept;
+}
+
+/* The single causes that promise most, where the model leaves more than noise, and those that are asked for. */
+static int fit_singles(struct engine *engine, struct round_result *result, struct posterior *p)
+{
+    const struct scan *scan = &result->scan;
+    int most = scan->ncandidate, count = 0, kept = 0, explained = explanation_explains(engine, p, &p->item[0]);
+    struct proposal *proposal = POOL_ARRAY(engine->pool, struct proposal, most);
+    int status = proposal ? propose(engine, p, 0, &result->scan, proposal, most, &count) : ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
+    qsort(proposal, (size_t)count, sizeof *proposal, by_gain);
+    for (int i = 0; i < count; i++)
+        if (is_asked(&proposal[i]) || (!explained && kept < SINGLES && scan_best_drop(scan, proposal[i].candidate) >= WORTH &&
+                                       !is_inseparable(&proposal[i])))
+            proposal[kept++] = proposal[i];
+    return fit_proposals(engine, result, p, proposal, kept);
 }
 
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
@@ -640,86 +676,59 @@ static int add_something_else(struct engine *engine, struct posterior *p)
     return status;
 }
 
-/* Whether the place of a cause is within the interval of the other one: fits along a ridge end somewhere on it. A place without
- * an interval may be anywhere, but at an end of the rotor. */
-static int is_within(const struct posterior *p, const struct candidate *a, const struct candidate *b)
-{
-    int place = b->cause->place;
-    double z_b = b->effect.value[place];
-    int at_end = !(z_b > AT_END * p->length && z_b < (1 - AT_END) * p->length);
-    double z = a->effect.value[place];
-    return isfinite(b->std[place]) ? z > b->ci_lower[place] && z < b->ci_upper[place] : !at_end;
-}
-
-/* A set whose cause stands elsewhere, as likely as it may be there: fitted from place z and so many times the size, entered
- * unless another one is there. */
+/* A set whose cause stands elsewhere, as likely as it may be there: fitted from place z and so many times the size. */
 static int enter_at(struct engine *engine, struct round_result *result, struct posterior *p, const struct explanation *from,
                     double z, double factor)
 {
-    struct explanation e = *from, *known = NULL;
+    struct explanation e = *from;
     struct candidate *c = &e.member[0];
     struct refit *refit = &result->refit[result->nrefit];
     if (result->nrefit == result->room)
         return ROTID_OK;
     c->effect.value[c->cause->place] = z;
     c->effect.value[c->cause->size] *= factor;
-    e.evidence = (struct evidence){0};
     e.scan = NULL;
     e.of_columns = 0;
-    int status = refit_set(engine->pool, engine, &e, from->refit->fit->x, refit), better = 0;
+    e.refit = refit;
+    int status = refit_set(engine->pool, engine, &e, from->refit->fit->x, refit);
     if (status || !refit->fit)
         return status;
-    e.refit = refit;
-    take_values(engine, refit, c);
-    status = posterior_score(engine, p, NULL, &e);
-    for (int i = 0; i < p->count && !known && !status; i++)
-        if (p->item[i].nmember == 1 && posterior_same_model(&p->item[i].member[0], c) &&
-            (posterior_same_name(p, &p->item[i].member[0], c) || is_within(p, &p->item[i].member[0], c) ||
-             is_within(p, c, &p->item[i].member[0])))
-            known = &p->item[i];
-    if (known && known->refit)
-        better = e.log_posterior > known->log_posterior && refit->chi2 < known->refit->chi2;
-    else if (!known)
-        better = e.log_posterior > best_stated(p) - SEARCH_WITHIN;
-    if (status || !better) {
-        rotid_fit_free(refit->fit);
-        *refit = (struct refit){0};
-        return status;
-    }
-    result->nrefit++;
-    if (known)
-        *known = e;
-    return known || posterior_append(p, &e) ? ROTID_OK : ROTID_ERROR_MEMORY;
+    status = enter(engine, p, &e, NULL);
+    for (int i = 0; i < p->count && !status; i++)
+        if (p->item[i].refit == refit) {
+            result->nrefit++;
+            return ROTID_OK;
+        }
+    rotid_fit_free(refit->fit);
+    *refit = (struct refit){0};
+    return status;
 }
 
-/* Takes out of set i, whose ln Z is over all places, those that stand in the list of their own from `first` on; what its fit has
- * is left. */
-static void leave_to_others(struct posterior *p, int i, int first)
+/* Takes out of a set whose ln Z is over all places those that stand in the list of their own; what its fit has is left. */
+static void leave_to_others(struct posterior *p, struct explanation *e)
 {
-    struct explanation *e = &p->item[i];
     double others = -INFINITY;
-    for (int k = first; k < p->count; k++)
-        others = log_sum(others, p->item[k].log_posterior);
+    for (int k = 0; k < p->count; k++)
+        if (&p->item[k] != e && p->item[k].refit && posterior_same_set(&p->item[k], e))
+            others = log_sum(others, p->item[k].log_posterior);
     double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY;
-    add_to_evidence(e, fmax(rest, -fmax(0, e->of_columns))); /* 0 where it is that of its fit */
+    add_to_evidence(e, fmax(rest, -fmax(0, e->of_columns)));
+    e->of_columns += fmax(rest, -fmax(0, e->of_columns));
 }
 
-/* By frequencies alone a cause does the same at several places: each of them is an explanation, and none has a part of another
- * place any more. */
+/* By frequencies alone a cause does the same at several places: likely ones are fitted from all over the rotor. */
 static int enter_elsewhere(struct engine *engine, struct round_result *result, struct posterior *p)
 {
     int status = ROTID_OK;
     double best = best_stated(p);
     for (int i = 0, listed = p->data->nblock || engine->job->options.solid ? 0 : p->count; i < listed; i++) {
         const struct explanation from = p->item[i];
-        int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1, first = p->count;
+        int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1;
         if (place < 0 || from.member[0].fixed[place] || from.log_posterior < best - SEARCH_WITHIN)
             continue;
         const struct state *home = &from.refit->states.state[from.member[0].home];
         int q = effect_unknown(home, effect_named(home, from.member[0].effect.name), place),
             decades = from.member[0].cause->parameter[from.member[0].cause->size].prior == PRIOR_LOG_FLAT;
-        add_to_evidence(&p->item[i], -evidence_of_other_place(from.refit));
-        p->item[i].member[0].other_place = p->item[i].member[0].other_chi2 = NAN;
         for (int k = 0; k < ELSEWHERE && q >= 0 && !status; k++)
             for (int times = -decades; times <= decades && !status; times++) {
                 const rotid_parameter *bounds = &from.refit->states.bounds[q];
@@ -729,26 +738,33 @@ static int enter_elsewhere(struct engine *engine, struct round_result *result, s
             }
         if (status)
             return status;
-        leave_to_others(p, i, first);
     }
     return ROTID_OK;
 }
 
 int search_run(struct engine *engine, struct round_result *result, struct posterior *p)
 {
-    int more = 1, status = enter_singles(engine, result, p);
+    struct explanation nothing = {.data = p->data};
+    int more = 1, status = engine_stage(engine, "fits of candidates", 1);
+    if (!status)
+        status = posterior_score(engine, p, NULL, &nothing);
+    if (!status)
+        posterior_append(p, &nothing);
+    if (!status)
+        status = fit_singles(engine, result, p);
     for (int pass = 0; pass < SEARCH_PASSES && more && !status; pass++) {
         status = engine_stage(engine, "search of explanations, pass", pass + 1);
         if (!status)
             status = expand(engine, result, p, pass, &more);
     }
-    if (status)
-        return status;
-    status = enter_elsewhere(engine, result, p);
-    if (status)
-        return status;
+    if (!status)
+        status = enter_elsewhere(engine, result, p);
+    for (int i = 0; i < p->count && !status; i++)
+        if (p->item[i].of_columns > 0)
+            leave_to_others(p, &p->item[i]);
     posterior_sort(p);
-    status = integrate_widths(engine, p);
+    if (!status)
+        status = integrate_widths(engine, p);
     posterior_sort(p);
     if (!status)
         status = find_places(engine, p);

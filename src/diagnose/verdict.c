@@ -1,6 +1,6 @@
 /* The verdict: UNEXPLAINED: something else above one half; NAMED: marginals of VERDICT_NAMED and more, placed in one interval, in
  * the model that has nothing else or, where that is next to excluded, in the likeliest one; ADEQUATE: nothing leads, no cause
- * above HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS. */
+ * above VERDICT_HARMLESS, the odds of the rest less than ODDS times those before; else AMBIGUOUS. */
 #include <math.h>
 #include <string.h>
 
@@ -9,17 +9,14 @@
 #include "fit/fit.h"
 
 #define LISTED_SHARE 0.99
-#define HARMLESS     0.2  /* a cause below it is none */
 #define ODDS         3.0  /* of anything over nothing, times those before */
 #define EXCLUDED     0.05 /* of the probability of another explanation */
 
 /* Whether nearly all of the place lies in one interval, that of its profile. */
-static int is_placed(const struct posterior *p, const struct explanation *e, const struct candidate *c)
+static int is_placed(const struct posterior *p, const struct candidate *c)
 {
     int place = c->cause->place;
-    return place < 0 || c->fixed[place] ||
-           !(e->refit->other_chi2 - e->refit->chi2 < 6 ||
-             c->ci_upper[place] - c->ci_lower[place] >= 2 * POSTERIOR_NEAR * p->length);
+    return place < 0 || c->fixed[place] || !(c->ci_upper[place] - c->ci_lower[place] >= 2 * POSTERIOR_NEAR * p->length);
 }
 
 /* The likeliest explanation with a fit that has all of these, and no more where `only`; physical ones beside no fault. */
@@ -61,7 +58,7 @@ static int choose_names(const struct posterior *p, struct candidate *named)
             m++;
         if (!with || m == with->nmember)
             continue;
-        if (is_placed(p, with, &with->member[m]))
+        if (is_placed(p, &with->member[m]))
             named[count++] = with->member[m];
     }
     return count;
@@ -204,8 +201,8 @@ int posterior_kind(double something_else, int named, int nothing_leads, double l
         return ROTID_UNEXPLAINED;
     if (named)
         return ROTID_NAMED;
-    return nothing_leads && largest <= HARMLESS && (1 - nothing) / nothing < ODDS * (1 - prior) / prior ? ROTID_ADEQUATE
-                                                                                                        : ROTID_AMBIGUOUS;
+    return nothing_leads && largest <= VERDICT_HARMLESS && (1 - nothing) / nothing < ODDS * (1 - prior) / prior ? ROTID_ADEQUATE
+                                                                                                                : ROTID_AMBIGUOUS;
 }
 
 int posterior_verdict(struct engine *engine, struct posterior *p)

@@ -147,8 +147,8 @@ double quantile_student_95(int dof);
 /* The t with P(|T| > t) = outside, 0 < outside < 1, dof >= 1. */
 double quantile_student(double outside, int dof);
 
-/* P(chi2 >= x) with dof >= 1 degrees of freedom. */
-double chi_square_tail(double x, int dof);
+/* P(chi2 >= x) with dof > 0 degrees of freedom, which need not be whole. */
+double chi_square_tail(double x, double dof);
 
 /* The x with P(chi2 > x) = outside, 0 < outside < 1, dof >= 1. */
 double chi_square_limit(double outside, int dof);

@@ -44,13 +44,13 @@ static double incomplete_beta(double a, double b, double x)
     return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a : 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-static double student_tail(double t, int dof)
+static double student_tail(double t, double dof)
 {
     return incomplete_beta(0.5 * dof, 0.5, dof / (dof + t * t));
 }
 
 /* The x at which a falling tail has come down to `outside`, by bisection. */
-static double limit_of(double (*tail)(double x, int dof), double outside, int dof)
+static double limit_of(double (*tail)(double x, double dof), double outside, int dof)
 {
     double low = 0, high = 1;
     while (tail(high, dof) > outside && high < 1e100)
@@ -73,7 +73,7 @@ double quantile_student_95(int dof)
 }
 
 /* Series below the mean, continued fraction above it (Abramowitz and Stegun 6.5.29, 6.5.31). */
-double chi_square_tail(double x, int dof)
+double chi_square_tail(double x, double dof)
 {
     double a = 0.5 * dof, y = 0.5 * x;
     if (isnan(y))

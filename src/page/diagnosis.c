@@ -84,11 +84,9 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
                     "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, "
                     "where a correct model has about %d.",
                     words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof);
-    if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
-        reasons_add(reasons, TONE_NONE,
-                    "No cause of the catalogue is expected to lower it by more than %s; chance alone reaches %s in 3 of "
-                    "100 tests.",
-                    human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2));
+    if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest))
+        reasons_add(reasons, TONE_NONE, "No cause of the catalogue is expected to lower it by more than %s.",
+                    human_digits(pool, round->largest, 2));
     if (assumed)
         reasons_add(reasons, TONE_NONE,
                     "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
@@ -331,10 +329,8 @@ static void section_evidence(struct document *document, const rotid_diagnosis *d
         const rotid_candidate *candidate = diagnosis_candidates(d, i, &count);
         for (int k = 0; k < count; k++)
             fitted += candidate[k].refitted;
-        document_paragraph(document, "The misfit \xcf\x87\xc2\xb2 of the model without causes is %s%s%s%s.",
-                           human_digits(pool, round->chi2, 4), isfinite(round->threshold) ? "; chance alone lowers it by " : "",
-                           isfinite(round->threshold) ? human_digits(pool, round->threshold, 3) : "",
-                           isfinite(round->threshold) ? " in 3 of 100 tests" : "");
+        document_paragraph(document, "The misfit \xcf\x87\xc2\xb2 of the model without causes is %s.",
+                           human_digits(pool, round->chi2, 4));
         if (!fitted) {
             document_paragraph(document, "No cause was likely enough to be fitted.");
             continue;

@@ -842,10 +842,10 @@
       const title = stay.length && stay[0].fate === 'named' ? `${names[0]} lowers the misfit by ${num(stay[0].chi2_drop, 3)} of ${num(round.chi2, 3)}`
         : stay.length ? `${stay.length} ${stay.length === 1 ? 'cause' : 'causes'} cannot be told apart: ${names.slice(0, 3).join('; ')}${names.length > 3 ? '; \u2026' : ''}`
           : `None of ${list.length} single causes that were fitted is likely`;
-      const columns = [{ label: 'drop of the misfit \u03c7\u00b2', domain: padded(list.map((c) => Math.max(c.chi2_drop, 0)).concat(known(round.threshold) ? round.threshold : 0), 0.04, true), head: ['drop of the misfit', 'what became of it'], value: (c) => [c.chi2_drop, c.fate],
-        draw: (c, x, y, content) => { bar(content, x(0), x(Math.max(c.chi2_drop, 0)), y, tint(c)); if (known(round.threshold)) content.append(line(x(round.threshold), y - 10, x(round.threshold), y + 10, 'vermilion', { 'stroke-dasharray': '3 2' })); } }];
+      const columns = [{ label: 'drop of the misfit \u03c7\u00b2', domain: padded(list.map((c) => Math.max(c.chi2_drop, 0)).concat(0), 0.04, true), head: ['drop of the misfit', 'what became of it'], value: (c) => [c.chi2_drop, c.fate],
+        draw: (c, x, y, content) => bar(content, x(0), x(Math.max(c.chi2_drop, 0)), y, tint(c)) }];
       if (out) columns.push({ label: out[1], domain: padded(list.map((c) => c[out[0]]), 0.06, true), value: (c) => c[out[0]], draw: (c, x, y, content) => known(c[out[0]]) && dot(content, x(c[out[0]]), y, tint(c) === 'steel' ? 'muted' : tint(c)) });
-      return rows({ id: `causes-${round.round}`, title, caption: `Causes that were fitted${all.length > list.length ? `; ${all.length - list.length} more in the table` : ''}. Red: what chance alone reaches in 3 of 100 tests.${out ? ' The longest bar need not win: the right panel is the error on data that were not fitted.' : ''}`,
+      return rows({ id: `causes-${round.round}`, title, caption: `Causes that were fitted${all.length > list.length ? `; ${all.length - list.length} more in the table` : ''}.${out ? ' The longest bar need not win: the right panel is the error on data that were not fitted.' : ''}`,
         legend: [['named', 'green', 'face'], ['possible', 'ochre', 'face'], ['unlikely', 'steel', 'face']].filter(([, own]) => list.some((c) => tint(c) === own)) }, list.map((c) => ({ ...c, name: c.label, strong: stay.includes(c) })), columns);
     });
   }

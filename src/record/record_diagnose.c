@@ -87,8 +87,8 @@ PART_TABLE(round_record, rotid_round) = {
     KEYS(rotid_round, MAY_BE_NULL, chi2, chi2_frequency),
     INTEGER(rotid_round, dof, 0),
     INTEGER(rotid_round, frequencies, FROM_0),
-    KEYS(rotid_round, MAY_BE_NULL, largest, threshold),
-    KEYS(rotid_round, MAY_BE_NULL | PROBABILITY, p_scan, p_frequency, p_total),
+    KEYS(rotid_round, MAY_BE_NULL, largest),
+    KEYS(rotid_round, MAY_BE_NULL | PROBABILITY, p_frequency, p_total),
     {0},
 };
 

@@ -440,10 +440,9 @@ static void print_round(const struct screen *to, const rotid_diagnosis *d, int n
     struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
     if (isfinite(round->chi2))
         wrap_item(&wrap, "chi2 %.4g of %d degrees of freedom", round->chi2, round->dof);
-    if (isfinite(round->largest) && isfinite(round->threshold))
-        wrap_item(&wrap, "; expected drop %.3g (noise: %.3g)", round->largest, round->threshold);
-    print_chance(&wrap, "; p-value of that drop", round->p_scan);
-    print_chance(&wrap, ", of the frequencies", round->p_frequency);
+    if (isfinite(round->largest))
+        wrap_item(&wrap, "; expected drop %.3g", round->largest);
+    print_chance(&wrap, "; p-value of the frequencies", round->p_frequency);
     print_chance(&wrap, ", of chi2", round->p_total);
     wrap_close(&wrap);
     table_write_text(to->out, table_of_candidates(to->pool, d, number, to->verbose), to->width);
@@ -675,7 +674,7 @@ static void print_gain(const struct screen *to, const rotid_diagnosis *d)
 static void print_detection_limits(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->ndetectable)
-        (void)fprintf(to->out, "\nDETECTION LIMITS  smallest effect that is detected (9 tests in 10, false alarms 3 %%)\n");
+        (void)fprintf(to->out, "\nDETECTION LIMITS  smallest effect that is detected in 9 tests of 10\n");
     table_write_text(to->out, table_of_detectable(to->pool, d->ndetectable, d->detectable, ""), to->width);
 }
 

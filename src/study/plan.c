@@ -56,7 +56,6 @@ static void read_study(struct plan_reader *reader, const struct card *card)
         plan->seed = (unsigned long)number;
     if (plan->baseline)
         of_command(reader, card_option(card, "BASELINE"), PLAN_IDENTIFY);
-    of_command(reader, card_option(card, "BOOTSTRAP"), PLAN_DIAGNOSE);
     of_command(reader, card_option(card, "DRAWS"), PLAN_SPEEDS);
 }
 
@@ -235,7 +234,6 @@ static const struct deck_row study_rows[] = {
     OTHER("SEED", ),
     {.option = "REPLICATES", WHOLE(struct plan, replicates, ""), FROM_TO(1, MOST_REPLICATES), OPTIONAL},
     {.option = "BASELINE", WORD(struct plan, baseline, deck_answers)},
-    {.option = "BOOTSTRAP", WHOLE(struct plan, bootstrap, ""), FROM_TO(100, 1000000), OPTIONAL},
     {.option = "DRAWS", WHOLE(struct plan, draws, ""), FROM_TO(0, 1000000), OPTIONAL},
     LAST};
 static const struct deck_row data_rows[] = {{.option = "SOURCE", WORD(struct plan, from_model, sources)},

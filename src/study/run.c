@@ -279,7 +279,7 @@ static int identify(struct work *w)
 
 static int diagnose(struct work *w)
 {
-    const struct diagnose_options options = {.threads = 1, .seed = w->study->seed, .replicates = w->study->plan->bootstrap};
+    const struct diagnose_options options = {.threads = 1};
     struct diagnosis *d = &w->diagnosis;
     struct states states = w->experiment.states;
     if (w->study->plan->from_model) /* which makes no run-up */

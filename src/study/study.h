@@ -91,7 +91,7 @@ struct plan {
     struct deck_text text;
     enum plan_command command;
     unsigned long seed;
-    int replicates, baseline, bootstrap; /* bootstrap: replicates inside a diagnosis, 0: its own choice */
+    int replicates, baseline;
     int draws;                           /* of the bands of critical speeds */
     struct {
         int count; /* at least one */

@@ -290,7 +290,7 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
 {
     struct pool *pool = p->pool;
     struct diagnosis *found = POOL_NEW(pool, struct diagnosis);
-    struct round_result last = {0};
+    struct scan scan = {0};
     struct job test;
     struct state state;
     double *z = POOL_ARRAY(pool, double, p->places->n);
@@ -310,16 +310,13 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
         status = planned_weigh(pool, job, x, &test);
     struct states states = states_of(&test, &state);
     if (!status)
-        status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, SCAN_ALL, &last.scan);
-    if (status || last.scan.dof < 1)
+        status = scan_run(pool, &states, test.measurement.number, test.measurement.holdout, x, SCAN_ALL, &scan);
+    if (status || scan.dof < 1)
         return status;
-    status = bootstrap_run(pool, &last.scan, request->replicates, request->seed, request->threads, request->environment,
-                           &last.bootstrap);
     struct engine engine = {.pool = pool, .out = found};
+    status = engine_take_states(&engine, &states);
     if (!status)
-        status = engine_take_states(&engine, &states);
-    if (!status)
-        status = detectable_sizes(&engine, &last);
+        status = detectable_sizes(&engine, &scan);
     p->out->ndetectable = found->result.ndetectable;
     p->out->detectable = found->result.detectable;
     return status;
@@ -506,7 +503,6 @@ static const char *advice_sentence(struct pool *pool, const struct suggestion *s
 #define SET_UP_COST     20.0  /* points: an hour beside some minutes each */
 #define SENSORS         8
 #define MODES           5
-#define REPLICATES      1000
 
 /* Median of those that are finite; 0 without any. */
 static double median(struct pool *pool, ptrdiff_t n, const double *value)
@@ -539,7 +535,6 @@ static void settle(struct pool *pool, const struct job *job, rotid_suggest_optio
     o->sensors = o->sensors > 0 ? o->sensors : job->rotor.nsensor ? job->rotor.nsensor : SENSORS;
     o->modes = o->modes > 0 ? o->modes : fitted > 1 ? fitted : MODES;
     o->threads = o->threads > 0 ? o->threads : 1;
-    o->replicates = o->replicates > 0 ? o->replicates : REPLICATES;
     o->seed = o->seed > 0 ? o->seed : 1;
 }
 
@@ -586,7 +581,7 @@ static int take_starts(struct pool *pool, const struct states *states, struct su
 static int take_diagnosis(struct pool *pool, const struct states *states, const rotid_suggest_options *o,
                           const rotid_environment *environment, struct message_list *notes, struct suggestion *out)
 {
-    const struct diagnose_options options = {.threads = o->threads, .replicates = o->replicates, .seed = (unsigned long)o->seed};
+    const struct diagnose_options options = {.threads = o->threads};
     int status = diagnose_states(pool, states, &options, environment, notes, &out->found);
     if (!status && out->found.result.interrupted)
         return ROTID_STOP_CANCELLED;
@@ -601,7 +596,7 @@ static int take_diagnosis(struct pool *pool, const struct states *states, const 
     out->result.ndetectable = d->result.ndetectable;
     out->result.detectable = d->result.detectable;
     if (!status)
-        status = rivals_find(pool, d, environment, &out->rivals);
+        status = rivals_find(pool, d, &out->rivals);
     for (int i = 0; i < out->rivals.n; i++) {
         struct rival *rival = &out->rivals.rival[i];
         for (int s = 0; s < states->nstate; s++)
@@ -673,11 +668,7 @@ static int run(struct pool *pool, const struct states *states, rotid_suggest_opt
                                          .wanted_percent = o->wanted_percent,
                                          .sensors = o->sensors,
                                          .modes = o->modes,
-                                         .detect = !measured,
-                                         .threads = o->threads,
-                                         .replicates = o->replicates,
-                                         .seed = (unsigned long)o->seed,
-                                         .environment = environment};
+                                         .detect = !measured};
     first = POOL_ARRAY(pool, int, places.n);
     status = first ? plan_run(pool, &out->job, out->x, &places, &request, r, first) : ROTID_ERROR_MEMORY;
     if (!status)
@@ -719,6 +710,5 @@ int suggest_states(struct pool *pool, const struct states *states, const rotid_s
 
 void suggest_free(struct suggestion *out)
 {
-    rivals_free(&out->rivals);
     diagnose_free(&out->found);
 }

@@ -7,7 +7,7 @@
  *   entrance     suggest.c (suggest_states): diagnosis of what is measured, rivals, plan, tests
  *   plan         suggest.c (plan_design): columns of sensitivities at all places; design.c (design_choose): greedy choice and
  *                exchanges on ln det(P + G) + mean ln(1 + q_t); effective_independence; design_half_widths: 196 sqrt((G^-1)_pp) %
- *   rivals       rivals.c (rivals_find): alternatives of the diagnosis, each fitted anew; rival_gram: J'J
+ *   rivals       rivals.c (rivals_find): alternatives of the diagnosis; rival_gram: J'J
  *   tests        tests.c (test_apply): mass added, supports stiffer, softer or moved, more modes or sensors; planned.c
  *                (planned_measure): the modes of a model as noise-free measurements of a test
  *   margin       margin.c (margin_judge): lead of a over b, M_b = score_b - score_a + Q_b(w - d_b) - Q_a(w) with
@@ -37,7 +37,7 @@ struct rival {
     int home;                      /* the state that tests are made like */
     struct job job;                /* that one */
     const double *x;               /* [job.unknowns.nparameter] the fitted values that it has */
-    rotid_fit_result *fit;         /* to what was measured in all states */
+    const rotid_fit_result *fit;   /* to what was measured in all states */
     double score, share;           /* as in rotid.h */
 };
 
@@ -52,12 +52,11 @@ struct rivals {
     double among;  /* how likely the true one is one of them, by what is measured */
 };
 
-/* What a diagnosis leaves as alternatives, beside the causes that it names, each fitted anew: n is 0 where it leaves none that is
- * a model. The fits are to be freed with rivals_free. Statuses of the fits. */
-int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals);
+/* What a diagnosis leaves as alternatives, each by its fit there: n is 0 where it leaves none that is a model. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int rivals_find(struct pool *pool, const struct diagnosis *d, struct rivals *rivals);
 /* The state that tests are made like: that of the most fitted data. */
 int rivals_home(const struct states *states);
-void rivals_free(struct rivals *rivals);
 
 /* Which unknown of the state `home` unknown p of all is, -1: that state does not have it. */
 int rival_own(const struct rival *rival, int p);
@@ -238,9 +237,6 @@ struct plan_request {
     double wanted_percent;
     int sensors, modes; /* of a plan */
     int detect;         /* fill the detection limits as well */
-    int threads, replicates;
-    unsigned long seed;
-    const rotid_environment *environment;
 };
 
 /* The tests worth a thought for the rivals of a diagnosis, each judged. Fills tests, in the order of their rank, rivals' margins

@@ -418,7 +418,7 @@ contains
     end if
     call rotid_free(found)
     environment%cancelled = c_funloc(stop_at_once)
-    status = rotid_diagnose_deck(deck, diagnosis, options=rotid_diagnose_options(replicates=20, seed=3), environment=environment, &
+    status = rotid_diagnose_deck(deck, diagnosis, options=rotid_diagnose_options(threads=1), environment=environment, &
                                  failure=failure)
     call check(status == ROTID_OK .and. associated(diagnosis), 'a diagnosis')
     if (associated(diagnosis)) call check(diagnosis%interrupted /= 0, 'that it was interrupted')

@@ -1,4 +1,4 @@
-"""A diagnosis of the paper's rotor (175 elements, 68 sensors, 6 modes, the whole catalogue, 1000 replicates) with a soft zone hidden
+"""A diagnosis of the paper's rotor (175 elements, 68 sensors, 6 modes, the whole catalogue) with a soft zone hidden
 in its core: seconds on one and on two threads, the share of each step, and the time beside that of one identification in the same
 run. Arguments: program, generator, folder."""
 import json

@@ -74,10 +74,6 @@ def per_evaluation(path):
     return median_of_calls("joint_residual", path) + median_of_calls("joint_jacobian", path)
 
 
-def diagnosis(path, replicates):
-    return callgrind([], "diagnose", path, "--threads", 1, "--replicates", replicates)
-
-
 SIZES = {
     "elements": (lambda n: deck("elements", elements=n), 400, 3200),
     "sensors": (lambda n: deck("sensors", elements=400, sensors=n, shapes=True), 25, 200),
@@ -89,7 +85,7 @@ SIZES = {
 
 def main():
     failed = 0
-    print("instructions of an evaluation of a fit and its Jacobian; of a diagnosis beside one with ten replicates")
+    print("instructions of an evaluation of a fit and its Jacobian")
     print(f"{'growth of an evaluation in':30}{'from':>8}{'to':>8}{'M instructions':>20}{'exponent':>18}")
     for name, (make, low, high) in SIZES.items():
         try:
@@ -107,12 +103,6 @@ def main():
         over = exponent > MOST.get(name, 1.1)
         print(f"{name:30}{low:8d}{high:8d}{work[0] / 1e6:10.2f}{work[2] / 1e6:10.2f}{exponent:10.2f}{'  above what is asked' if over else ''}",
               flush=True)
-    # what the replicates add to a diagnosis
-    path, low, high = deck("replicates", elements=100), 500, 4000
-    without, few, many = (diagnosis(path, n) for n in (10, low, high))
-    exponent = math.log((many - without) / (few - without)) / math.log(high / low)
-    print(f"{'replicates':30}{low:8d}{high:8d}{(few - without) / 1e6:10.2f}{(many - without) / 1e6:10.2f}{exponent:10.2f}"
-          f"{'  above what is asked' if exponent > 1.1 else ''}")
     return failed > 0
 
 

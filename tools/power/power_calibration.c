@@ -204,10 +204,10 @@ static void compare(const struct posterior *p, const struct explanation *truth, 
     }
 }
 
-static int diagnose(struct pool *pool, const struct power_case *c, const struct prior_case *made,
-                    const rotid_environment *environment, struct diagnosis *d, struct message_list *messages)
+static int diagnose(struct pool *pool, const struct prior_case *made, const rotid_environment *environment, struct diagnosis *d,
+                    struct message_list *messages)
 {
-    const struct diagnose_options options = {.threads = 1, .seed = (unsigned long)c->hidden.request.seed + 1};
+    const struct diagnose_options options = {.threads = 1};
     const struct deck_memory memory = {"prior", strlen(made->deck.data), made->deck.data, NULL};
     struct states states;
     int status = deck_read_states(pool, "prior", &memory, 0, NULL, messages, &states);
@@ -253,7 +253,7 @@ static int run_case(void *context, int index, int worker)
         power_keep(&options, "prior", c.hidden.number, made.deck.data);
     *item = (struct calibrated){.draws = made.draws};
     if (!status)
-        status = diagnose(&pool, &c, &made, &environment, &d, &messages);
+        status = diagnose(&pool, &made, &environment, &d, &messages);
     int diagnosed = !status, interrupted = diagnosed && d.result.interrupted;
     const char *failure = status ? rotid_status_name(status) : NULL;
     for (size_t i = 0; i < messages.count && status; i++)

@@ -86,7 +86,7 @@ static double worth(const struct hide_request *r, const cJSON *truth)
 
 static int diagnose(const char *text, const cJSON *truth, const rotid_environment *environment, int quiet, struct pair *pair)
 {
-    const struct diagnose_options options = {.threads = 1, .seed = 1, .before = "before", .after = "after"};
+    const struct diagnose_options options = {.threads = 1, .before = "before", .after = "after"};
     const struct deck_memory memory = {"pair", strlen(text), text, NULL};
     struct message_list messages;
     struct hidden_score score = hidden_score_none();

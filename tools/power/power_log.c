@@ -50,8 +50,6 @@ static cJSON *round_line(const struct diagnosis_round *r)
     add_number(o, "chi2", r->result.chi2);
     add_number(o, "dof", r->result.dof);
     add_number(o, "largest", r->result.largest);
-    add_number(o, "threshold", r->result.threshold);
-    add_number(o, "p_scan", r->result.p_scan);
     add_number(o, "p_frequency", r->result.p_frequency);
     add_number(o, "p_total", r->result.p_total);
     cJSON_AddItemToObject(o, "candidate", candidates(r->ncandidate, r->candidate));

@@ -104,7 +104,7 @@ static const char *measure(struct pool *pool, const struct suggestion *s, const 
 /* The verdict of both states together. deck: of the first */
 static int judge(struct promises *run, const char *deck, const char *state, const cJSON *truth, struct follow_up *made)
 {
-    const struct diagnose_options options = {.threads = 1, .seed = 1, .replicates = REPLICATES};
+    const struct diagnose_options options = {.threads = 1};
     const rotid_environment environment = {
         .size = sizeof environment, .cancelled = power_interrupted, .context = (void *)run->interrupted};
     struct message_list messages;
@@ -256,7 +256,7 @@ static int take_line(void *context, const cJSON *line)
 static int run_case(void *context, int index, int worker)
 {
     struct promises *run = context;
-    const rotid_suggest_options options = {.size = sizeof options, .replicates = REPLICATES};
+    const rotid_suggest_options options = {.size = sizeof options};
     const rotid_environment environment = {
         .size = sizeof environment, .cancelled = power_interrupted, .context = (void *)run->interrupted};
     struct followed *f = &run->followed[index];
