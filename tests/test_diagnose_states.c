@@ -41,8 +41,7 @@ static struct hide_request request(int modes, int sensors, unsigned seed)
 static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidden_state *state, const char *set,
                                  const char *before, const char *after)
 {
-    const rotid_diagnose_options options = {
-        .size = sizeof options, .threads = 2, .before = before, .after = after};
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2, .before = before, .after = after};
     char message[300], failure[ROTID_FAILURE_LENGTH], *text = hidden_states_deck(r, 2, state, NULL, message, sizeof message);
     rotid_diagnosis *d;
     if (!text)
@@ -314,7 +313,7 @@ static void read_changed(const char *text, struct states *read, struct job *out)
 POOL_TEST(data_are_corrected_by_what_the_first_state_shows)
 {
     enum { MODES = 4, SENSORS = 7 };
-    static const char *const dense[] = {"density:group=left,factor=1.1"};
+    static const char *const dense[] = {"joint:at=core.end,flexibility=3e-9", "density:group=left,factor=1.1"};
     static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
     const struct hide_request r = request(MODES, SENSORS, 1300);
     char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
@@ -366,8 +365,8 @@ POOL_TEST(a_shared_unknown_is_held_in_every_group)
 POOL_TEST(what_a_mode_has_moved_widens_its_noise)
 {
     enum { MODES = 4 };
-    static const char *const dense[] = {"density:group=left,factor=1.1"};
-    static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", DISC, 1, dense}};
+    static const char *const dense[] = {"joint:at=core.end,flexibility=3e-9", "density:group=left,factor=1.1"};
+    static const struct hidden_state states[] = {{"before", "", 2, dense}, {"after", DISC, 2, dense}};
     const struct hide_request r = request(MODES, 0, 1400);
     char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
     struct states read;

@@ -22,8 +22,7 @@ static void diagnose(const char *arguments, const char *name)
 {
     if (page_exists(name))
         return;
-    assert_int_equal(
-        page_run("cd %s; %s diagnose %s --quiet --json %s", page_path(""), ROTID_PROGRAM, arguments, name), 0);
+    assert_int_equal(page_run("cd %s; %s diagnose %s --quiet --json %s", page_path(""), ROTID_PROGRAM, arguments, name), 0);
 }
 
 static int open_bench(void **state)
@@ -142,9 +141,7 @@ POOL_TEST(what_nothing_explains_says_so)
 /* The extended deck of a diagnosis, with two sensors exchanged by a card that would put an exchange right. */
 UNIT_TEST(an_adequate_model_and_a_fault_of_the_data_are_told_apart)
 {
-    assert_int_equal(
-        page_run("cd %s; %s diagnose %s --quiet --extended better.inp", page_path(""), ROTID_PROGRAM, RINGED),
-        0);
+    assert_int_equal(page_run("cd %s; %s diagnose %s --quiet --extended better.inp", page_path(""), ROTID_PROGRAM, RINGED), 0);
     page_write_file("swapped.inp", "*INCLUDE, FILE=better.inp\n*CAUSE, NAME=cables, TYPE=sensor_swap, SENSOR=\"23,30\"\n");
     diagnose("better.inp", "adequate.json");
     cJSON *json = page_json("adequate.json");

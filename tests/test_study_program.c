@@ -108,7 +108,7 @@ UNIT_TEST(nothing_is_lost_by_kill_9)
 
 /* A plan of diagnoses takes long enough for somebody to step in. */
 #define SLOW                                                                                                                     \
-    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=4\n*DECKS\n" ROTID_SOURCE_DIR                                           \
+    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=4\n*DECKS\n" ROTID_SOURCE_DIR                                                          \
     "/input/solid_rotor.inp\n*DATA, SOURCE=MODEL\n*SENSORS\nEVERY, 6\n*NOISE\n0.001, 0.01\n"
 
 static int wait_for_children(pid_t process, int wanted, pid_t *child)

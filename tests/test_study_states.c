@@ -137,9 +137,8 @@ POOL_TEST(a_run_names_the_state_of_its_modes)
 POOL_TEST(all_states_are_diagnosed_together)
 {
     static const char *const fit[] = {"", "*FIT, HOLDOUT=STATE:disc\n"};
-    static const char plan[] =
-        "*STUDY, COMMAND=DIAGNOSE\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
-        "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
+    static const char plan[] = "*STUDY, COMMAND=DIAGNOSE\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
+                               "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
     for (int held = 0; held < 2; held++) {
         struct message_list messages;
         char *text;

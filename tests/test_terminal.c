@@ -204,9 +204,8 @@ FIXTURE_TEST(a_deck_may_come_from_standard_input, setup, teardown)
     write_file("a.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
                         "1, 0.1, 0, 20\n** of today\n*MODES, FILE=modes.csv\n*NOISE, FREQUENCY=0.002\n"
                         "*IDENTIFY\nbar.E, 1e11, 4e11, 2e11\n");
-    assert_int_equal(shell_code(&test_pool, &output, "cd %s && %s diagnose - --quiet --extended b.inp < a.inp",
-                                folder, ROTID_PROGRAM),
-                     0);
+    assert_int_equal(
+        shell_code(&test_pool, &output, "cd %s && %s diagnose - --quiet --extended b.inp < a.inp", folder, ROTID_PROGRAM), 0);
     (void)read_file("b.inp", text, sizeof text);
     assert_non_null(strstr(text, "** of today\n*MODES, FILE=modes.csv\n"));
     assert_non_null(strstr(text, "from -, verdict"));

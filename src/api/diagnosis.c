@@ -45,9 +45,7 @@ static int take_options(const rotid_diagnose_options *given, char *failure, stru
     if (!o.before != !o.after)
         return refuse(failure, "options->%s is NULL, expected the name of a state as well as in options->%s",
                       o.before ? "after" : "before", o.before ? "before" : "after");
-    *options = (struct diagnose_options){.threads = o.threads ? o.threads : 1,
-                                         .before = o.before,
-                                         .after = o.after};
+    *options = (struct diagnose_options){.threads = o.threads ? o.threads : 1, .before = o.before, .after = o.after};
     if (options->threads > PARALLEL_MOST)
         options->threads = PARALLEL_MOST;
     return ROTID_OK;
@@ -70,11 +68,12 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
                              &call->environment, &call->notes, &d);
     if (status)
         return status;
-    *result = make_result(call, states, &d);
+    *result = make_result(call, states, &d); /* which takes the three fits over */
     if (*result)
-        return ROTID_OK;
-    diagnose_free(&d);
-    return ROTID_ERROR_MEMORY;
+        round_free(d.last);
+    else
+        diagnose_free(&d);
+    return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,

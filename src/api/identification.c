@@ -18,8 +18,7 @@ static int find_hidden(struct call *call, const struct states *states, const str
         for (int k = 0; k < job->measurement.nmode && usable; k++)
             number[at++] = found[s].compared.number[k];
     }
-    int status =
-        usable ? hidden_of_fit(pool, states, found, number, fit, &out->nhidden, &out->hidden) : ROTID_OK;
+    int status = usable ? hidden_of_fit(pool, states, found, number, fit, &out->nhidden, &out->hidden) : ROTID_OK;
     if (status)
         out->nhidden = 0;
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;

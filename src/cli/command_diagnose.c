@@ -36,8 +36,7 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
 int command_diagnose(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
-    rotid_diagnose_options options = {
-        .size = sizeof options, .threads = command->threads};
+    rotid_diagnose_options options = {.size = sizeof options, .threads = command->threads};
     const char *comma = command->changed ? strchr(command->changed, ',') : NULL;
     if (comma) {
         options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);

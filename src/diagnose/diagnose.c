@@ -67,7 +67,9 @@ static int imitate(struct pool *pool, const struct job *job, const struct diagno
     }
     round_free(&result);
     models_end_run(pool, judged.models, job->models);
-    rotid_fit_free(engine.fit);
+    if (engine.fit != scratch.base.fit)
+        rotid_fit_free(engine.fit);
+    rotid_fit_free(scratch.base.fit);
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
@@ -597,8 +599,7 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
 
 void diagnose_free(struct diagnosis *out)
 {
-    if (out->last)
-        round_free(out->last);
+    round_free(out->last);
     rotid_fit_free(out->today.fit);
     rotid_fit_free(out->base.fit);
     rotid_fit_free(out->extended.fit);

@@ -503,7 +503,7 @@ struct round_result {
  * they were at fault all is done again. Statuses of the fits. */
 int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, struct round_result *result,
               struct posterior *posterior);
-void round_free(struct round_result *result);
+void round_free(struct round_result *result); /* NULL: nothing */
 
 /* -------------------------------------------------------------------------------------------------------------- as solid */
 

@@ -214,6 +214,8 @@ int round_run(struct engine *engine, int doubt, struct diagnosis_round *round, s
 
 void round_free(struct round_result *result)
 {
+    if (!result)
+        return;
     for (int i = 0; i < result->nrefit; i++)
         rotid_fit_free(result->refit[i].fit);
     result->nrefit = 0;

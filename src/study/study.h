@@ -92,7 +92,7 @@ struct plan {
     enum plan_command command;
     unsigned long seed;
     int replicates, baseline;
-    int draws;                           /* of the bands of critical speeds */
+    int draws; /* of the bands of critical speeds */
     struct {
         int count; /* at least one */
         struct plan_item *item;
