@@ -322,22 +322,17 @@ static const char *noise_of(struct pool *pool, const struct result *result)
     return pool_text(pool, "%s; %s", frequency, shape);
 }
 
-static const char *records_of(struct pool *pool, const struct ema_source *source)
-{
-    const char *impacts = source->from_time_records
-                              ? pool_text(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
-                              : "";
-    return pool_text(pool, "%d transfer %s of %d lines from %s%s", source->transfer_functions,
-                     human_plural(source->transfer_functions, "function", "functions"), source->lines,
-                     human_range(pool, source->low_hz, source->high_hz, "Hz"), impacts);
-}
-
 static const char *data_of(struct pool *pool, const struct result *result)
 {
     const rotid_identification *fit = fit_of_result(result);
     int shapes = 0;
-    if (result->ema)
-        return records_of(pool, &result->ema->source);
+    if (result->ema) {
+        const struct ema_source *of = &result->ema->source;
+        const char *impacts = pool_text(pool, ", from %d impacts of which %d are used", of->impacts, of->impacts_used);
+        return pool_text(pool, "%d transfer %s of %d lines from %s%s", of->transfer_functions,
+                         human_plural(of->transfer_functions, "function", "functions"), of->lines,
+                         human_range(pool, of->low_hz, of->high_hz, "Hz"), of->from_time_records ? impacts : "");
+    }
     if (!fit || !fit->nmodes)
         return NULL;
     for (int k = 0; fit->shapes && k < fit->shapes->nmodes; k++)

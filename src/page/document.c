@@ -97,11 +97,6 @@ static void write_value(FILE *out, const cJSON *json, int is_drawn)
     }
 }
 
-static void write_key(FILE *out, const char *key)
-{
-    (void)fprintf(out, ",\"%s\":", key);
-}
-
 /* The keys of a run that figures show. */
 static void write_run(FILE *out, const cJSON *run)
 {
@@ -148,8 +143,7 @@ static void write_study(FILE *out, struct pool *pool, const struct result *resul
 /* What the program has words for: labels and fates of candidates in their order, names of causes. */
 static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
 {
-    write_key(out, "words");
-    (void)fputc('[', out);
+    (void)fputs(",\"words\":[", out);
     for (int i = 0; i < d->ncandidates; i++) {
         (void)fputs(i ? ",[" : "[", out);
         write_text(out, cause_label(pool, d, &d->candidates[i].cause));
@@ -158,8 +152,7 @@ static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
         (void)fputc(']', out);
     }
     (void)fputc(']', out);
-    write_key(out, "causes");
-    (void)fputc('[', out);
+    (void)fputs(",\"causes\":[", out);
     const rotid_verdict *v = &d->verdict;
     for (int i = 0; i < v->ncauses + v->nlikely_causes; i++) {
         (void)fputs(i ? "," : "", out);
@@ -175,7 +168,7 @@ static void data_write(FILE *out, struct pool *pool, int count, const struct res
     for (int i = 0; i < count; i++) {
         (void)fputs(i ? ",\n{\"file\":" : "{\"file\":", out);
         write_text(out, result[i].file);
-        write_key(out, "result");
+        (void)fputs(",\"result\":", out);
         if (result[i].study)
             write_study(out, pool, &result[i]);
         else

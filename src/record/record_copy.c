@@ -31,12 +31,6 @@ static size_t own_list(struct pool *pool, char *place, size_t count, size_t size
     return copy ? count : 0;
 }
 
-static void own_text(struct pool *pool, char *place)
-{
-    const char *text = *(const char *const *)place;
-    (void)own_list(pool, place, text ? strlen(text) + 1 : 0, 1);
-}
-
 static size_t length_of(const struct record_field *field, const char *of)
 {
     size_t count = field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX ? (size_t) * (const int *)(of + field->count) : 1;
@@ -59,8 +53,9 @@ static void own(struct pool *pool, const struct record *record, char *of)
         for (size_t i = 0; i < count; i++, place += size)
             if (field->kind == FIELD_RECORD || field->kind == FIELD_INLINE)
                 own(pool, field->record, place);
-            else if (field->kind == FIELD_TEXT || field->kind == FIELD_MAP) /* whose components begin with their name */
-                own_text(pool, place);
+            else if ((field->kind == FIELD_TEXT || field->kind == FIELD_MAP) &&
+                     *(const char *const *)place) /* a component: its name */
+                (void)own_list(pool, place, strlen(*(const char *const *)place) + 1, 1);
     }
 }
 

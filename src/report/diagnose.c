@@ -506,11 +506,10 @@ static void print_verdict(const struct screen *to, const rotid_diagnosis *d)
             wrap_words(&wrap, !v->adequate_after           ? "; the residual still exceeds the noise"
                               : v->kind == ROTID_AMBIGUOUS ? "; with the best of these causes the model is adequate"
                                                            : "; the extended model is adequate");
-        wrap_close(&wrap);
     } else {
         wrap_words(&wrap, v->sentence ? "no p-value can be stated" : "no verdict was reached");
-        wrap_close(&wrap);
     }
+    wrap_close(&wrap);
     if (noise->frequency_assumed || noise->shape_assumed)
         wrap_text(to->out, 2, to->width, "  ",
                   "The deck states no noise for all of the data: the assumed values stand below, so statements are relative.");

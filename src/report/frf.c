@@ -14,16 +14,6 @@ static struct transfer_agreement agreement(const struct frf_sums *sums, const st
 }
 
 /* Nonzero: memory is out; of all below. */
-static int add_parameters(const struct frf_view *view, struct transfer_result *out)
-{
-    int n = view->identified ? view->identified->fit->n : 0;
-    out->parameters = POOL_ARRAY(view->pool, struct transfer_parameter, n);
-    for (int p = 0; p < n && out->parameters; p++)
-        out->parameters[out->nparameters++] = (struct transfer_parameter){
-            view->job->unknowns.bounds[p].name, view->job->unknowns.bounds[p].unit, view->identified->fit->x[p]};
-    return !out->parameters;
-}
-
 static int add_modes(struct pool *pool, const struct frf_result *r, struct transfer_result *out)
 {
     const struct synthesis *s = &r->synthesis;
@@ -143,7 +133,12 @@ const struct transfer_result *frf_result_of(const struct frf_view *view)
         .left_out = r->is_measured ? r->nleft_out : ROTID_NONE,
         .with_curves = (double)r->nline * r->ndone <= JSON_FRF_MOST_LINES,
     };
-    int failed = add_parameters(view, out) || add_modes(view->pool, r, out) || add_functions(view, out);
+    int n = view->identified ? view->identified->fit->n : 0;
+    out->nparameters = POOL_LIST(view->pool, out->parameters, n);
+    for (int p = 0; p < out->nparameters; p++)
+        out->parameters[p] = (struct transfer_parameter){view->job->unknowns.bounds[p].name, view->job->unknowns.bounds[p].unit,
+                                                         view->identified->fit->x[p]};
+    int failed = !out->parameters || add_modes(view->pool, r, out) || add_functions(view, out);
     return failed ? NULL : out;
 }
 

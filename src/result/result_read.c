@@ -126,13 +126,6 @@ static const struct {
     {"check", "geometry", "the drawing of the rotor"},
 };
 
-static void note_what_is_lacking(const struct json_place *root, struct result *result)
-{
-    for (size_t i = 0; i < sizeof newer / sizeof *newer; i++)
-        if (!strcmp(newer[i].command, result->head.command) && !place_has(root, newer[i].key) && result->nlacking < LACKING_MOST)
-            result->lacking[result->nlacking++] = (struct lacking){newer[i].key, newer[i].shows};
-}
-
 /* "check, modes or study" */
 static const char *list_commands(struct pool *pool)
 {
@@ -173,7 +166,9 @@ static void read_root(const struct json_place *root, struct result *result)
     record_read(root, &kind->record, result);
     if (root->reader->status)
         return;
-    note_what_is_lacking(root, result);
+    for (size_t i = 0; i < sizeof newer / sizeof *newer; i++)
+        if (!strcmp(newer[i].command, command) && !place_has(root, newer[i].key) && result->nlacking < LACKING_MOST)
+            result->lacking[result->nlacking++] = (struct lacking){newer[i].key, newer[i].shows};
     result_check(root, result);
 }
 
