@@ -218,7 +218,8 @@ UNIT_TEST(arguments_out_of_range_are_refused)
     assert_string_equal(failure, "x[1], the value of core.G, is nan, expected a number");
     assert_status(rotid_spectrum_compute(deck, NULL, 1, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);
     const double soft[2] = {-1e11, -1e10};
-    assert_status(rotid_spectrum_compute(deck, soft, 1, NULL, NULL, &spectrum), ROTID_ERROR_STIFFNESS);
+    assert_status(rotid_spectrum_compute(deck, soft, 1, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "x[0], the value of core.E, is -1e+11, expected a value above 0 and at most inf");
     assert_null(spectrum);
     rotid_spectrum_free(NULL);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "api/api.h"
+#include "deck/deck.h"
 
 /* What a deck says, for hosts. */
 
@@ -73,6 +74,10 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
         if (!isfinite(at[p]))
             return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->unknowns.bounds[p].name,
                           at[p]);
+        const char *range = deck_outside_range(scratch, &job->rotor, job->unknowns.parameter[p], 1, &at[p]);
+        if (range)
+            return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a value %s", p, job->unknowns.bounds[p].name,
+                          at[p], range);
     }
     return job_spectrum(scratch, job, at, nmode, SPECTRUM_WHOLE, spectrum);
 }
