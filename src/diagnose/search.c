@@ -385,11 +385,24 @@ static struct explanation *find_there(const struct posterior *p, const struct ex
     return NULL;
 }
 
+/* A set that ends above the model without its causes, which it contains, was not found by its fit. */
+static int is_lost(const struct engine *engine, const struct explanation *e)
+{
+    int nested = 1;
+    for (int m = 0; m < e->nmember; m++) {
+        const struct cause_kind *cause = e->member[m].cause;
+        nested &= !candidate_is_fault(&e->member[m]) && cause->effect->nparameter && !e->member[m].fixed[cause->size];
+    }
+    return nested && e->refit->chi2 > engine->fit->chi2 + REFIT_WORSE;
+}
+
 /* Enters a set by its fit, from a proposal or NULL, unless it is there with a better one: not in place of one with less chi2, as
  * a saddle between two places has a wide normal. */
 static int enter(struct engine *engine, struct posterior *p, struct explanation *e, const struct proposal *from)
 {
     e->evidence = (struct evidence){0};
+    if (is_lost(engine, e))
+        return ROTID_OK;
     for (int m = 0; m < e->nmember; m++)
         take_values(engine, e->refit, &e->member[m]);
     int status = posterior_score(engine, p, NULL, e);

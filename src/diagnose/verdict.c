@@ -53,13 +53,14 @@ static int choose_names(const struct posterior *p, struct candidate *named)
         for (int j = 0; j < count; j++)
             joint &= together(p, &named[j], c) >= VERDICT_NAMED;
         const struct explanation *with = joint ? model_with(p, 1, c, 0) : NULL;
-        int m = 0;
-        while (with && m < with->nmember && !posterior_same_name(p, &with->member[m], c))
-            m++;
-        if (!with || m == with->nmember)
-            continue;
-        if (is_placed(p, &with->member[m]))
-            named[count++] = with->member[m];
+        int at = -1, places = 0; /* twice near one place it is something wider */
+        for (int m = 0; with && m < with->nmember; m++)
+            if (posterior_same_name(p, &with->member[m], c)) {
+                at = m;
+                places++;
+            }
+        if (places == 1 && is_placed(p, &with->member[at]))
+            named[count++] = with->member[at];
     }
     return count;
 }
