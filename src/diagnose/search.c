@@ -736,8 +736,11 @@ static int enter_elsewhere(struct engine *engine, struct round_result *result, s
     double best = best_stated(p);
     for (int i = 0, listed = p->data->nblock || engine->job->options.solid ? 0 : p->count; i < listed; i++) {
         const struct explanation from = p->item[i];
-        int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1;
-        if (place < 0 || from.member[0].fixed[place] || from.log_posterior < best - SEARCH_WITHIN)
+        int place = from.nmember == 1 && from.refit ? from.member[0].cause->place : -1, again = 0;
+        for (int k = 0; k < i; k++) /* of a cause with several places once */
+            again |=
+                p->item[k].log_posterior >= best - SEARCH_WITHIN && p->item[k].refit && posterior_same_set(&p->item[k], &from);
+        if (place < 0 || again || from.member[0].fixed[place] || from.log_posterior < best - SEARCH_WITHIN)
             continue;
         const struct state *home = &from.refit->states.state[from.member[0].home];
         int q = effect_unknown(home, effect_named(home, from.member[0].effect.name), place),
