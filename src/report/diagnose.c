@@ -451,7 +451,7 @@ static void print_round(const struct screen *to, const rotid_diagnosis *d, int n
 static void print_evidence(const struct screen *to, const rotid_diagnosis *d)
 {
     if (d->nrounds)
-        (void)fprintf(to->out, "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; sensors res./sigma)\n");
+        (void)fprintf(to->out, "\nEVIDENCE  (expected, chi2 drop: of the misfit; sensors: res./sigma of sensors left out)\n");
     for (int i = 0; i < d->nrounds; i++)
         print_round(to, d, i);
 }
