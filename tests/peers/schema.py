@@ -274,10 +274,10 @@ STUDIES = {
         "*SENSORS\nALL\n20\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1e11, 1.2e11\n*NOISE\n0.001\n0.002, 0.01\n*HIDE, TYPE=NONE\n"
         "*HIDE, TYPE=stiffness, GROUP=left\nfactor, 0.9, 1.1\n", 0),
     "diagnoses": (
-        "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\n{input}/paper_rotor.inp\n*SENSORS\nEVERY, 3\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.01\n"
+        "*STUDY, COMMAND=DIAGNOSE\n*DECKS\n{input}/paper_rotor.inp\n*SENSORS\nEVERY, 3\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.01\n"
         "*HIDE, TYPE=NONE\n*HIDE, TYPE=added_mass\nmass, 15\nz, left.start, left.end\n*HIDE, TYPE=sensor_gain, SENSOR=25\ngain, 1.5\n"
         "*HIDE, TYPE=noise_level, AT=SHAPE\nfactor, 3\n", 0),
-    "diagnoses of measured data": ("*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\n{input}/solid_rotor.inp\n", 0),
+    "diagnoses of measured data": ("*STUDY, COMMAND=DIAGNOSE\n*DECKS\n{input}/solid_rotor.inp\n", 0),
 }
 
 
