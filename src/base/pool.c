@@ -132,7 +132,7 @@ char *pool_copy_text(struct pool *pool, const char *text)
     return pool_copy(pool, text, strlen(text) + 1, 0, 1);
 }
 
-const char *pool_text_of(struct pool *pool, const char *format, va_list values)
+static char *formatted(struct pool *pool, const char *format, va_list values)
 {
     va_list again;
     va_copy(again, values);
@@ -141,6 +141,12 @@ const char *pool_text_of(struct pool *pool, const char *format, va_list values)
     if (text)
         (void)vsnprintf(text, (size_t)length + 1, format, again);
     va_end(again);
+    return text;
+}
+
+const char *pool_text_of(struct pool *pool, const char *format, va_list values)
+{
+    const char *text = formatted(pool, format, values);
     return text ? text : "";
 }
 
@@ -157,7 +163,7 @@ char *pool_format(struct pool *pool, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
-    const char *text = pool_text_of(pool, format, values);
+    char *text = formatted(pool, format, values);
     va_end(values);
-    return pool->out_of_memory ? NULL : (char *)text;
+    return text;
 }
