@@ -543,8 +543,7 @@ const char *solid_refusal(const struct rotor *rotor, int failed)
     int rod = failed - rotor->ngroup, bars = rod - rotor->ntierod;
     if (rod < 0 && keeps_its_volume(&rotor->group[failed]))
         return "the *ELASTIC of this group has a Poisson ratio of 0.5, with which a solid cannot change its volume and has no "
-               "finite "
-               "stiffness, expected nu of at most 0.4999999, or *FIT, MODEL=BEAM";
+               "finite stiffness, expected nu of at most 0.4999999, or *FIT, MODEL=BEAM";
     if (bars >= rotor->nbars && outline_slenderness(rotor) > SOLID_MOST_SLENDER)
         return "the rotor is more than 1000 times as long as its largest diameter, which a solid loses in rounding, expected a "
                "thicker one, or *FIT, MODEL=BEAM";
