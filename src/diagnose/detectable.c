@@ -6,15 +6,21 @@
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */
 
-double amplitude_shown(const struct scan *scan, const struct rotor *rotor, int item)
+void amplitudes_shown(const struct states *states, struct scan *scan)
 {
-    const struct scan_item *i = &scan->item[item];
-    return i->usable ? (sqrt(evidence_drop_for(scan, rotor, item, posterior_gain_shown(scan, i->candidate))) + POWER) / i->norm
-                     : INFINITY;
+    for (int k = 0; k < scan->ncandidate; k++) {
+        const struct scan_candidate *c = &scan->candidate[k];
+        const struct rotor *rotor = &states->state[c->home].job.rotor;
+        double gain = posterior_gain_shown(scan, k);
+        for (int i = c->first; i < c->first + c->count; i++) {
+            struct scan_item *item = &scan->item[i];
+            item->shown = item->usable ? (sqrt(evidence_drop_for(scan, rotor, i, gain)) + POWER) / item->norm : (double)INFINITY;
+        }
+    }
 }
 
 /* Best and worst over the places, each with the width that shows best. */
-static void over_places(const struct scan *scan, const struct rotor *rotor, const struct scan_candidate *c, rotid_detectable *d)
+static void over_places(const struct scan *scan, const struct scan_candidate *c, rotid_detectable *d)
 {
     int place = c->cause->place;
     double smallest = INFINITY, worst = 0;
@@ -22,7 +28,7 @@ static void over_places(const struct scan *scan, const struct rotor *rotor, cons
         double here = INFINITY, z = place >= 0 ? scan->item[i].effect.value[place] : NAN;
         int j = i;
         for (; j < c->first + c->count && (j == i || (place >= 0 && scan->item[j].effect.value[place] == z)); j++)
-            here = fmin(here, fabs(amplitude_shown(scan, rotor, j) * scan->item[j].unit));
+            here = fmin(here, fabs(scan->item[j].shown * scan->item[j].unit));
         i = j;
         if (here < smallest) {
             smallest = here;
@@ -47,7 +53,7 @@ int detectable_sizes(struct engine *engine, const struct scan *scan)
             continue;
         rotid_detectable *d = &out->detectable[out->ndetectable++];
         *d = (rotid_detectable){.id = cause->id, .target = c->target, .z_m = NAN, .worst = NAN};
-        over_places(scan, &engine->states.state[c->home].job.rotor, c, d);
+        over_places(scan, c, d);
         if (engine->moving.usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
             d->smallest = fmin(d->smallest, engine->moving.smallest);
         if (!cause->effect->nparameter) { /* there or not: a part of it would show */

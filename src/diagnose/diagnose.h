@@ -269,6 +269,7 @@ struct scan_item { /* one column */
     int usable;           /* the column is more than rounding once what is fitted is taken out */
     double norm;          /* of the projected column */
     double lower, upper;  /* of the amplitude, by physics */
+    double shown;         /* amplitudes_shown */
     double amplitude, drop;
 };
 
@@ -606,12 +607,14 @@ int data_add_pairing(struct engine *engine, int first, int second, const char *t
 
 /* What could not be seen, and where along the axis it would show. */
 
-/* The amplitude of an item that shows in 9 of 10 tests, >= 0: an amplitude a moves the whitened residual by a |c|, the score is
- * normal about that with variance 1, so a |c| = sqrt(T) + 1.28, T the drop of chi2 that gives the cause, beside nothing, the
- * probability above which a model is not called adequate (VERDICT_HARMLESS). INFINITY where the item is not usable. */
-double amplitude_shown(const struct scan *scan, const struct rotor *rotor, int item);
+/* item->shown of all items of a scan of the states: the amplitude that shows in 9 of 10 tests, >= 0: an amplitude a moves the
+ * whitened residual by a |c|, the score is normal about that with variance 1, so a |c| = sqrt(T) + 1.28, T the drop of chi2 that
+ * gives the cause, beside nothing, the probability above which a model is not called adequate (VERDICT_HARMLESS). INFINITY where
+ * the item is not usable. */
+void amplitudes_shown(const struct states *states, struct scan *scan);
 
-/* result.detectable of *engine->out by the scan of the last search. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* result.detectable of *engine->out by the scan of the last search, whose items have their amplitudes that show. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
 int detectable_sizes(struct engine *engine, const struct scan *scan);
 int localise(struct engine *engine, const struct scan *scan);
 
@@ -686,7 +689,7 @@ int finalise(struct engine *engine);
 /* What a cause below its detection limit does to the parameters that are identified. */
 
 /* result.hidden of *engine->out. With the scan of the last round, c the whitened column of a cause, J those of what is fitted,
- * both free of the scales of the shapes, and s the smallest size that shows at a place (amplitude_shown), or the largest that is
+ * both free of the scales of the shapes, and s the smallest size that shows at a place (amplitudes_shown), or the largest that is
  * physical, the fit without the cause is off by
  *   dx = (J'J)^-1 J'c s.
  * Of all places and widths of a cause the one counts that moves a parameter most; of all causes those that move it most, three at

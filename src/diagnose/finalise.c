@@ -449,7 +449,7 @@ static int fit_extended(struct engine *engine)
 int finalise(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    const struct scan *scan = &out->last->scan;
+    struct scan *scan = &out->last->scan;
     int status = engine_stage(engine, "final model, causes", out->ncause);
     if (!status)
         status = refine_base(engine);
@@ -458,8 +458,10 @@ int finalise(struct engine *engine)
     if (!status && out->ncause)
         status = fit_extended(engine);
     engine_step(engine, "gain");
-    if (!status && scan->ncandidate)
+    if (!status && scan->ncandidate) {
+        amplitudes_shown(&engine->states, scan);
         status = detectable_sizes(engine, scan);
+    }
     if (!status && scan->ncandidate)
         status = hidden_shifts(engine, scan);
     engine_step(engine, "detection limits");

@@ -8,8 +8,8 @@
 /* What a list is made of. */
 struct source {
     struct pool *pool;
-    int nown; /* unknowns of the deck, the first ones */
-    const struct states *states;
+    int nown;                                  /* unknowns of the deck, the first ones */
+    const rotid_parameter *bounds;             /* of the states */
     const int *at_bound;                       /* [nown] */
     const struct roving_accelerometer *moving; /* NULL: none */
     const struct scan *scan;
@@ -17,11 +17,10 @@ struct source {
 
 /* The largest amplitude of an item that stays hidden, with the sign that physics allows; *beyond: the physical bound is less than
  * what would show. */
-static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, int i, int *beyond)
+static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, const struct scan_item *item,
+                               int *beyond)
 {
-    const struct scan_item *item = &from->scan->item[i];
-    double shown = amplitude_shown(from->scan, &from->states->state[c->home].job.rotor, i), side = scan_side(item),
-           most = side < 0 ? -item->lower : item->upper;
+    double shown = item->shown, side = scan_side(item), most = side < 0 ? -item->lower : item->upper;
     if (from->moving && from->moving->usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
         shown = fmin(shown, from->moving->smallest / fabs(item->unit));
     *beyond = !(shown <= most);
@@ -42,11 +41,12 @@ static void largest_of(const struct source *from, const struct scan_candidate *c
         int beyond;
         if (!item->usable)
             continue;
-        double amplitude = hidden_amplitude(from, c, i, &beyond), shift = amplitude * scan->shift[p + (ptrdiff_t)i * scan->nfree];
+        double amplitude = hidden_amplitude(from, c, item, &beyond),
+               shift = amplitude * scan->shift[p + (ptrdiff_t)i * scan->nfree];
         if (!(fabs(shift) > fabs(row->shift)) || !isfinite(shift))
             continue;
-        *row = (rotid_hidden){.parameter = from->states->bounds[p].name,
-                              .unit = from->states->bounds[p].unit,
+        *row = (rotid_hidden){.parameter = from->bounds[p].name,
+                              .unit = from->bounds[p].unit,
                               .shift = shift,
                               .id = cause->id,
                               .target = c->target,
@@ -93,7 +93,7 @@ static int fill(const struct source *from, int *n, rotid_hidden **list)
 int hidden_shifts(struct engine *engine, const struct scan *scan)
 {
     rotid_diagnosis *out = &engine->out->result;
-    const struct source from = {engine->pool, engine->nown, &engine->states, engine->fit->at_bound, &engine->moving, scan};
+    const struct source from = {engine->pool, engine->nown, engine->states.bounds, engine->fit->at_bound, &engine->moving, scan};
     return fill(&from, &out->nhidden, &out->hidden);
 }
 
@@ -131,6 +131,7 @@ int hidden_of_fit(struct pool *pool, const struct states *states, const struct i
     int status = scan_fit(pool, states, found, number, holdout, fit->x, &scan);
     if (status || scan.dof < 1 || !scan.nitem)
         return status;
-    const struct source from = {pool, fit->n, states, fit->at_bound, NULL, &scan};
+    amplitudes_shown(states, &scan);
+    const struct source from = {pool, fit->n, states->bounds, fit->at_bound, NULL, &scan};
     return fill(&from, n, list);
 }

@@ -722,7 +722,7 @@ static double gain_of_item(const struct scan *scan, const struct rotor *rotor, i
     double lower = 0, upper = 1, square = item->norm * item->norm;
     if (!item->usable)
         return 0;
-    if (!cause->effect->nparameter || c->fixed[cause->size])
+    if (!cause_has_free_size(cause, c->fixed))
         return along - square / 2;
     cause_bounds(cause, rotor, &item->effect, cause->size, &lower, &upper);
     if (size->prior == PRIOR_LOG_FLAT || size->prior == PRIOR_FLAT) { /* by points over it */
@@ -757,7 +757,7 @@ double evidence_drop_for(const struct scan *scan, const struct rotor *rotor, int
 {
     const struct scan_item *item = &scan->item[i];
     const struct scan_candidate *c = &scan->candidate[item->candidate];
-    int is_known = !c->cause->effect->nparameter || c->fixed[c->cause->size];
+    int is_known = !cause_has_free_size(c->cause, c->fixed);
     double drop = 2 * fmax(gain, 0), missing = INFINITY, most = item->norm * fmax(item->upper, -item->lower);
     for (int k = 0; k < STEPS && fabs(missing) > 1e-3 && item->usable && !is_known && sqrt(drop) < most; k++) {
         missing = gain - gain_of_item(scan, rotor, i, scan_side(item) * item->norm * sqrt(drop));

@@ -397,7 +397,7 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
 {
     const struct scan_candidate *c = &scan->candidate[candidate];
     /* without its cause it is the model that the scan looked at, unless a user has fixed the size, or there is none */
-    int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
+    int nested = cause_has_free_size(c->cause, c->fixed);
     refit[0] = refit[1] = no_refit;
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
     if (!status && (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) ||

@@ -140,14 +140,10 @@ static int noise_settle(struct engine *engine, const struct posterior *p, int *c
 static int settle_data(struct engine *engine, struct round_result *result, const struct posterior *posterior, int doubt,
                        int *changed)
 {
-    int status = ROTID_OK, far = 0;
     *changed = 0;
-    if (doubt)
-        status = far_starts_search(engine, result, posterior, &far);
-    if (!status && far) {
-        *changed = 1;
+    int status = doubt ? far_starts_search(engine, result, posterior, changed) : ROTID_OK;
+    if (!status && *changed)
         return base_again(engine);
-    }
     if (!status)
         status = pairing_settle(engine, result, changed);
     if (!status && !*changed)

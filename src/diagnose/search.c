@@ -307,21 +307,25 @@ struct task {
     struct pool *pool;
 };
 
-/* The set fitted anew from the model without a cause, from the values that its causes have. */
+/* The set fitted anew from the model without a cause, from the values that its causes have. Where that ends above this model,
+ * which it contains, fit is NULL. */
 static int refit_set(struct pool *pool, const struct engine *e, const struct explanation *set, const double *x,
                      struct refit *refit)
 {
     struct states states = e->states;
     rotid_fit_result *fit = NULL;
-    int status = states_started_at(pool, &e->states, x, &states);
+    int status = states_started_at(pool, &e->states, x, &states), is_nested = 1;
     *refit = (struct refit){.chi2 = INFINITY};
     for (int m = 0; m < set->nmember && !status; m++) {
         const struct candidate *c = &set->member[m];
+        is_nested &= cause_has_free_size(c->cause, c->fixed);
         status = states_with_effect(pool, &states, NULL, &c->effect, c->cause, c->fixed, c->in, &states);
     }
     if (!status)
         status = refit_states(pool, &states, e->number, e->holdout, e->environment, &fit);
-    if (!status)
+    if (!status && is_nested && fit->chi2 > e->fit->chi2 + REFIT_WORSE)
+        rotid_fit_free(fit);
+    else if (!status)
         status = refit_keep(pool, &states, fit, refit);
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
@@ -385,24 +389,11 @@ static struct explanation *find_there(const struct posterior *p, const struct ex
     return NULL;
 }
 
-/* A set that ends above the model without its causes, which it contains, was not found by its fit. */
-static int is_lost(const struct engine *engine, const struct explanation *e)
-{
-    int nested = 1;
-    for (int m = 0; m < e->nmember; m++) {
-        const struct cause_kind *cause = e->member[m].cause;
-        nested &= !candidate_is_fault(&e->member[m]) && cause->effect->nparameter && !e->member[m].fixed[cause->size];
-    }
-    return nested && e->refit->chi2 > engine->fit->chi2 + REFIT_WORSE;
-}
-
 /* Enters a set by its fit, from a proposal or NULL, unless it is there with a better one: not in place of one with less chi2, as
  * a saddle between two places has a wide normal. */
 static int enter(struct engine *engine, struct posterior *p, struct explanation *e, const struct proposal *from)
 {
     e->evidence = (struct evidence){0};
-    if (is_lost(engine, e))
-        return ROTID_OK;
     for (int m = 0; m < e->nmember; m++)
         take_values(engine, e->refit, &e->member[m]);
     int status = posterior_score(engine, p, NULL, e);
@@ -724,9 +715,10 @@ static void leave_to_others(struct posterior *p, struct explanation *e)
     for (int k = 0; k < p->count; k++)
         if (&p->item[k] != e && p->item[k].refit && posterior_same_set(&p->item[k], e))
             others = log_sum(others, p->item[k].log_posterior);
-    double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY;
-    add_to_evidence(e, fmax(rest, -fmax(0, e->of_columns)));
-    e->of_columns += fmax(rest, -fmax(0, e->of_columns));
+    double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY,
+           more = fmax(rest, -e->of_columns); /* which is above 0 */
+    add_to_evidence(e, more);
+    e->of_columns += more;
 }
 
 /* By frequencies alone a cause does the same at several places: likely ones are fitted from all over the rotor. */

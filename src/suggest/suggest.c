@@ -316,6 +316,8 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
     struct engine engine = {.pool = pool, .out = found};
     status = engine_take_states(&engine, &states);
     if (!status)
+        amplitudes_shown(&states, &scan);
+    if (!status)
         status = detectable_sizes(&engine, &scan);
     p->out->ndetectable = found->result.ndetectable;
     p->out->detectable = found->result.detectable;

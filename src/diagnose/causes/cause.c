@@ -34,6 +34,11 @@ void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, cons
     *lower = *lower > 0 ? *lower / cause->widest : *lower;
 }
 
+int cause_has_free_size(const struct cause_kind *cause, const int *fixed)
+{
+    return cause->effect->nparameter && !fixed[cause->size];
+}
+
 void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                   double *upper)
 {

@@ -126,6 +126,9 @@ void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, con
 void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
                  double *upper);
 
+/* Whether it has a size that is searched: then the model with it contains that without. fixed [nparameter of its effect] */
+int cause_has_free_size(const struct cause_kind *cause, const int *fixed);
+
 /* What a cause acts on, by name: a group, "left|right" for an interface, a spring or its place, a tie rod; "" where it has no
  * such target. NULL where memory is out. */
 const char *cause_target_name(struct pool *pool, const struct rotor *rotor, const struct cause_kind *cause, int target);
