@@ -35,14 +35,15 @@ static void open_bar(double noise_factor)
 }
 
 /* The job with a cause at its best values. */
-static void fit_with(const char *id, const double *value, struct states *states, struct state *state, rotid_fit_result **fit)
+static void fit_with_fixed(const char *id, const double *value, const int *fixed, struct states *states, struct state *state,
+                           rotid_fit_result **fit)
 {
     struct job with = job;
     if (id) {
         const struct cause_kind *cause = catalogue_find(id);
         struct effect effect = {.kind = cause->effect, .target = cause->target == TARGET_GROUP ? 0 : -1, .name = "cause"};
         memcpy(effect.value, value, sizeof effect.value);
-        assert_status(job_with_effect(&test_pool, &job, NULL, &effect, cause, NULL, &with), ROTID_OK);
+        assert_status(job_with_effect(&test_pool, &job, NULL, &effect, cause, fixed, &with), ROTID_OK);
     }
     struct job *kept = POOL_NEW(&test_pool, struct job);
     *kept = with;
@@ -51,7 +52,12 @@ static void fit_with(const char *id, const double *value, struct states *states,
     assert_status(states_at(&test_pool, states, (*fit)->x, states), ROTID_OK);
 }
 
-static double evidence(const char *id, const double *value, double *log_else, double *x)
+static void fit_with(const char *id, const double *value, struct states *states, struct state *state, rotid_fit_result **fit)
+{
+    fit_with_fixed(id, value, NULL, states, state, fit);
+}
+
+static double evidence_fixed(const char *id, const double *value, const int *fixed, double *log_else, double *x)
 {
     struct states states;
     struct state state;
@@ -59,7 +65,7 @@ static double evidence(const char *id, const double *value, double *log_else, do
     struct evidence_data *data;
     double mean[16], std[16];
     struct evidence e = {.mean = mean, .std = std};
-    fit_with(id, value, &states, &state, &fit);
+    fit_with_fixed(id, value, fixed, &states, &state, &fit);
     assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
     assert_status(
         evidence_of_fit(data, &states, job.unknowns.nparameter, fit, 0, NULL, 0, NULL, log_else ? &(struct scan){0} : NULL, &e),
@@ -69,6 +75,11 @@ static double evidence(const char *id, const double *value, double *log_else, do
     memcpy(x, fit->x, (size_t)fit->n * sizeof *x);
     rotid_fit_free(fit);
     return e.log_z;
+}
+
+static double evidence(const char *id, const double *value, double *log_else, double *x)
+{
+    return evidence_fixed(id, value, NULL, log_else, x);
 }
 
 /* ---- the same by a grid */
@@ -329,32 +340,88 @@ POOL_TEST(states_at_two_points_are_apart)
     rotid_fit_free(fit);
 }
 
-/* A mass that the data hardly want, anywhere: the columns of the scan, over all places. */
-POOL_TEST(a_size_at_its_bound)
+/* ln Z of a cause over all its places, by the columns of the scan. */
+static double by_columns(const char *id, double *x)
 {
-    const double start[EFFECT_MOST_PARAMETERS] = {0.001, 0.3};
-    double x[8], sum = -INFINITY;
-    struct likelihood l;
-    struct states states, base;
-    struct state one, alone;
+    double nothing = evidence(NULL, NULL, NULL, x), sum = -INFINITY;
+    struct state alone;
+    const struct states base = states_of(&job, &alone);
     struct scan scan;
-    rotid_fit_result *fit;
-    open_bar(1);
-    double nothing = evidence(NULL, NULL, NULL, x);
-    base = states_of(&job, &alone);
     assert_status(scan_run(&test_pool, &base, number, holdout, x, SCAN_ALL, &scan), ROTID_OK);
     for (int i = 0; i < scan.ncandidate; i++) {
         const struct scan_candidate *c = &scan.candidate[i];
-        for (int k = c->first; k < c->first + c->count && !strcmp(c->cause->id, "added_mass"); k++)
+        for (int k = c->first; k < c->first + c->count && !strcmp(c->cause->id, id); k++)
             sum = sum_logs(sum, evidence_of_item(&scan, &job.rotor, k) - log(c->count));
     }
+    return nothing + sum;
+}
+
+/* A mass that the data hardly want, anywhere. */
+POOL_TEST(a_size_at_its_bound)
+{
+    const double start[EFFECT_MOST_PARAMETERS] = {0.001, 0.3};
+    double x[8];
+    struct likelihood l;
+    struct states states;
+    struct state one;
+    rotid_fit_result *fit;
+    open_bar(1);
+    double columns = by_columns("added_mass", x);
     fit_with("added_mass", start, &states, &one, &fit);
     heaviest = states.bounds[1].upper;
     bar_length = states.bounds[2].upper;
     const struct axis axis[3] = {
         modulus_axis(x[0], 0.015, 12), {30, 0, 0, 0.02 * heaviest, of_mass}, {48, 0, 0, bar_length, of_place}};
     open_likelihood(&states.state->job, &l);
-    check("a mass, by its columns", nothing + sum, over_grid(&l, 3, axis));
+    check("a mass, by its columns", columns, over_grid(&l, 3, axis));
+    rotid_fit_free(fit);
+}
+
+/* Uniform in ln over three decades, and below in the stiffness itself. */
+static double stiffest;
+static double of_stiffness(double k)
+{
+    return -log(1 + 3 * log(10)) - log(fmax(k, 1e-3 * stiffest));
+}
+
+static double of_ln_stiffness(double k)
+{
+    return of_stiffness(k) + log(k);
+}
+
+/* A spring to the ground at a known place, a third as stiff as the decades of its prior begin, in frequencies of a tenth of the
+ * noise: it is determined to a quarter, so below them is all that counts. */
+POOL_TEST(a_size_below_its_decades)
+{
+    const int fixed[EFFECT_MOST_PARAMETERS] = {0, 1};
+    const double start[EFFECT_MOST_PARAMETERS] = {300, 0};
+    double x[8];
+    struct likelihood l;
+    struct states states;
+    struct state one;
+    struct spectrum spectrum;
+    rotid_fit_result *fit;
+    open_bar(1);
+    fit_with_fixed("support_extra", start, fixed, &states, &one, &fit);
+    stiffest = states.bounds[1].upper;
+    rotid_fit_free(fit);
+    x[0] = job.unknowns.bounds[0].start;
+    x[1] = stiffest / 3000;
+    assert_status(spectrum_compute(&test_pool, NULL, &states.state->job.rotor, 2, states.state->job.unknowns.parameter, x,
+                                   ROTID_GUYAN, number[job.measurement.nmode - 1], &spectrum),
+                  ROTID_OK);
+    for (int k = 0; k < job.measurement.nmode; k++) {
+        job.measurement.frequency_hz[k] = spectrum.full_hz[number[k] - 1];
+        job.measurement.frequency_std[k] /= 20;
+    }
+    double z = evidence_fixed("support_extra", start, fixed, NULL, x);
+    fit_with_fixed("support_extra", start, fixed, &states, &one, &fit);
+    print_message("k %g +- %g, decades from %g\n", fit->x[1], fit->std[1], stiffest / 1000);
+    const struct axis modulus = modulus_axis(x[0], 0.002, 60);
+    const struct axis soft[2] = {modulus, {80, 0, 0, 1e-3 * stiffest, of_stiffness}},
+                      stiff[2] = {modulus, {40, 1, 1e-3 * stiffest, 0.1 * stiffest, of_ln_stiffness}};
+    open_likelihood(&states.state->job, &l);
+    check("a soft support", z, sum_logs(over_grid(&l, 2, soft), over_grid(&l, 2, stiff)));
     rotid_fit_free(fit);
 }
 
@@ -665,6 +732,36 @@ POOL_TEST(what_an_approximation_leaves_is_noise)
     assert_close(m->shape_std[3], hypot(0.03, cone.cause->discrepancy_shape), 1e-14, 0);
     assert_true(isnan(m->frequency_std[1]) && isnan(m->shape_std[1])); /* what is not measured stays so */
     assert_close(frequency[0], 1e-4, 0, 0);                            /* others may have the same arrays */
+}
+
+/* The modulus of the bar, whose frequencies are a hundred times as far off as is stated: by an approximation that may leave as
+ * much, and with noise of that size. */
+POOL_TEST(what_an_approximation_leaves_is_in_the_deviation)
+{
+    const struct candidate cone = {.cause = catalogue_find("step_stiffness")};
+    double mean[2], std[2];
+    open_bar(1);
+    const struct job_measurement *m = &job.measurement;
+    for (int with = 0; with < 2; with++) {
+        struct states states;
+        struct state one;
+        struct evidence_data *data;
+        struct evidence e = {.mean = &mean[with], .std = &std[with]};
+        rotid_fit_result *fit;
+        for (int k = 0; k < m->nmode; k++)
+            m->frequency_std[k] = with ? hypot(3e-5, cone.cause->discrepancy_frequency) : 3e-5;
+        for (int i = 0; i < m->nmode * job.rotor.nsensor && with; i++)
+            m->shape_std[i] = hypot(m->shape_std[i], cone.cause->discrepancy_shape);
+        fit_with(NULL, NULL, &states, &one, &fit);
+        assert_status(evidence_open(&test_pool, &states, number, holdout, &data), ROTID_OK);
+        assert_status(evidence_of_fit(data, &states, 1, fit, !with, &cone, 0, NULL, NULL, &e), ROTID_OK);
+        rotid_fit_free(fit);
+    }
+    print_message("E %.5g +- %.2g %%, with such noise %.5g +- %.2g %%\n", mean[0], 100 * std[0] / mean[0], mean[1],
+                  100 * std[1] / mean[1]);
+    assert_close(mean[0], mean[1], 1e-3, 0);
+    assert_close(std[0], std[1], 0.1, 0);
+    assert_true(std[0] / mean[0] > 20 * 3e-5);
 }
 
 /* ---- two places and a free width: effects that are hidden in data of the model itself, with noise of its size */

@@ -14,8 +14,7 @@ static const char bar[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\
 static double cost_with(const struct job *job)
 {
     double x[] = {2e11}, cost;
-    rotid_fit_result fit = {.n = 1, .x = x};
-    const struct engine engine = {.pool = &test_pool, .job = (struct job *)job, .fit = &fit};
+    const struct engine engine = {.pool = &test_pool, .job = (struct job *)job, .deck_start = x};
     const struct trials trials = {.engine = &engine, .measured = &job->measurement};
     const struct effect none = {.kind = cause_added_mass.effect, .target = -1, .value = {0, 0.3}};
     struct spectrum spectrum = {0};

@@ -658,11 +658,12 @@ struct far_start {
     struct effect effect; /* with its target, at the values to start from */
 };
 
-/* Behind a search where even the best single cause leaves more than FAR_RATE of chi2 a degree of freedom; once in a diagnosis, of
- * one state, as a beam. Every candidate is looked at with sizes over all of its bounds, at
- * places along the rotor, the modes paired anew with each; what comes nearest is fitted with its own pairing. Where one of these
- * fits leaves less than half of what all others do, a degree of freedom, it is the start of its candidate from then on, its
- * pairing is settled for all, and the round has to be repeated: *changed. Statuses of memory and cancellation only. */
+/* Behind a search where even the best single cause leaves more than FAR_RATE of chi2 a degree of freedom, or a mode was left out
+ * that nobody's shape fits; once in a diagnosis, of one state, as a beam. Every candidate is looked at with sizes over all of its
+ * bounds, at places along the rotor, all modes paired anew with each; what comes nearest is fitted with its own pairing. Where
+ * one of these fits leaves less than half of what all others do, a degree of freedom, or with the modes that were left out less
+ * than twice that, it is the start of its candidate from then on, its pairing is settled for all, and the round has to be
+ * repeated: *changed. Statuses of memory and cancellation only. */
 int far_starts_search(struct engine *engine, const struct round_result *result, const struct posterior *posterior, int *changed);
 
 /* Gives the scan's candidate the start that was found. */
@@ -769,10 +770,8 @@ int pairing_note(struct engine *engine, const int *number);
 int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number);
 /* The findings about pairing again, the data and the base being others. */
 int pairing_note_again(struct engine *engine);
-/* Behind the refits of a round, while nothing is named: the data as measured, modes that were left out among them, are paired
- * anew beside every refit. Where one of them explains all modes that way, its pairing is settled for all, the findings of another
- * one are taken back, and the round has to be repeated: *changed. Without shapes shifts and gaps of the numbers are tried
- * instead. */
+/* Behind a search: shapes of two neighbours under each other's number; without shapes shifts and gaps of the numbers. Where the
+ * data are others then the search has to be repeated: *changed. */
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
 
 /* --------------------------------------------------------------------------------------------------------------- laplace */

@@ -8,6 +8,7 @@
 
 #define FAR_RATE  3.0  /* chi2 a degree of freedom: what leaves less is near enough for a fit */
 #define FEWER     0.5  /* times what the others leave */
+#define AS_WELL   2.0  /* with the modes that were left out */
 #define PLACES    16   /* along the rotor */
 #define SIZES     12   /* at most, of each candidate */
 #define MOST_FITS 6    /* of the trials that come nearest */
@@ -69,7 +70,7 @@ static int cost_of(struct pool *pool, const struct trials *trials, const struct 
         return ROTID_ERROR_MEMORY;
     job.rotor.effect[job.rotor.neffect++] = *effect;
     *spectrum = (struct spectrum){0};
-    int status = spectrum_try(pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter, e->fit->x,
+    int status = spectrum_try(pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter, e->deck_start,
                               comparison_candidates(&job), near.phi ? &near : NULL, spectrum);
     if (!status)
         status = comparison_make(pool, &job, spectrum, &quiet, &compared);
@@ -146,7 +147,7 @@ static int fit_trial(struct engine *engine, const struct scan_candidate *c, cons
     struct job with, job;
     struct state state;
     struct comparison compared = {.number = measured->number};
-    const double *x = engine->fit->x;
+    const double *x = engine->deck_start;
     *rate = INFINITY;
     int nmode = measured->nmode, status = job_with_effect(engine->pool, engine->job, x, &trial->effect, c->cause, NULL, &with);
     if (status)
@@ -159,7 +160,7 @@ static int fit_trial(struct engine *engine, const struct scan_candidate *c, cons
         if (round == 1) { /* from the trial again */
             job = with;
             job.rotor.effect[job.rotor.neffect - 1] = trial->effect;
-            x = engine->fit->x;
+            x = engine->deck_start;
         }
         if (round)
             status = pair_at(engine, &job, x, &compared);
@@ -208,7 +209,7 @@ static int fit_nearest(struct engine *engine, const struct trials *trials, doubl
     const struct scan *scan = trials->scan;
     struct far_start *found = POOL_NEW(engine->pool, struct far_start);
     int *number = NULL, status = found ? ROTID_OK : ROTID_ERROR_MEMORY;
-    double least = FEWER * rate;
+    double least = engine->dropped ? AS_WELL * fmax(1, rate) : FEWER * rate;
     for (int fits = 0; fits < MOST_FITS && !status; fits++) {
         int next = -1, *own = NULL;
         double one = INFINITY;
@@ -240,7 +241,7 @@ int far_starts_search(struct engine *engine, const struct round_result *result, 
                             POOL_ARRAY(engine->pool, struct pool, result->scan.ncandidate)};
     double rate = least_rate(engine, posterior);
     *changed = 0;
-    if (engine->searched_far || engine->states.nstate > 1 || engine->job->options.solid || !(rate > FAR_RATE))
+    if (engine->searched_far || engine->states.nstate > 1 || engine->job->options.solid || !(rate > FAR_RATE || engine->dropped))
         return ROTID_OK;
     engine->searched_far = 1;
     if (!trials.best || !trials.pool)

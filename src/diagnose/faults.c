@@ -39,7 +39,7 @@ struct channels {
     const struct evidence_data *d;
     int state, nsensor, nblock, first; /* its blocks */
     int *row;                          /* [nsensor * nblock] of a reading, -1: none */
-    double *u, *slope, *turned;        /* [nrow] u, du/dz, and u at the mirrored place */
+    double *u, *slope;                 /* [nrow] u, du/dz */
 };
 
 /* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. */
@@ -80,7 +80,7 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
     if (!out->nblock)
         return ROTID_OK;
     out->row = POOL_ARRAY(pool, int, (size_t)n *(size_t)out->nblock);
-    out->u = POOL_ARRAY(pool, double, 3 * (size_t)d->nrow);
+    out->u = POOL_ARRAY(pool, double, 2 * (size_t)d->nrow);
     int status =
         x && out->row && out->u ? columns_open(pool, job, number + mode, holdout + mode, NULL, x, &columns) : ROTID_ERROR_MEMORY;
     if (!status)
@@ -89,7 +89,6 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
         return status;
     out->nsensor = n;
     out->slope = out->u + d->nrow;
-    out->turned = out->slope + d->nrow;
     for (int i = 0; i < n * out->nblock; i++)
         out->row[i] = -1;
     for (int b = 0; b < out->nblock; b++) {
@@ -103,7 +102,6 @@ static int open_channels(struct pool *pool, const struct states *states, int sta
             out->row[s + (ptrdiff_t)b * n] = row;
             out->u[row] = fit->r[row] + d->measured[row];
             out->slope[row] = (deflection(&data, m, z + h) - deflection(&data, m, z - h)) / (2 * h) / d->noise[row];
-            out->turned[row] = deflection(&data, m, length - z) / d->noise[row];
         }
     }
     return ROTID_OK;
@@ -331,28 +329,21 @@ static int offer_line(struct fault_list *list)
     const struct channels *c = list->channels;
     const struct job *job = &c->states->state[c->state].job;
     const struct evidence_data *d = c->d;
-    double h[3] = {0}, g[2] = {0}, turned = 0, stated = 0;
+    double h[3] = {0}, g[2] = {0};
     const struct cause_parameter *prior = catalogue_find("sensor_line")->parameter;
     double *column = POOL_ARRAY(list->pool, double, 2 * (size_t)d->nrow);
     if (!column)
         return ROTID_ERROR_MEMORY;
     memset(column, 0, 2 * (size_t)d->nrow * sizeof *column);
     for (int b = c->first; b < c->first + c->nblock; b++) {
-        double product = 0, square = 0;
         for (int i = 0; i < d->block[b].count; i++) {
             int row = d->block[b].row + i;
-            double r = c->u[row] - d->measured[row];
             column[row] = c->slope[row];
             column[row + d->nrow] = c->slope[row] * job->rotor.sensor[d->block[b].sensor[i]].position;
-            product += c->turned[row] * d->measured[row];
-            square += c->turned[row] * c->turned[row];
-            stated += r * r;
-            turned += d->measured[row] * d->measured[row];
         }
-        turned -= square > 0 ? product * product / square : 0;
     }
-    /* a model that was fitted to positions from the wrong end may be none at all: all that there is to gain */
-    double gain = fmax(stated - turned, list->scan->chi2 - list->scan->dof) / 2;
+    /* no line leads from the model that was fitted to positions from the wrong end: all that there is to gain */
+    double gain = (list->scan->chi2 - list->scan->dof) / 2;
     int status = offer(list, "sensor_line", -1, -1, (const double[]){0, 1, 1}, (const int[]){1, 1, 1}, 0, gain);
     for (int b = 0; b < 2 * list->scan->nbasis; b++) { /* twice */
         const double *q = list->scan->basis + (ptrdiff_t)(b / 2) * d->nrow;

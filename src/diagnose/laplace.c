@@ -95,6 +95,19 @@ static struct unknown normal_unknown(double x, double neutral, double deviation,
     return u;
 }
 
+/* x > 0 is uniform in ln x over decades below its upper bound, and in x below their least one, with a density that is continuous:
+ * uniform in t, x = least t up to t = 1, least e^(t - 1) from there on. */
+static double decades_range(const struct cause_parameter *p)
+{
+    return 1 + p->scale * log(10);
+}
+
+static double decades_value(const struct cause_parameter *p, double upper, double t)
+{
+    double least = upper * pow(10, -p->scale);
+    return least * (t < 1 ? t : exp(t - 1));
+}
+
 /* Deviation of a normal prior. */
 static double deviation_of(const struct cause_parameter *p, double lower, double upper)
 {
@@ -113,8 +126,8 @@ static struct unknown unknown_of_cause(const struct cause_kind *cause, int p, do
     if (p == cause->place || p == cause->width || parameter->prior == PRIOR_FLAT)
         return flat_unknown(1, lower - x, upper - x);
     if (parameter->prior == PRIOR_LOG_FLAT) {
-        double least = upper * pow(10, -parameter->scale);
-        return flat_log(fmax(x, least), least, upper);
+        double least = upper * pow(10, -parameter->scale), t = x < least ? x / least : 1 + log(x / least);
+        return flat_unknown(fmax(x, least), -t, decades_range(parameter) - t);
     }
     if (parameter->prior == PRIOR_LOG_NORMAL) {
         double step = x * parameter->scale;
@@ -594,6 +607,14 @@ static int something_else(const struct evidence_data *d, struct pool *pool, cons
     return status;
 }
 
+/* Into mean and deviation a share of what has another mean and mean of its squares. */
+static void mix_moments(double share, double mean, double square, double *to_mean, double *to_std)
+{
+    double before = *to_mean * *to_mean + *to_std * *to_std;
+    *to_mean += share * (mean - *to_mean);
+    *to_std = sqrt(fmax(0, before + share * (square - before) - *to_mean * *to_mean));
+}
+
 /* ln Z by rows [nrow * (n + 1)], the last column the residual, in units of the n unknowns; the first nown are the deck's, moments
  * of which go to out->mean and out->std in those units. known: what approximations leave of a frequency and of a shape. states,
  * scan: of something else, NULL scan: not asked for. fault [nfault]: the last unknowns. */
@@ -621,7 +642,13 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
         fault[f].std = fabs(u[p].step) * sqrt(w.work[p + (ptrdiff_t)p * n]);
     }
     if (known[0] > 0 || known[1] > 0) { /* what an approximation leaves: nothing, or as much as is known of it */
-        status = with_field(d, pool, n, u, rows, known, 0, 0, out, NULL, &field);
+        double *mean = POOL_ARRAY(pool, double, 2 * (size_t)nown + 1), weighed = -INFINITY;
+        struct evidence with = {.mean = mean, .std = mean + nown};
+        if (!mean)
+            return ROTID_ERROR_MEMORY;
+        status = with_field(d, pool, n, u, rows, known, 0, nown, &with, &weighed, &field);
+        for (int p = 0; p < nown && !status; p++)
+            mix_moments(exp(field - log_sum(out->log_z, field)), with.mean[p], with.std[p], &out->mean[p], &out->std[p]);
         out->log_z = log_sum(out->log_z, field) - LN_2;
         out->log_stated = log_sum(out->log_stated, field) - LN_2;
     }
@@ -726,11 +753,12 @@ static double gain_of_item(const struct scan *scan, const struct rotor *rotor, i
         return along - square / 2;
     cause_bounds(cause, rotor, &item->effect, cause->size, &lower, &upper);
     if (size->prior == PRIOR_LOG_FLAT || size->prior == PRIOR_FLAT) { /* by points over it */
-        double sum = -INFINITY, least = size->prior == PRIOR_FLAT ? lower : upper * pow(10, -size->scale);
+        double sum = -INFINITY;
         const int points = 24;
         for (int j = 0; j < points; j++) {
             double share = (j + 0.5) / points,
-                   x = size->prior == PRIOR_FLAT ? least + share * (upper - least) : least * pow(upper / least, share),
+                   x = size->prior == PRIOR_FLAT ? lower + share * (upper - lower)
+                                                 : decades_value(size, upper, share * decades_range(size)),
                    a = (x - size->neutral) / item->unit;
             sum = log_sum(sum, along * a - square * a * a / 2);
         }

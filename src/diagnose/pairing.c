@@ -8,8 +8,7 @@
 
 #define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */
 #define EXPLAINED   0.01
-#define LEAST_KEPT  3   /* modes */
-#define AS_WELL     2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
+#define LEAST_KEPT  3 /* modes */
 
 int pairing_drop(struct engine *engine, int k)
 {
@@ -45,42 +44,6 @@ int pairing_note(struct engine *engine, const int *number)
         if (status)
             return status;
     }
-    return ROTID_OK;
-}
-
-struct pairing { /* beside a refit */
-    int *number;
-    double rate; /* chi2 a degree of freedom */
-    double chi2;
-};
-
-/* Pairs the data beside the model of a refit, and fits that again where the pairing is another one. rate INFINITY where two modes
- * claim one partner, or where it is the same. */
-static int pair_beside(struct engine *engine, const struct refit *refit, const struct job_measurement *measured,
-                       struct pairing *pairing)
-{
-    struct job job = refit->states.state->job;
-    struct spectrum spectrum;
-    struct comparison compared;
-    struct message_list quiet;
-    rotid_fit_result *fit = NULL;
-    message_open(&quiet, engine->pool);
-    job.measurement = *measured;
-    *pairing = (struct pairing){.rate = INFINITY};
-    int status = spectrum_compute_parts(engine->pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter,
-                                        refit->fit->x, ROTID_GUYAN, comparison_candidates(&job),
-                                        SPECTRUM_MASS | (job.options.solid ? SPECTRUM_COARSE : 0), &spectrum);
-    if (!status)
-        status = comparison_make(engine->pool, &job, &spectrum, &quiet, &compared);
-    int same = !status && measured->nmode == engine->job->measurement.nmode &&
-               !memcmp(compared.number, engine->number, (size_t)measured->nmode * sizeof *compared.number);
-    if (!status && !same)
-        status = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
-        return status;
-    if (fit && fit->dof > 0)
-        *pairing = (struct pairing){compared.number, fit->chi2 / fit->dof, fit->chi2};
-    rotid_fit_free(fit);
     return ROTID_OK;
 }
 
@@ -298,30 +261,8 @@ static int exchange(struct engine *engine, const struct round_result *result, co
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
 {
     const struct job_measurement now = engine->job->measurement, *measured = engine->dropped ? &engine->measured : &now;
-    struct pairing best = {.rate = INFINITY};
-    double rate = INFINITY, chi2 = INFINITY;
     *changed = 0;
     if (!now.shape || engine->states.nstate > 1)
         return now.paired && engine->states.nstate == 1 ? ROTID_OK : renumber(engine, result, changed);
-    if (now.ncorrection != measured->ncorrection)
-        return ROTID_OK;
-    int exchanged = exchange(engine, result, measured, changed);
-    if (exchanged || *changed || now.paired)
-        return exchanged;
-    for (int i = 0; i < result->nrefit; i++) {
-        struct pairing pairing;
-        if (!result->refit[i].fit)
-            continue;
-        int status = pair_beside(engine, &result->refit[i], measured, &pairing);
-        if (status)
-            return status;
-        best = pairing.rate < best.rate ? pairing : best;
-        rate = fmin(rate, result->refit[i].chi2 / result->refit[i].fit->dof);
-        chi2 = fmin(chi2, result->refit[i].chi2);
-    }
-    int better = engine->dropped ? best.rate < AS_WELL * fmax(1, rate) : best.chi2 + LEAST_MARGIN * fmax(1, rate) < chi2;
-    if (!best.number || !better)
-        return ROTID_OK;
-    *changed = 1;
-    return pairing_adopt(engine, measured, best.number);
+    return now.ncorrection != measured->ncorrection ? ROTID_OK : exchange(engine, result, measured, changed);
 }

@@ -42,10 +42,17 @@ int posterior_same_cause(const struct candidate *a, const struct candidate *b)
            (a->sensor[0] == b->sensor[1] && a->sensor[1] == b->sensor[0]);
 }
 
+/* Whatever the form along the rotor. */
+static int same_variant(const struct candidate *a, const struct candidate *b)
+{
+    int one = a->effect.variant, two = b->effect.variant;
+    return one == two || (a->cause->reshape && one < 2 && two < 2);
+}
+
 int posterior_same_model(const struct candidate *a, const struct candidate *b)
 {
     return posterior_same_cause(a, b) && !strcmp(a->target, b->target) && !memcmp(a->fixed, b->fixed, sizeof a->fixed) &&
-           a->effect.variant == b->effect.variant && a->result.suspect == b->result.suspect &&
+           same_variant(a, b) && a->result.suspect == b->result.suspect &&
            (!a->result.suspect || !strcmp(a->effect.name, b->effect.name));
 }
 

@@ -211,6 +211,15 @@ static int propose_faults(struct engine *engine, struct posterior *p, int parent
     return status;
 }
 
+/* Whether all of a set are effects of the rotor, so that it can be fitted anew from the base. */
+static int is_of_beams(const struct explanation *e)
+{
+    int all = 1;
+    for (int m = 0; m < e->nmember; m++)
+        all &= !candidate_is_fault(&e->member[m]) && !e->member[m].cause->solid;
+    return all;
+}
+
 /* A set of physical causes with one less: what led to it may not be needed any more. A set that was fitted is so again where the
  * larger one has a cause at another place. */
 static void propose_removals(const struct posterior *p, int parent, struct proposal *proposal, int most, int *count)
@@ -219,17 +228,30 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
     for (int m = 0; m < from->nmember && from->nmember > 1 && *count < most; m++) {
         struct proposal one = {.parent = parent, .candidate = ANEW, .set = *from};
         struct explanation *set = &one.set;
-        int physical = 1;
         set->nmember--;
         for (int k = m; k < set->nmember; k++)
             set->member[k] = from->member[k + 1];
-        for (int k = 0; k < from->nmember; k++)
-            physical &= !candidate_is_fault(&from->member[k]) && !from->member[k].cause->solid;
         not_fitted(p, set);
         set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
         struct explanation *known = posterior_find(p, set);
-        if (physical && (!known || stands_elsewhere(p, known, set)))
+        if (is_of_beams(from) && (!known || stands_elsewhere(p, known, set)))
             proposal[(*count)++] = one;
+    }
+}
+
+/* A set with a cause in its other form along the rotor, which takes the place of this one where it fits better. */
+static void propose_forms(const struct posterior *p, int parent, struct proposal *proposal, int most, int *count)
+{
+    const struct explanation *from = &p->item[parent];
+    for (int m = 0; m < from->nmember && *count < most; m++) {
+        const struct candidate *c = &from->member[m];
+        struct proposal one = {.parent = parent, .candidate = ANEW, .set = *from};
+        if (!is_of_beams(from) || !c->cause->reshape || c->effect.variant || c->result.suspect)
+            continue;
+        c->cause->reshape(&one.set.member[m].effect);
+        not_fitted(p, &one.set);
+        one.set.log_posterior = from->evidence.log_exact + one.set.log_prior; /* worth a fit */
+        proposal[(*count)++] = one;
     }
 }
 
@@ -369,7 +391,7 @@ static int is_within(const struct posterior *p, const struct candidate *a, const
 /* The same cause at the same place. */
 static int is_same(const struct posterior *p, const struct candidate *a, const struct candidate *b)
 {
-    return posterior_same_model(a, b) && (posterior_same_name(p, a, b) || is_within(p, a, b) || is_within(p, b, a));
+    return posterior_same_model(a, b) && (posterior_same_name(p, a, b) || (is_within(p, a, b) && is_within(p, b, a)));
 }
 
 /* The item with the same models at the same places, NULL: none. */
@@ -508,7 +530,7 @@ static int fit_singles(struct engine *engine, struct round_result *result, struc
 static int expand(struct engine *engine, struct round_result *result, struct posterior *p, int pass, int *more)
 {
     struct pool *pool = engine->pool;
-    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + MOST_MEMBERS) + PAIRS,
+    int parent, taken = 0, count = 0, fits = 0, most = BEAM * (result->scan.ncandidate + 8 + FAULTS + 2 * MOST_MEMBERS) + PAIRS,
                 status = ROTID_OK;
     struct proposal *proposal = POOL_ARRAY(pool, struct proposal, most);
     if (!proposal)
@@ -519,6 +541,7 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         from->expanded = 1;
         taken++;
         propose_removals(p, parent, proposal, most, &count);
+        propose_forms(p, parent, proposal, most, &count);
         if (from->nmember == MOST_MEMBERS)
             continue;
         struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;

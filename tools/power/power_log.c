@@ -116,6 +116,7 @@ static const struct {
              {"accused", INTEGER, offsetof(struct hidden_score, accused), 0},
              {"drop", NUMBER, offsetof(struct hidden_score, drop), 0},
              {"lesser", NUMBER, offsetof(struct hidden_score, lesser), 0},
+             {"before", NUMBER, offsetof(struct hidden_score, before), 0},
              {"margin", NUMBER, offsetof(struct hidden_score, margin), 0},
              {"left", NUMBER, offsetof(struct hidden_score, left), 0},
              {"place_error", NUMBER, offsetof(struct hidden_score, place_error), 0},
@@ -141,7 +142,8 @@ static void add_score(cJSON *line, const struct hidden_score *s)
         const struct hidden_value *v = &s->value[i];
         cJSON *o = cJSON_CreateObject();
         cJSON_AddStringToObject(o, "name", v->name);
-        cJSON_AddBoolToObject(o, "of_cause", v->of_cause);
+        cJSON_AddNumberToObject(o, "of", v->of);
+        add_number(o, "known", v->known);
         add_number(o, "truth", v->truth);
         add_number(o, "estimate", v->estimate);
         add_number(o, "lower", v->lower);
@@ -204,7 +206,8 @@ static void take_score(const cJSON *line, struct hidden_score *s)
             break;
         struct hidden_value *v = &s->value[s->nvalue++];
         snprintf(v->name, sizeof v->name, "%s", text_of(value, "name"));
-        v->of_cause = cJSON_IsTrue(cJSON_GetObjectItem(value, "of_cause"));
+        v->of = (enum hidden_of)number_of(value, "of");
+        v->known = number_of(value, "known");
         v->truth = number_of(value, "truth");
         v->estimate = number_of(value, "estimate");
         v->lower = number_of(value, "lower");

@@ -35,8 +35,10 @@ static double draw_value(const struct cause_kind *cause, int p, double lower, do
         return hide_log_between(random, lower, upper);
     if (p == cause->place || p == cause->width || prior->prior == PRIOR_FLAT)
         return hide_between(random, lower, upper);
-    if (prior->prior == PRIOR_LOG_FLAT)
-        return hide_log_between(random, upper * pow(10, -scale), upper);
+    if (prior->prior == PRIOR_LOG_FLAT) {
+        double least = upper * pow(10, -scale), t = hide_between(random, 0, 1 + scale * log(10));
+        return least * (t < 1 ? t : exp(t - 1));
+    }
     if (prior->prior == PRIOR_LOG_NORMAL)
         return exp(draw_normal(random, log(neutral), scale, log(lower), log(upper)));
     if (prior->prior == PRIOR_SHARE)

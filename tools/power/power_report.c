@@ -220,6 +220,25 @@ static void show_coverage(FILE *out, int count, const struct power_result *resul
     }
 }
 
+/* Of the averages over the explanations: their intervals beside those of the model with what is there and nothing else. */
+static void show_widths(FILE *out, int count, const struct power_result *result)
+{
+    double *ratio = malloc(((size_t)count * HIDDEN_VALUES + 1) * sizeof *ratio);
+    int n = 0;
+    for (int i = 0; i < count && ratio; i++)
+        for (int v = 0; result[i].done && v < result[i].score.nvalue; v++) {
+            const struct hidden_value *value = &result[i].score.value[v];
+            if (value->of == HIDDEN_OF_MIXTURE && value->known > 0)
+                ratio[n++] = (value->upper - value->lower) / (2 * value->known);
+        }
+    if (n) {
+        qsort(ratio, (size_t)n, sizeof *ratio, ascending);
+        fprintf(out, "width of averaged intervals over that with the true causes known: median %.2f, nine in ten below %.2f\n",
+                ratio[n / 2], ratio[n * 9 / 10]);
+    }
+    free(ratio);
+}
+
 static void show_mistakes(FILE *out, int count, const struct power_result *result)
 {
     double seconds = 0, longest = 0;
@@ -247,6 +266,7 @@ int power_report(FILE *out, int count, const struct power_result *result)
     show_pairs(out, count, result);
     show_kinds(out, count, result);
     show_coverage(out, count, result);
+    show_widths(out, count, result);
     bad = show_errors(out, count, result);
     show_mistakes(out, count, result);
     return power_requirements(out, count, result) || bad;

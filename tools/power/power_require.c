@@ -5,30 +5,33 @@
 
 #define VISIBLE      30.0  /* a drop from which an effect has to be reported */
 #define LARGE        150.0 /* and one from which its name has to be found */
-#define CLEAR_MARGIN 15.0  /* lead of the true cause from which its name has to be right */
-#define CLEAR_LEFT   60.0  /* outside the catalogue: no cause comes nearer to the data */
+#define LISTED_SHARE 0.99
+#define CLEAR_MARGIN 15.0 /* lead of the true cause from which its name has to be right */
+#define CLEAR_LEFT   60.0 /* outside the catalogue: no cause comes nearer to the data */
 
 enum {
     FALSE_ALARM,
     WRONG_NAME,
     NAMED,
+    LISTED,
     PAIR_BOTH,
     PAIR_WRONG,
     OUTSIDE_NO_NAME,
-    COVERAGE,
+    MIXTURE,
+    ACCUSED,
     DIAGNOSED,
     REQUIRED, /* the others are shown beside them */
     REPORTED = REQUIRED,
-    WITH_SHAPES,
-    WITHOUT_SHAPES,
+    FREQUENCIES,
+    COVERAGE,
     REFITTED,
     CLEARLY_NAMED,
     ANY_WRONG,
     PAIR_ANY_WRONG,
     OUTSIDE_LEFT,
+    OUTSIDE_MIXTURE,
     DATA_FOUND,
     DATA_PHYSICAL,
-    ACCUSED,
     NOISE_NAME,
     COLOURED_ALARM,
     CAUSE_COVERAGE,
@@ -44,23 +47,25 @@ static const struct {
 } table[LINES] = {
     [FALSE_ALARM] = {"nothing hidden: false alarms", 1, 0.01, 0.05},
     [WRONG_NAME] = {"one effect or fault worth 30: wrong name", 1, 0, 0.005},
-    [NAMED] = {"one effect worth 150: named, and it alone", 0, 0.95, 1},
+    [NAMED] = {"one effect worth 150, shapes: named alone", 0, 0.95, 1},
+    [LISTED] = {"one effect worth 30: among what shares 99 %", 0, 0.98, 1},
     [PAIR_BOTH] = {"two effects worth 150 each: both named", 0, 0.70, 1},
     [PAIR_WRONG] = {"two effects worth 150 each: wrong name", 1, 0, 0.01},
     [OUTSIDE_NO_NAME] = {"outside the catalogue: no name", 0, 0.90, 1},
-    [COVERAGE] = {"95 % intervals of E and G hold the truth", 0, 0.93, 0.97},
+    [MIXTURE] = {"95 % intervals of E and G hold the truth", 0, 0.93, 0.97},
+    [ACCUSED] = {"sound data: accused", 1, 0, 0.005},
     [DIAGNOSED] = {"a diagnosis, and no error", 0, 1, 1},
     [REPORTED] = {"one effect worth 30: reported", 0, 0, 1},
-    [WITH_SHAPES] = {"one effect worth 150, shapes: named alone", 0, 0, 1},
-    [WITHOUT_SHAPES] = {"one effect worth 150, frequencies alone: the same", 0, 0, 1},
+    [FREQUENCIES] = {"one effect worth 150, frequencies alone: the same", 0, 0, 1},
+    [COVERAGE] = {"the same of a model that was named right", 0, 0, 1},
     [REFITTED] = {"one effect worth 30: the true cause refitted", 0, 0, 1},
     [CLEARLY_NAMED] = {"one effect, margin 15: named, or one of two", 0, 0, 1},
     [ANY_WRONG] = {"one effect of any size: wrong name", 1, 0, 1},
     [PAIR_ANY_WRONG] = {"two effects of any size: wrong name", 1, 0, 1},
     [OUTSIDE_LEFT] = {"outside, 60 left by the best causes: no name", 0, 0, 1},
+    [OUTSIDE_MIXTURE] = {"outside: 95 % intervals of E and G", 0, 0, 1},
     [DATA_FOUND] = {"fault of the data worth 60: found", 0, 0, 1},
     [DATA_PHYSICAL] = {"fault of the data: physical name", 1, 0, 1},
-    [ACCUSED] = {"sound data: accused", 1, 0, 1},
     [NOISE_NAME] = {"noise stated wrongly: physical name", 1, 0, 1},
     [COLOURED_ALARM] = {"correlated noise, nothing hidden: reported", 1, 0, 1},
     [CAUSE_COVERAGE] = {"95 % intervals of named causes: hold the truth", 0, 0, 1},
@@ -90,23 +95,26 @@ static void add_physical(const struct hidden_score *s, struct power_share share[
         add(&share[WRONG_NAME], wrong);
         add(&share[REPORTED], s->reported);
         add(&share[REFITTED], isfinite(s->margin));
+        add(&share[LISTED], s->before < LISTED_SHARE);
     }
-    if (s->drop >= LARGE) {
-        add(&share[NAMED], named);
-        add(&share[s->shapes ? WITH_SHAPES : WITHOUT_SHAPES], named);
-    }
+    if (s->drop >= LARGE)
+        add(&share[s->shapes ? NAMED : FREQUENCIES], named);
     if (s->margin >= CLEAR_MARGIN)
         add(&share[CLEARLY_NAMED], named || (s->outcome == HIDDEN_IN_SET && s->nset <= 2));
 }
 
 static void add_case(const struct hidden_score *s, struct power_share share[LINES])
 {
+    static const int line[] = {[HIDDEN_OF_MODEL] = COVERAGE, [HIDDEN_OF_CAUSE] = CAUSE_COVERAGE, [HIDDEN_OF_MIXTURE] = MIXTURE};
     int wrong = s->outcome == HIDDEN_WRONG;
     add(&share[DIAGNOSED], s->outcome != HIDDEN_FAILED);
     if (s->outcome == HIDDEN_FAILED)
         return;
     for (int v = 0; v < s->nvalue; v++)
-        add(&share[s->value[v].of_cause ? CAUSE_COVERAGE : COVERAGE], hidden_covers(&s->value[v]));
+        if (s->value[v].of != HIDDEN_OF_MIXTURE || s->class != HIDDEN_OUTSIDE)
+            add(&share[line[s->value[v].of]], hidden_covers(&s->value[v]));
+        else
+            add(&share[OUTSIDE_MIXTURE], hidden_covers(&s->value[v]));
     if (s->class != HIDDEN_DATA && s->class != HIDDEN_NOISE)
         add(&share[ACCUSED], s->accused > 0);
     switch (s->class) {

@@ -14,6 +14,7 @@
 #define VALUE_TOLERANCE 0.1  /* of a gain, a shift, a factor */
 #define VALUE_STDS      4.0
 #define BEST            3 /* causes fitted without noise */
+#define NORMAL_95       1.959963984540054
 
 const char *hidden_class_name(enum hidden_class class)
 {
@@ -34,8 +35,14 @@ int hidden_covers(const struct hidden_value *value)
 
 struct hidden_score hidden_score_none(void)
 {
-    return (struct hidden_score){
-        .drop = NAN, .lesser = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
+    return (struct hidden_score){.drop = NAN,
+                                 .lesser = NAN,
+                                 .before = NAN,
+                                 .margin = NAN,
+                                 .left = NAN,
+                                 .place_error = NAN,
+                                 .size_error = NAN,
+                                 .outcome = HIDDEN_FAILED};
 }
 
 /* ---- the truth */
@@ -99,16 +106,16 @@ static int same_target(const struct candidate *c, const char *target)
     return (c->cause->target == TARGET_SPRING || c->cause->target == TARGET_DISK) && c->effect.target + 1 == atoi(name);
 }
 
-/* Whether z lies in the interval that the diagnosis states for the place of a candidate, which is narrow enough to be one. */
-static int is_stated(const struct candidate *c, double z, double length)
+/* Whether z lies in the interval that the diagnosis states for the place of a candidate, which spans no more than that. */
+static int is_stated(const struct candidate *c, double z, double widest)
 {
     int p = c->cause->place;
-    return p < c->nparameter && c->ci_upper[p] - c->ci_lower[p] <= PLACE_WIDEST * length && z >= c->ci_lower[p] &&
-           z <= c->ci_upper[p];
+    return p < c->nparameter && c->ci_upper[p] - c->ci_lower[p] <= widest && z >= c->ci_lower[p] && z <= c->ci_upper[p];
 }
 
-/* Whether a candidate is this effect: id, target, and place within one width, 3 % of the length or its stated interval. */
-static int is_true(const struct job *job, const struct candidate *c, const cJSON *truth, const cJSON *effect)
+/* Whether a candidate is this effect: id, target, and place within one width, 3 % of the length or its stated interval, of
+ * which more than `widest` of the length is no place. */
+static int is_true(const struct job *job, const struct candidate *c, const cJSON *truth, const cJSON *effect, double widest)
 {
     double length = number_of(truth, "length"), mass = place_of_mass(truth, effect), found = place_of_found_mass(job, c);
     if (isfinite(mass) || isfinite(found))
@@ -123,18 +130,34 @@ static int is_true(const struct job *job, const struct candidate *c, const cJSON
         return 1;
     double width = parameter_of(effect, "width"), z = parameter_of(effect, "z");
     return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length) ||
-           is_stated(c, z, length);
+           is_stated(c, z, widest * length);
 }
 
-/* The number of the true effect that a candidate is, or -1. */
-int hidden_which(const struct job *job, const struct candidate *c, const cJSON *truth)
+static int which(const struct job *job, const struct candidate *c, const cJSON *truth, double widest)
 {
     const cJSON *effects = cJSON_GetObjectItem(truth, "effects");
     for (int i = 0; i < cJSON_GetArraySize(effects); i++)
         if (!strcmp(text_of(cJSON_GetArrayItem(effects, i), "class"), "physical") &&
-            is_true(job, c, truth, cJSON_GetArrayItem(effects, i)))
+            is_true(job, c, truth, cJSON_GetArrayItem(effects, i), widest))
             return i;
     return -1;
+}
+
+int hidden_which(const struct job *job, const struct candidate *c, const cJSON *truth)
+{
+    return which(job, c, truth, PLACE_WIDEST);
+}
+
+/* How many true effects are among the causes of an explanation, each in the places that are stated for it. */
+static int truths_of(const struct diagnosis *d, const struct explanation *e, const cJSON *truth)
+{
+    int seen = 0, count = 0;
+    for (int m = 0; m < e->nmember; m++) {
+        int n = which(&d->job, &e->member[m], truth, 1);
+        count += n >= 0 && !(seen & 1 << n);
+        seen |= n >= 0 ? 1 << n : 0;
+    }
+    return count;
 }
 
 /* Whether its size lies where the catalogue does not look: then it is outside of that. */
@@ -329,7 +352,12 @@ static void add_value(struct hidden_score *s, const char *id, const char *name, 
     if (s->nvalue == HIDDEN_VALUES || !isfinite(truth))
         return;
     struct hidden_value *v = &s->value[s->nvalue++];
-    *v = (struct hidden_value){.of_cause = id[0] != 0, .truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
+    *v = (struct hidden_value){.of = id[0] ? HIDDEN_OF_CAUSE : HIDDEN_OF_MODEL,
+                               .truth = truth,
+                               .estimate = estimate,
+                               .lower = lower,
+                               .upper = upper,
+                               .known = NAN};
     snprintf(v->name, sizeof v->name, "%s%s%s", id, id[0] ? "." : "", name);
 }
 
@@ -342,6 +370,39 @@ static void take_parameters(const struct job *job, const rotid_fit_result *fit, 
             if (same_text(job->unknowns.bounds[p].name, text_of(parameter, "name")))
                 add_value(s, "", job->unknowns.bounds[p].name, number_of(parameter, "value"), fit->x[p], fit->ci_lower[p],
                           fit->ci_upper[p]);
+    }
+}
+
+/* The averages over the explanations, and what is listed before the first one that has all that is there. */
+static void take_posterior(const struct diagnosis *d, const cJSON *truth, struct hidden_score *s)
+{
+    const struct posterior *p = &d->posterior;
+    const struct explanation *known = NULL;
+    const cJSON *parameter;
+    double before = 0;
+    s->before = 1;
+    for (int i = 0; i < p->count && s->truths; before += p->item[i++].probability) {
+        const struct explanation *e = &p->item[i];
+        int whole = truths_of(d, e, truth) == s->truths;
+        if (whole)
+            s->before = fmin(s->before, before);
+        if (whole && !known && e->nmember == s->truths && !e->something_else)
+            known = e;
+    }
+    cJSON_ArrayForEach(parameter, cJSON_GetObjectItem(truth, "parameters"))
+    {
+        for (int q = 0; q < p->naveraged; q++) {
+            const rotid_averaged_parameter *a = &p->averaged[q];
+            int count = s->nvalue;
+            if (!same_text(a->name, text_of(parameter, "name")))
+                continue;
+            add_value(s, "", a->name, number_of(parameter, "value"), a->value, a->ci95[0], a->ci95[1]);
+            if (s->nvalue == count)
+                continue;
+            s->value[count].of = HIDDEN_OF_MIXTURE;
+            snprintf(s->value[count].name, sizeof s->value[count].name, "%.40s, averaged", a->name);
+            s->value[count].known = known ? NORMAL_95 * known->evidence.std[q] : NAN;
+        }
     }
 }
 
@@ -431,6 +492,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     int whole = s->outcome == HIDDEN_RIGHT && d->extended.fit && s->names == s->truths; /* the model has all that is there */
     if (whole && (s->class == HIDDEN_PHYSICAL || s->class == HIDDEN_PAIR))
         take_parameters(&d->extended_job, d->extended.fit, truth, s);
+    take_posterior(d, truth, s);
     if (whole && s->class == HIDDEN_PHYSICAL)
         take_cause(&d->cause[0], truth, effect, s);
     return status;

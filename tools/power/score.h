@@ -22,10 +22,13 @@ enum hidden_outcome {
 #define HIDDEN_NAME   64
 #define HIDDEN_VALUES 12
 
+enum hidden_of { HIDDEN_OF_MODEL, HIDDEN_OF_CAUSE, HIDDEN_OF_MIXTURE };
+
 struct hidden_value {       /* a parameter with a stated 95 % interval */
     char name[HIDDEN_NAME]; /* "core.E", "stiffness_local.depth" */
-    int of_cause;           /* the latter */
+    enum hidden_of of;      /* the model that was named right, its cause, or the average over all explanations, of every case */
     double truth, estimate, lower, upper;
+    double known; /* of the average: half the interval where the true causes are known, NaN where they were not fitted */
 };
 
 struct hidden_score {
@@ -42,8 +45,9 @@ struct hidden_score {
     int accused;       /* findings about the data that are not true */
     double drop;       /* chi2 of the base model fitted to the data without their noise */
     double lesser;     /* two effects: the smaller drop of each of them alone; NaN elsewhere */
-    double margin;     /* least chi2 of the other refitted candidates minus that of the true one; NaN where it was not refitted */
-    double left;       /* outside the catalogue: chi2 of the best single cause for the data without noise; NaN elsewhere */
+    double before; /* probability of what is listed before the first explanation with the truth in its stated places, 1: none */
+    double margin; /* least chi2 of the other refitted candidates minus that of the true one; NaN where it was not refitted */
+    double left;   /* outside the catalogue: chi2 of the best single cause for the data without noise; NaN elsewhere */
     double place_error, size_error; /* of the length, of the size; NaN unless named right and there is one */
     int nvalue;
     struct hidden_value value[HIDDEN_VALUES];

@@ -85,6 +85,9 @@ struct cause_kind {
     const char
         *variant[5]; /* words of option SHAPE= (stiffness_local, added_mass) or MOUNT= (accelerometer_mass), NULL at the end */
     const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
+    /* from the first variant to the second one, which is the same cause in another form along the rotor: an effect of the first
+     * one becomes that of the second with the same area and standard deviation. NULL: the variants are different models */
+    void (*reshape)(struct effect *effect);
     /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */
     double discrepancy_frequency, discrepancy_shape;
     /* whether the cause makes sense for this target; identified [ngroup]: E or G of the group is free. NULL: always */

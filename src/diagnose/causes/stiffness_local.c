@@ -94,6 +94,14 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
     }
 }
 
+static void reshape(struct effect *effect)
+{
+    double ratio = sqrt(12); /* length of a box over its standard deviation */
+    effect->variant = BOX;
+    effect->value[WIDTH] *= ratio;
+    effect->value[DEPTH] *= sqrt(2 * PI) / ratio;
+}
+
 static const struct effect_kind kind = {.id = "stiffness_local",
                                         .nparameter = PARAMETERS,
                                         .parameter = {{"depth", "1"}, {"z", "m"}, {"width", "m"}, {"depth_shear", "1"}},
@@ -114,6 +122,7 @@ const struct cause_kind cause_stiffness_local = {
     .width = WIDTH,
     .variant = {"GAUSSIAN", "BOX", "GAUSSIAN_SHEAR", "BOX_SHEAR"},
     .variant_option = "SHAPE",
+    .reshape = reshape,
     .bounds = bounds,
     .sentence = "a zone softer than its surroundings",
     .check = "look for a crack, a loose fit or missing pressure there, and measure more points around it",
