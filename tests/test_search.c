@@ -145,6 +145,17 @@ UNIT_TEST(a_cause_that_two_lead_to_is_found_alone)
     rotid_diagnosis_free(d);
 }
 
+/* The fits from the scan end at another place; a gradient leads to the right one, and is not needed there. */
+UNIT_TEST(the_place_that_two_causes_lead_to_is_that_of_one)
+{
+    rotid_diagnosis *d = diagnosed("from_two");
+    names(d, "support_rotation", "");
+    assert_int_equal(d->verdict.explanations[0].ncauses, 1);
+    assert_true(d->verdict.explanations[0].probability > 0.9);
+    assert_close(value_of(&d->verdict.causes[0], "z"), 0.061368, 0, 0.002);
+    rotid_diagnosis_free(d);
+}
+
 /* Left of the step the place hardly matters. By `rotid identify` with the spring at fixed places, chi2 is 60.73 at 0.15 m, 58.58
  * at 0.1947, 56.71 at 0.22, 53.19 at 0.399 and 66.94 at 0.42; 3.84 above the least is 57.03. */
 UNIT_TEST(the_interval_of_a_place_at_a_step_is_that_of_its_profile)
