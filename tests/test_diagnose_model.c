@@ -19,6 +19,7 @@ static struct beam_host host;
 static struct beam_data data;
 static double hz_std[BEAM_MODES], *shape, *shape_std, position[NELEM + 1];
 static int node[CAUSES], fails_at;
+static double offset; /* of the values of a cause over what it adds */
 static const rotid_parameter mass = {"mass", "kg", 0, 20, 1}, spring = {"stiffness", "N/m", 0, 1e7, 1e6};
 static const double mass_deviation[] = {5}, spring_deviation[] = {2e6};
 static rotid_host_cause cause[CAUSES];
@@ -30,7 +31,7 @@ static int add(void *user, const double *x, const double *value, rotid_matrix *k
     (void)x;
     if (c == fails_at)
         return 1;
-    return rotid_matrix_add(c < SPRINGS ? m : k, 2 * node[c], 2 * node[c], value[0], NULL);
+    return rotid_matrix_add(c < SPRINGS ? m : k, 2 * node[c], 2 * node[c], value[0] - offset, NULL);
 }
 
 static const rotid_host_cause *hidden_cause[2];
@@ -84,7 +85,7 @@ static int open_all(void **state)
     int failed = open_test_pool(state);
     fails_at = -1;
     hidden_cause[0] = hidden_cause[1] = NULL;
-    uneven = 0;
+    uneven = offset = 0;
     beam_host_open(&host, NELEM, 0, 0, 1);
     shape = POOL_ARRAY(&test_pool, double, (size_t)host.model.nmaster *BEAM_MODES);
     shape_std = POOL_ARRAY(&test_pool, double, (size_t)host.model.nmaster *BEAM_MODES);
@@ -215,6 +216,13 @@ static void wrong_input_is_refused(void **state)
     cause[3].add = add_no_number; /* is not left out without a word */
     REFUSED(ROTID_ERROR_FINITE, "with cause[3]: the stiffness of model->matrices");
     cause[3].add = add;
+    const rotid_parameter no_start = {"shift", "m", -1, 1, 0}; /* no fit begins there, so it was left out without a word */
+    cause[3].parameter = &no_start;
+    REFUSED(ROTID_ERROR_ARGUMENT, "cause[3].parameter[0] shift has lower -1, start 0, upper 1, expected");
+    cause[3].parameter = &mass;
+    cause[3].size += 8;
+    REFUSED(ROTID_ERROR_ARGUMENT, "expected that of the first");
+    cause[3].size -= 8;
     data.measured.frequency_std = NULL;
     REFUSED(ROTID_ERROR_ARGUMENT, "frequency_std");
     data.measured.frequency_std = hz_std;
@@ -232,6 +240,35 @@ static void wrong_input_is_refused(void **state)
                      ROTID_STOP_CANCELLED);
     assert_null(d);
     rotid_host_diagnosis_free(NULL);
+}
+
+/* Where rounding has a size at its bound, the set is fitted with a further cause and with something else all the same. */
+static void a_size_at_its_bound_is_fitted_on_with_others(void **state)
+{
+    static const rotid_parameter narrow = {"mass", "kg", 1e8, 1e8 + 0.2, 1e8 + 0.1};
+    static const double neutral[] = {1e8};
+    int pairs = 0;
+    (void)state;
+    hidden_cause[0] = &cause[1];
+    hidden_cause[1] = &cause[6];
+    hidden_value[0] = hidden_value[1] = 1; /* five times as much as there can be */
+    measure(7);
+    offset = neutral[0];
+    for (int c = 0; c < CAUSES; c++) {
+        cause[c] = cause[c % SPRINGS];
+        cause[c].parameter = &narrow;
+        cause[c].neutral = neutral;
+        cause[c].deviation = NULL;
+    }
+    rotid_host_diagnosis *d;
+    assert_status(rotid_diagnose_model(&host.model, beam_parameters, &data.measured, SPRINGS, cause, NULL, NULL, failure, &d),
+                  ROTID_OK);
+    for (int i = 0; i < d->nexplanation; i++)
+        pairs += d->explanation[i].ncause > 1 && fmin(d->explanation[i].value[0], d->explanation[i].value[4]) > offset + 0.19;
+    print_message("%d pairs at the bound, something else %.3f\n", pairs, d->something_else);
+    assert_true(pairs > 5);
+    assert_int_equal(d->verdict, ROTID_UNEXPLAINED);
+    rotid_host_diagnosis_free(d);
 }
 
 static int asked, misled;
@@ -292,7 +329,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {TEST(what_is_hidden_is_named_with_its_size),
                                        TEST(nothing_hidden_is_nothing_and_what_is_no_cause_is_something_else),
-                                       TEST(wrong_input_is_refused), TEST(the_callbacks_of_a_model_have_its_own_user),
+                                       TEST(wrong_input_is_refused),
+                                       TEST(a_size_at_its_bound_is_fitted_on_with_others),
+                                       TEST(the_callbacks_of_a_model_have_its_own_user),
                                        TEST(without_memory_there_is_no_diagnosis)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,16 @@ static int unknowns_of(const struct host *h, const rotid_host_explanation *set)
     return n;
 }
 
-/* The unknowns of a set with their priors; starts are x where the set has been fitted in part. */
+/* Starts at x, but inside the bounds by a part of their distance: a fit does not begin at a bound. */
+static void start_at(double x, double part, rotid_parameter *parameter)
+{
+    double off = part * (parameter->upper - parameter->lower);
+    double inside = fmin(fmax(x, parameter->lower + off), parameter->upper - off);
+    if (isfinite(x) && inside != 0)
+        parameter->start = inside;
+}
+
+/* The unknowns of a set with their priors; starts are what a fit of a part of the set gave. */
 static void take_unknowns(const struct host *h, const rotid_host_explanation *set, rotid_parameter *parameter,
                           struct model_prior *prior)
 {
@@ -81,8 +90,7 @@ static void take_unknowns(const struct host *h, const rotid_host_explanation *se
         const rotid_host_cause *cause = &h->cause[set->cause[i]];
         for (int q = 0; q < cause->nparameter; q++, at++) {
             parameter[at] = cause->parameter[q];
-            if (isfinite(set->value[VALUES * i + q]))
-                parameter[at].start = set->value[VALUES * i + q];
+            start_at(set->value[VALUES * i + q], 1e-6, &parameter[at]);
             prior[at] = (struct model_prior){parameter[at].lower, parameter[at].upper, cause->neutral ? cause->neutral[q] : 0,
                                              cause->deviation ? cause->deviation[q] : 0};
         }
@@ -118,10 +126,8 @@ static int enter(struct host *h, rotid_host_explanation set, const double *x, in
     if (!parameter || !prior || !entered.evidence.mean || !entered.evidence.std)
         return ROTID_ERROR_MEMORY;
     take_unknowns(h, &set, parameter, prior);
-    for (int p = 0; p < nown && x; p++) {
-        double off = 0.02 * (parameter[p].upper - parameter[p].lower);
-        parameter[p].start = fmin(fmax(x[p], parameter[p].lower + off), parameter[p].upper - off);
-    }
+    for (int p = 0; p < nown && x; p++)
+        start_at(x[p], 0.02, &parameter[p]);
     model.nparam = n;
     if (set.ncause) {
         model.matrices = matrices;
@@ -133,7 +139,7 @@ static int enter(struct host *h, rotid_host_explanation set, const double *x, in
     if (!status || status > 0) {
         int cancelled = fit->status == ROTID_STOP_CANCELLED;
         status = cancelled ? ROTID_STOP_CANCELLED : evidence_of_model(h->data, prior, nown, fit, with_else, &entered.evidence);
-    } else if (set.ncause && (status == ROTID_ERROR_CALLBACK || status == ROTID_ERROR_FINITE)) {
+    } else if (set.ncause && (status == ROTID_ERROR_CALLBACK || status == ROTID_ERROR_FINITE || status == ROTID_ERROR_ARGUMENT)) {
         return failure_say_of(h->failure, status, "with cause[%d]: ", set.cause[set.ncause - 1]);
     } else if (set.ncause && status != ROTID_ERROR_MEMORY) {
         *h->failure = 0; /* the model has no fit with this cause */
@@ -310,9 +316,13 @@ static int conclude(struct host *h, rotid_host_diagnosis *d)
 
 static int take_cause(const char *given, int c, char *failure, rotid_host_cause *own)
 {
-    size_t first;
+    size_t size, first;
     memcpy(&first, given, sizeof first);
-    int status = sized_take(SIZED_CAUSE, given + (size_t)c * first, failure, own);
+    given += (size_t)c * first;
+    memcpy(&size, given, sizeof size);
+    if (size != first)
+        return refuse(failure, "cause[%d].size is %zu, expected that of the first, %zu", c, size, first);
+    int status = sized_take(SIZED_CAUSE, given, failure, own);
     if (status)
         return status;
     if (!own->name || !own->parameter || !own->add)
@@ -327,16 +337,13 @@ static int take_cause(const char *given, int c, char *failure, rotid_host_cause 
         return refuse(failure, "cause[%d].nparameter is %d, expected 1 to %d", c, own->nparameter, VALUES);
     for (int q = 0; q < own->nparameter; q++) {
         double neutral = own->neutral ? own->neutral[q] : 0, deviation = own->deviation ? own->deviation[q] : 0;
-        const rotid_parameter *p = &own->parameter[q];
         if (!isfinite(neutral) || !(deviation >= 0 && isfinite(deviation)))
             return refuse(failure,
                           "cause[%d]: neutral[%d] is %g and deviation[%d] %g, expected finite ones, the latter not negative", c,
                           q, neutral, q, deviation);
-        if (!(p->lower < p->start && p->start < p->upper))
-            return refuse(failure, "cause[%d].parameter[%d]: lower %g, start %g, upper %g, expected lower < start < upper", c, q,
-                          p->lower, p->start, p->upper);
     }
-    return ROTID_OK;
+    status = fit_check_parameters("cause->nparameter", own->nparameter, own->parameter, failure);
+    return status ? failure_say_of(failure, status, "cause[%d].", c) : ROTID_OK;
 }
 
 static int check(const rotid_model *model, const rotid_measured *measured, int ncause, const rotid_host_cause *cause,
