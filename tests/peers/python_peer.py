@@ -331,6 +331,29 @@ def bends_as(checks, name, rotor, out, tolerance=EXACT):
         checks.close(f"to ROSS, {name}: polar inertia by a rigid tilt", [tilt["x"] @ g @ tilt["y"]], [POLAR[name]()], 1e-9)
 
 
+def to_ross_whirls(checks, folder):
+    """At speed as `rotid speeds` has it: a disk whose node is that of the end beside it, and tie rods between two nodes."""
+    import csv
+
+    rotor_cards = STEEL + ("*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.06, 0, 4\n*SHAFT, NAME=end, MATERIAL=steel\n0.3, 0.04, 0, 4\n*DISK\n0.001, 9, 0.05, "
+                           "0.1\n*SPRING\n0.1, 1e6\n*SPRING\nend, 1e7\n")
+    deck, machine, diagram = folder / "rotor.inp", folder / "machine.inp", folder / "campbell.csv"
+    for name, rods in (("disk beside a node", ""), *((f"tie rods, {model}", f"*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end, MODEL="
+                                                       f"{model}\n8, 0.02, 0.15, 0\n") for model in ("RODS", "TUBE"))):
+        deck.write_text(rotor_cards + rods)
+        machine.write_text(rotor_cards + rods + "*RUNNING\n*BEARING\nstart, 1e-3, 0\n*BEARING\nend, 1e-3, 0\n")
+        rotor = noted(rotid.to_ross, deck)[0]
+        rotid.run("speeds", machine, speeds="0:9000:2", draws=2, campbell=diagram)
+        with open(diagram, encoding="utf-8", newline="") as stream:
+            hz = np.array([float(row["frequency [Hz]"]) for row in csv.DictReader(stream) if float(row["speed [rpm]"]) == 9000])
+        at = np.sort(np.concatenate([np.arange(i, rotor.ndof, 6) for i in (0, 1, 3, 4)]))
+        k, m, g = (a[np.ix_(at, at)] for a in (rotor.K(0), rotor.M(), rotor.G()))
+        n, speed = len(at), 9000 * np.pi / 30
+        first_order = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, speed * g)]])
+        found = np.abs(np.linalg.eigvals(first_order).imag) / (2 * np.pi)
+        checks.close(f"to ROSS, {name}: frequencies at 9000 rpm", [found[np.argmin(np.abs(found - f))] for f in hz[:6]], hz[:6], 2e-4)
+
+
 def export_of(deck, folder, **options):
     return rotid.run("export", deck, format="dmig", output=folder / "model.bdf", **options)
 
@@ -599,6 +622,7 @@ def main():
         decks_are_whole(checks, folder)
         from_ross_bends(checks, folder)
         to_ross_bends(checks, folder)
+        to_ross_whirls(checks, folder)
         draws(checks, folder)
         from_nastran(checks, folder)
         from_abaqus(checks, folder)

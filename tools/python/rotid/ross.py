@@ -400,7 +400,7 @@ def round_section(outer, ei, kgs, rhos, rhoi):
 
 
 def parts_of(model):
-    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K and M that are left."""
+    """Elements as (length, outer, inner, E, G_s, rho, force, group, section), disks, springs, and K, M and polar inertia that are left."""
     z, geometry = model["z"], model["geometry"]
     k, m = model["k"].copy(), model["m"].copy()
     shaft, last = [], None
@@ -423,19 +423,18 @@ def parts_of(model):
     disks, springs = [], []
     for disk in geometry["disks"]:
         node = node_at(z, disk["z_m"])
-        if node is not None:
-            disks.append((node, disk))
-            m[2 * node, 2 * node] -= disk["mass_kg"]
-            m[2 * node + 1, 2 * node + 1] -= disk["diametral_kg_m2"]
+        disks.append((node, disk))
+        m[2 * node, 2 * node] -= disk["mass_kg"]
+        m[2 * node + 1, 2 * node + 1] -= disk["diametral_kg_m2"]
     for spring in geometry["springs"]:
         node = node_at(z, spring["z_m"])
-        if node is not None and spring["lateral_n_m"] > 0:
+        if spring["lateral_n_m"] > 0:
             springs.append((node, spring))
             k[2 * node, 2 * node] -= spring["lateral_n_m"]
     for part, matrix in ((k, model["k"]), (m, model["m"])):
         scale = np.sqrt(np.outer(np.diag(matrix), np.diag(matrix)))
         part[np.abs(part) <= 1e-11 * scale] = 0.0
-    return shaft, disks, springs, (k, m)
+    return shaft, disks, springs, (k, m, polar_of_rods(model))
 
 
 def cowper(nu, ratio):
@@ -450,8 +449,8 @@ def stated(group, segment, outer):
 
 
 def node_at(z, place):
-    node = int(np.argmin(np.abs(z - place)))
-    return node if abs(z[node] - place) <= 1e-8 * z[-1] else None
+    """The mesh has a node at every part, or one so near that the part is there."""
+    return int(np.argmin(np.abs(z - place)))
 
 
 def built(model, shaft, disks, springs, rest):
@@ -460,8 +459,8 @@ def built(model, shaft, disks, springs, rest):
     class Given(ross.DiskElement):
         """Matrices of rotid over some nodes, the same in both planes."""
 
-        def __init__(self, nodes, stiffness, mass, tag):
-            self.of, self.stiffness, self.mass = nodes, planes(stiffness), planes(mass)
+        def __init__(self, nodes, stiffness, mass, polar, tag):
+            self.of, self.stiffness, self.mass, self.gyroscopic = nodes, planes(stiffness), planes(mass), between_planes(polar)
             lateral, tilt = np.tile([1.0, 0.0], len(nodes)), np.column_stack((model["z"][nodes], np.ones(len(nodes)))).ravel()
             moved = float(lateral @ mass @ lateral)
             centre = float(tilt @ mass @ lateral) / moved if moved > 0 else model["z"][nodes[0]]
@@ -482,10 +481,13 @@ def built(model, shaft, disks, springs, rest):
         def M(self, *_, **__):
             return self.mass
 
+        def G(self, *_, **__):
+            return self.gyroscopic
+
         def C(self, *_, **__):
             return np.zeros_like(self.mass)
 
-        G = Kdt = C
+        Kdt = C
 
     elements, materials = [], {}
     for n, (length, outer, inner, e, g, rho, force, group, _) in enumerate(shaft):
@@ -495,14 +497,12 @@ def built(model, shaft, disks, springs, rest):
         elements.append(ross.ShaftElement(L=length, idl=inner, odl=outer, material=materials[key], n=n, axial_force=force))
     parts = [ross.DiskElement(n=n, m=d["mass_kg"], Id=d["diametral_kg_m2"], Ip=d["polar_kg_m2"], tag=d["name"] or f"disk {i}")
              for i, (n, d) in enumerate(disks)]
-    parts += polar_parts(model, ross)
     supports = [ross.BearingElement(n=n, kxx=s["lateral_n_m"], cxx=0, tag=f"{s['name'] or 'spring'} {i}") for i, (n, s) in enumerate(springs)]
-    k, m = rest
-    used = np.flatnonzero((k != 0).any(axis=0) | (m != 0).any(axis=0))
+    used = np.flatnonzero(sum((part != 0).any(axis=0) for part in rest))
     nodes = sorted({int(i) // 2 for i in used})
     if nodes:
         at = dofs(nodes)
-        parts.append(Given(nodes, k[np.ix_(at, at)], m[np.ix_(at, at)], "of rotid"))
+        parts.append(Given(nodes, *(part[np.ix_(at, at)] for part in rest), "of rotid"))
         places = ", ".join(f"{model['z'][n]:.6g}" for n in nodes[:8]) + (" and more" if len(nodes) > 8 else "")
         model["notes"].append(f"ROSS has no element for what acts between or on the nodes at z = {places} m besides shaft, disks and springs (tie "
                               "rods, bars, joints, masses between nodes, springs on rotations): one element has the matrices of rotid; a rotor "
@@ -514,20 +514,31 @@ def built(model, shaft, disks, springs, rest):
     return ross.Rotor(elements, parts, supports)
 
 
-def polar_parts(model, ross):
-    """Tie rods and bars turn with the shaft: half of their polar inertia at each end, that of bars at their centre."""
-    parts = []
-    for kind in ("tierods", "bars"):
-        for i, part in enumerate(model["geometry"][kind]):
-            d, pitch = part["diameter_m"], part["pitch_radius_m"]
-            mass = part["material"]["rho_kg_m3"] * part["number"] * math.pi / 4 * d**2 * (part["to_m"] - part["from_m"])
-            polar = mass * (pitch**2 + d**2 / 8)
-            ends = (part["from_m"], part["to_m"]) if kind == "tierods" else (part["center_m"],)
-            for end, place in enumerate(ends):
-                node = node_at(model["z"], place)
-                if node is not None:
-                    parts.append(ross.DiskElement(n=node, m=0.0, Id=0.0, Ip=polar / len(ends), tag=f"{part['name'] or kind} {i} {end}"))
-    return parts
+def polar_of_rods(model):
+    """Polar inertia of tie rods and bars in x and dx/dz: twice their rotary inertia as rotid has it, that of bars at their centre."""
+    z, polar = model["z"], np.zeros_like(model["m"])
+    for part in model["geometry"]["tierods"]:
+        material, length, ends = part["material"], part["to_m"] - part["from_m"], [node_at(z, part["from_m"]), node_at(z, part["to_m"])]
+        area, own, ring = section_of_rods(part)
+        inertia = own + ring if part["model"] == "TUBE" else own
+        outer2, inner2 = (8 * inertia / area + sign * 2 * area / math.pi for sign in (1, -1))
+        ratio = math.sqrt(inner2 / outer2) if part["model"] == "TUBE" else 0.0
+        phi = 12 * material["e_pa"] * inertia / (cowper(material["nu"], ratio) * material["g_pa"] * area * length**2)
+        polar[np.ix_(dofs(ends), dofs(ends))] += 2 * material["rho_kg_m3"] * inertia * beam_mass(length, phi)[1]
+        if part["model"] == "RODS":  # they move along themselves as the ends tilt
+            turns = [2 * node + 1 for node in ends]
+            polar[np.ix_(turns, turns)] += material["rho_kg_m3"] * ring * length / 3 * np.array([[2.0, 1.0], [1.0, 2.0]])
+    for part in model["geometry"]["bars"]:
+        turn = 2 * node_at(z, part["center_m"]) + 1
+        _, own, ring = section_of_rods(part)
+        polar[turn, turn] += 2 * part["material"]["rho_kg_m3"] * (own + ring) * (part["to_m"] - part["from_m"])
+    return polar
+
+
+def section_of_rods(part):
+    """Area, second moment of the rods about their own axes, and that of their areas about a diameter of the pitch circle."""
+    area = part["number"] * math.pi / 4 * part["diameter_m"] ** 2
+    return area, area * part["diameter_m"] ** 2 / 16, area * part["pitch_radius_m"] ** 2 / 2
 
 
 PLANES = ((0, "x"), (4, "beta"), (1, "y"), (3, "alpha"))  # alpha = -dy/dz
@@ -542,6 +553,18 @@ def planes(matrix):
     sign = np.tile([1.0, -1.0], n)
     full[np.ix_(first, first)] = matrix
     full[np.ix_(second, second)] = sign[:, None] * matrix * sign
+    return full
+
+
+def between_planes(polar):
+    """The gyroscopic matrix of a polar inertia in x and dx/dz of some nodes, in the order of PLANES."""
+    n = len(polar) // 2
+    full = np.zeros((4 * n, 4 * n))
+    first = [4 * i + c for i in range(n) for c in (0, 1)]
+    second = [4 * i + c for i in range(n) for c in (2, 3)]
+    sign = np.tile([1.0, -1.0], n)
+    full[np.ix_(first, second)] = polar * sign
+    full[np.ix_(second, first)] = -sign[:, None] * polar
     return full
 
 
