@@ -352,6 +352,9 @@ def to_ross_whirls(checks, folder):
         first_order = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, speed * g)]])
         found = np.abs(np.linalg.eigvals(first_order).imag) / (2 * np.pi)
         checks.close(f"to ROSS, {name}: frequencies at 9000 rpm", [found[np.argmin(np.abs(found - f))] for f in hz[:6]], hz[:6], 2e-4)
+    deck.write_text(rotor_cards + "*STATE, NAME=bare\n*MODES\n1, 100\n*STATE, NAME=disc\n*DISK, NAME=hub\n0.3, 1, 0.01, 0.02\n*MODES\n1, 90\n")
+    disks = noted(rotid.to_ross, deck, state="disc", start=True)[0].disk_elements
+    checks.close("to ROSS: disks of a state", sorted(d.Ip for d in disks), [0.02, 0.1], 1e-12)
 
 
 def export_of(deck, folder, **options):

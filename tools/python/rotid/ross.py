@@ -321,7 +321,8 @@ def exported(deck, start, program, options):
         k = (k + k.T) / 2
         names = ", ".join(sorted({rows[i]["member"] for i in inner}))
         notes.append(f"{names}: what lies between the nodes of the axis is condensed, and modes of these parts themselves are missing")
-    geometry = run("check", deck, program=program, **{name: value for name, value in options.items() if name == "set"})["geometry"]
+    of_state = ("--set", f"FIT.STATE={options['state']}") if options.get("state") else ()
+    geometry = run("check", deck, *of_state, program=program, **{name: value for name, value in options.items() if name == "set"})["geometry"]
     return {"deck": str(deck), "k": k, "m": m, "z": np.array([float(rows[i]["z_m"]) for i in axis]), "geometry": geometry, "notes": notes, "out": out}
 
 
