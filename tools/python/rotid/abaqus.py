@@ -65,7 +65,7 @@ def value(card, line, fields, i, what, least=None, default=None):
     if not text and default is not None:
         return default
     try:
-        found = float(text.lower().replace("d", "e"))
+        found = float(text.lower().replace("d", "e").replace("_", "?"))  # 2_1 is 21 to Python alone
     except ValueError:
         found = math.nan
     if not math.isfinite(found) or (least is not None and found < least):
@@ -74,7 +74,7 @@ def value(card, line, fields, i, what, least=None, default=None):
 
 
 def whole(card, line, text, what):
-    if not text.isdigit() or len(text) > 9:
+    if not text.isdecimal() or len(text) > 9:
         card.wrong(f"{what} is '{text[:40]}', expected a number of a node or an element", line)
     return int(text)
 
@@ -179,6 +179,9 @@ class Reader:
         kind = card.need("SECTION")
         if kind not in ("CIRC", "PIPE"):
             card.wrong(f"SECTION={kind} is not round, expected CIRC or PIPE")
+        for option in ("OFFSET1", "OFFSET2"):
+            if value(card, card.line, [card.options.get(option, "")], 0, option, default=0.0):
+                card.wrong(f"{option} puts it beside its nodes, expected no offset")
         if not card.rows:
             card.wrong("has no data line, expected the dimensions")
         line, fields = card.rows[0]
