@@ -772,6 +772,8 @@ UNIT_TEST(no_option_lets_a_file_of_the_user_be_lost)
         {"diagnose " DECK " --json " DECK, "is the file that is read"},
         {"diagnose " DECK " --extended /tmp/none.x --json /tmp/../tmp/none.x", "is the file of --json as well"},
         {"diagnose " DECK " --extended -", "--extended -: expected a file"},
+        {"speeds " DECK " --campbell /tmp/none.x --response /tmp/./none.x",
+         "--campbell /tmp/none.x is the file of --response as well"},
         {"suggest " DECK " --modes 1", "--modes 1: expected a whole number from 2"},
         {"identify " DECK " --extended /tmp/none.x", "--extended is no option of identify, but of diagnose suggest"},
         {"diagnose " DECK " --seed 2", "--seed is no option of diagnose, but of sensitivity suggest speeds study"},

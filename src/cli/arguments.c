@@ -58,10 +58,13 @@ static int refuse_files(const struct command *command)
         for (int f = 0; f < command->nfile && !wrong; f++)
             if (arguments_same_file(command->file[f], path))
                 wrong = " is the file that is read, expected another one";
-        if (!wrong && !is_json && command->json && arguments_same_file(command->json, path))
-            wrong = " is the file of --json as well, expected another one";
         if (wrong)
             return terminal_end(EXIT_USAGE, "rotid: --%s %s%s\n", name, path, wrong);
+        for (int j = 0; j < command->ngiven && !is_json; j++)
+            if (strcmp(command->given[j].name, name) != 0 && written(command, j) &&
+                arguments_same_file(written(command, j), path))
+                return terminal_end(EXIT_USAGE, "rotid: --%s %s is the file of --%s as well, expected another one\n", name, path,
+                                    command->given[j].name);
     }
     return -1;
 }
