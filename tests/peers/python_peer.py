@@ -559,6 +559,10 @@ def from_abaqus(checks, folder):
     checks.close("from Abaqus: frequencies of the deck by hand", bending_hz(deck), bending_hz(hand), 1e-12)
     checks.true("from Abaqus: nothing is left out", not said, said)
     for name, twice in {"a set that names its element twice": ("*MASS, ELSET=HUB", "*ELSET, ELSET=HUB\n10\n*MASS, ELSET=HUB"),
+                        "a set of sets of sets": ("*MASS, ELSET=HUB", "*ELSET, ELSET=S0\n10\n" + "".join(
+                            f"*ELSET, ELSET=S{i + 1}\n{', '.join([f'S{i}'] * 16)}\n" for i in range(8)) + "*MASS, ELSET=S8"),
+                        "a set to the last number": ("*ELEMENT, TYPE=MASS, ELSET=HUB\n", "*ELSET, ELSET=HUB, GENERATE\n" + "10, 999999999, 999\n" * 9 +
+                                                     "*ELEMENT, TYPE=MASS\n"),
                         "a set before its elements": ("*ELEMENT, TYPE=MASS, ELSET=HUB\n", "*ELSET, ELSET=HUB, GENERATE\n10, 10\n*ELEMENT, TYPE=MASS\n")}.items():
         path.write_text(ABAQUS.replace(*twice))
         written(rotid.from_abaqus(path), deck)

@@ -125,24 +125,24 @@ class Reader:
                 card.wrong(f"element {number} occurs twice, first in line {self.elements[number][2]}", line)
             self.elements[number] = (kind, nodes, line)
             if card.options.get("ELSET"):
-                self.sets.setdefault(card.options["ELSET"].upper(), []).append(number)
+                self.sets.setdefault(card.options["ELSET"].upper(), {})[number] = None
 
     def elset(self, card):
-        name, members = card.need("ELSET"), []
+        members = self.sets.setdefault(card.need("ELSET"), {})
         for line, fields in card.rows:
             fields = [field for field in fields if field]
             if "GENERATE" in card.options:
                 numbers = [whole(card, line, field, "an element") for field in fields]
-                if len(numbers) not in (2, 3) or (len(numbers) == 3 and numbers[2] < 1) or numbers[-1] > 10**8:
+                if len(numbers) not in (2, 3) or (len(numbers) == 3 and numbers[2] < 1):
                     card.wrong("expected first, last and step", line)
-                members += [n for n in range(numbers[0], numbers[1] + 1, numbers[2] if len(numbers) == 3 else 1) if n in self.elements]
+                first, last, step = (*numbers, 1)[:3]
+                members.update(dict.fromkeys(n for n in sorted(self.elements) if first <= n <= last and (n - first) % step == 0))
                 continue
             for field in fields:
                 if field.upper() in self.sets:
-                    members += self.sets[field.upper()]
+                    members.update(self.sets[field.upper()])
                 else:
-                    members.append(whole(card, line, field, "an element or a set"))
-        self.sets.setdefault(name, []).extend(members)
+                    members[whole(card, line, field, "an element or a set")] = None
 
     def material(self, card):
         self.current = {"name": card.need("NAME"), "line": card.line}
@@ -221,7 +221,7 @@ class Reader:
         """Elements of a set, each once and of one card alone, however often it was put into the set."""
         if name not in self.sets:
             card.wrong(f"the element set {name[:40]} is not there")
-        for number in dict.fromkeys(self.sets[name]):
+        for number in self.sets[name]:
             if number not in self.elements:
                 card.wrong(f"element {number} of the set {name[:40]} is not there")
             if self.elements[number][0] not in kinds:
