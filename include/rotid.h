@@ -1547,7 +1547,7 @@ typedef struct rotid_host_diagnosis {
 /* What the model of a host lacks: the explanations of measured modes by sets of up to three causes, and by something else, with
  * their probabilities P(H) Z(H), Z the integral of the likelihood over all parameters with their priors (docs/method.md, 11).
  * Entry: model, parameter [model->nparam] and measured as for rotid_fit by ROTID_LIKELIHOOD without a reduction, frequency_std
- * not NULL; cause [ncause], ncause >= 1, of which the size member of the first holds for all; options NULL: the defaults. Every
+ * not NULL; cause [ncause], ncause >= 1, all of one size, their starts not 0; options NULL: the defaults. Every
  * cause is fitted alone, then the likeliest sets with one cause more. Exit: *diagnosis, to be freed with
  * rotid_host_diagnosis_free; NULL on an error. Statuses: those of rotid_fit; ROTID_STOP_CANCELLED, and *diagnosis is NULL. Time:
  * 1 + ncause fits and as many again for each of up to eight sets; memory O(ncause n kd). */
