@@ -217,26 +217,12 @@ static void check_sets(struct search *search)
         add(search, "unit", listing->units_line, "a set 164 with other factors than one before");
 }
 
-struct place {
-    int id, order;
-};
+ORDER_BY(by_id, struct uff_label, it->id, 0)
 
-ORDER_BY(by_id, struct place, it->id, it->order)
-
-static int has_place(const struct place *place, int count, int id)
+static int is_among(int count, const struct uff_label *label, int id)
 {
-    const struct place *found = NULL;
-    int low = 0, high = count;
-    while (low < high && !found) {
-        int middle = low + (high - low) / 2;
-        if (place[middle].id == id)
-            found = &place[middle];
-        else if (place[middle].id < id)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return found != NULL;
+    const struct uff_label key = {.id = id};
+    return bsearch(&key, label, (size_t)count, sizeof key, by_id) != NULL;
 }
 
 /* Nodes twice with other coordinates; functions at nodes without any. */
@@ -244,17 +230,14 @@ static void check_nodes(struct search *search)
 {
     const struct listing *listing = search->listing;
     int count = listing->node_count;
-    struct place *place = POOL_ARRAY(search->pool, struct place, count);
-    if (!place)
+    const struct uff_label *label =
+        count ? uff_sort_labels(search->pool, count, &listing->node->id, sizeof *listing->node) : NULL;
+    if (count && !label)
         return;
-    for (int i = 0; i < count; ++i)
-        place[i] = (struct place){listing->node[i].id, i};
-    if (count)
-        qsort(place, (size_t)count, sizeof *place, by_id);
     for (int i = 1; i < count; ++i) {
-        const struct uff_node *a = &listing->node[place[i - 1].order], *b = &listing->node[place[i].order];
+        const struct uff_node *a = &listing->node[label[i - 1].order], *b = &listing->node[label[i].order];
         if (a->id == b->id && (a->x[0] != b->x[0] || a->x[1] != b->x[1] || a->x[2] != b->x[2]))
-            add(search, "node_twice", listing->node_line[place[i].order],
+            add(search, "node_twice", listing->node_line[label[i].order],
                 "node %d stands at (%g, %g, %g) and again at (%g, %g, %g)", a->id, a->x[0], a->x[1], a->x[2], b->x[0], b->x[1],
                 b->x[2]);
     }
@@ -263,10 +246,10 @@ static void check_nodes(struct search *search)
         if (set->set.number != 58 || set->item < 0 || !count)
             continue;
         const struct uff_function *f = &listing->function[set->item].function;
-        if (f->response_node && !has_place(place, count, f->response_node))
+        if (f->response_node && !is_among(count, label, f->response_node))
             add(search, "no_coordinates", set->set.line, "function %d: response node %d has no coordinates", set->item + 1,
                 f->response_node);
-        if (f->reference_node && f->reference_node != f->response_node && !has_place(place, count, f->reference_node))
+        if (f->reference_node && f->reference_node != f->response_node && !is_among(count, label, f->reference_node))
             add(search, "no_coordinates", set->set.line, "function %d: reference node %d has no coordinates", set->item + 1,
                 f->reference_node);
     }
@@ -455,7 +438,7 @@ static int read_function(struct listing_work *job, struct listing_set *set)
     struct uff_function *function = &entry.function;
     struct levels levels = {.count = 0};
     int status = uff_read_function(job->reader, function);
-    int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+    int is_complex = uff_is_complex(function);
     long long got = 1;
     values_open(&entry.values);
     while (!status && got) {

@@ -643,7 +643,7 @@ static int common_kind(const struct contents *c, const struct measurement_option
 static const char *unusable(const struct content *item, const struct content *model)
 {
     const struct uff_function *f = &item->function;
-    if (f->ordinate != UFF_COMPLEX_SINGLE && f->ordinate != UFF_COMPLEX_DOUBLE)
+    if (!uff_is_complex(f))
         return "its values are real, expected complex ones";
     if (!lines_rise(item))
         return "its lines do not rise";

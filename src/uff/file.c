@@ -20,9 +20,7 @@ struct placed_values { /* of one node */
 /* What grows, on a pool of its own, until it is copied to its length. */
 struct growing {
     struct pool scratch;
-    struct placed_values *values;
-    size_t capacity;
-    struct uff_label_list labels;
+    struct placed_values *values; /* [node_count] of the shape */
 };
 
 static int read_kind(struct uff_lines *lines, struct uff_shape *shape)
@@ -119,39 +117,34 @@ static int read_values(struct uff_reader *reader, struct growing *growing, struc
     const struct uff_form form = {.integers = 1, .integer_width = 10};
     struct uff_lines *lines = &reader->lines;
     int value_count = shape->component_count * (shape->is_complex ? 2 : 1);
-    for (size_t count = 0;; ++count) {
+    for (;;) {
         int is_end, status = uff_next_record(reader, "a node number or '-1'", &is_end);
         if (status != ROTID_OK || is_end)
             return status;
-        if (count >= INT_MAX / 6)
+        if (shape->node_count >= INT_MAX / 6)
             return uff_fail(lines, 0, "more than %d nodes", INT_MAX / 6);
-        struct placed_values *grown = pool_grow(&growing->scratch, growing->values, count, &growing->capacity, sizeof *grown);
-        if (!grown)
-            return ROTID_ERROR_MEMORY;
-        growing->values = grown;
-        struct placed_values *values = &growing->values[count];
-        values->line = lines->line;
-        status = uff_parse_line(lines, &form, "a node number", &values->node, NULL);
+        struct placed_values values = {.line = lines->line};
+        status = uff_parse_line(lines, &form, "a node number", &values.node, NULL);
         /* values are due now, and a line '-1' is one of them */
         if (status == ROTID_OK)
-            status = uff_read_reals(lines, value_count, 6, 13, "values of a node", values->value);
-        if (status == ROTID_OK)
-            status = uff_add_label(&growing->scratch, &growing->labels, values->node);
+            status = uff_read_reals(lines, value_count, 6, 13, "values of a node", values.value);
         if (status != ROTID_OK)
             return status;
-        shape->node_count = (int)count + 1;
+        if (POOL_ADD(&growing->scratch, growing->values, shape->node_count, &values))
+            return ROTID_ERROR_MEMORY;
     }
 }
 
-static int refuse_repeated_nodes(struct uff_lines *lines, struct growing *growing)
+static int refuse_repeated_nodes(struct uff_lines *lines, struct growing *growing, int count)
 {
-    struct uff_label_list *labels = &growing->labels;
-    uff_sort_labels(labels);
-    for (size_t i = 1; i < labels->count; ++i) {
-        if (labels->item[i].id != labels->item[i - 1].id)
+    const struct uff_label *label = uff_sort_labels(&growing->scratch, count, &growing->values->node, sizeof *growing->values);
+    if (!label)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 1; i < count; ++i) {
+        if (label[i].id != label[i - 1].id)
             continue;
-        const struct placed_values *first = &growing->values[labels->item[i - 1].order];
-        const struct placed_values *again = &growing->values[labels->item[i].order];
+        const struct placed_values *first = &growing->values[label[i - 1].order];
+        const struct placed_values *again = &growing->values[label[i].order];
         return message_refuse(lines->messages, ROTID_ERROR_SYNTAX, lines->path, again->line, 1,
                               "set 55: node %d occurs twice in the set, first in line %d, expected once", again->node,
                               first->line);
@@ -195,8 +188,8 @@ static int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, str
     int status = read_mode(lines, shape);
     if (status == ROTID_OK)
         status = read_values(reader, &growing, shape);
-    if (status == ROTID_OK)
-        status = refuse_repeated_nodes(lines, &growing);
+    if (status == ROTID_OK && shape->node_count)
+        status = refuse_repeated_nodes(lines, &growing, shape->node_count);
     if (status == ROTID_OK && !shape->node_count)
         uff_warn(lines, "no nodes, which means that all values are zero");
     if (status == ROTID_OK)
@@ -239,30 +232,25 @@ static int check_repeated(const char *path, const struct uff_placed_node *first,
 static int uff_join_nodes(struct pool *pool, struct pool *scratch, const char *path, const struct uff_node_list *list,
                           struct message_list *messages, struct uff_file *out)
 {
-    struct uff_label_list labels = {0};
-    for (size_t i = 0; i < list->count; ++i)
-        if (uff_add_label(scratch, &labels, list->item[i].node.id) != ROTID_OK)
-            return ROTID_ERROR_MEMORY;
-    uff_sort_labels(&labels);
-
+    const struct uff_label *label = uff_sort_labels(scratch, list->count, &list->item->node.id, sizeof *list->item);
     char *dropped = POOL_ARRAY(scratch, char, list->count);
-    if (!dropped)
+    if (!label || !dropped)
         return ROTID_ERROR_MEMORY;
-    size_t kept = list->count;
-    for (size_t i = 1; i < labels.count; ++i) {
-        if (labels.item[i].id != labels.item[i - 1].id)
+    int kept = list->count;
+    for (int i = 1; i < list->count; ++i) {
+        if (label[i].id != label[i - 1].id)
             continue;
-        int status = check_repeated(path, &list->item[labels.item[i - 1].order], &list->item[labels.item[i].order], messages);
+        int status = check_repeated(path, &list->item[label[i - 1].order], &list->item[label[i].order], messages);
         if (status != ROTID_OK)
             return status;
-        dropped[labels.item[i].order] = 1; /* the first one stays */
+        dropped[label[i].order] = 1; /* the first one stays */
         --kept;
     }
 
     out->node = POOL_ARRAY(pool, struct uff_node, kept);
     if (!out->node)
         return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < list->count; ++i)
+    for (int i = 0; i < list->count; ++i)
         if (!dropped[i])
             out->node[out->node_count++] = list->item[i].node;
     return ROTID_OK;
@@ -373,9 +361,8 @@ static int read_shape(struct uff_run *job)
 static int read_nodes(struct uff_run *job, const struct uff_set *set)
 {
     struct uff_node_list *list = &job->nodes;
-    size_t before = list->count;
-    int status = uff_append_nodes(job->reader, &job->scratch, list);
-    for (size_t i = before; i < list->count && set->number == 15; ++i)
+    int before = list->count, status = uff_append_nodes(job->reader, &job->scratch, list);
+    for (int i = before; i < list->count && set->number == 15; ++i)
         if (list->item[i].node.definition_system != 0) {
             message_add(job->messages, SEVERITY_WARNING, job->path, list->item[i].line, 1,
                         "set 15: node %d is given in coordinate system %d; its coordinates are taken as global and Cartesian",
@@ -426,7 +413,7 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
         say_skipped(&job);
         uff_close(job.reader);
     }
-    if (status == ROTID_OK)
+    if (status == ROTID_OK && job.nodes.count)
         status = uff_join_nodes(pool, &job.scratch, path, &job.nodes, messages, out);
     if (status == ROTID_OK)
         status = keep_shapes(pool, &job.shapes, &out->shape_count, &out->shape);

@@ -161,29 +161,30 @@ int uff_open_lines(struct uff_lines *lines)
     return ROTID_OK;
 }
 
+static void say(struct uff_lines *lines, enum severity severity, int column, const char *format, va_list values)
+{
+    char text[512], set[24] = "";
+    (void)vsnprintf(text, sizeof text, format, values);
+    if (lines->set)
+        (void)snprintf(set, sizeof set, "set %d: ", lines->set);
+    message_add(lines->messages, severity, lines->path, lines->line, column, "%s%s", set, text);
+}
+
 int uff_fail(struct uff_lines *lines, int column, const char *format, ...)
 {
-    char text[512];
     va_list values;
-    column = column > 0 ? column : 1; /* the line as a whole */
     va_start(values, format);
-    (void)vsnprintf(text, sizeof text, format, values);
+    say(lines, SEVERITY_ERROR, column > 0 ? column : 1, format, values); /* 0: the line as a whole */
     va_end(values);
-    if (lines->set)
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, column, "set %d: %s", lines->set, text);
-    else
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, column, "%s", text);
     return ROTID_ERROR_SYNTAX;
 }
 
 void uff_warn(struct uff_lines *lines, const char *format, ...)
 {
-    char text[512];
     va_list values;
     va_start(values, format);
-    (void)vsnprintf(text, sizeof text, format, values);
+    say(lines, SEVERITY_WARNING, 1, format, values);
     va_end(values);
-    message_add(lines->messages, SEVERITY_WARNING, lines->path, lines->line, 1, "set %d: %s", lines->set, text);
 }
 
 const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT])
@@ -652,12 +653,13 @@ static enum uff_fault read_cell(const struct uff_lines *lines, enum uff_kind kin
     return kind == UFF_REAL ? uff_parse_real(text, field.length, &cell->real) : parse_integer(text, field.length, &cell->integer);
 }
 
-int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_column *column, struct uff_cell *cell)
+int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT])
 {
-    int bad = -1;
+    int bad = -1, count = record->count;
     for (int i = count - 1; i >= 0; --i) {
-        struct uff_field field = uff_cut_column(lines, (size_t)column[i].start, (size_t)column[i].width);
-        if (read_cell(lines, column[i].kind, field, &cell[i]) != UFF_FAULT_NONE)
+        const struct uff_column *column = &record->member[i].column;
+        struct uff_field field = uff_cut_column(lines, (size_t)column->start, (size_t)column->width);
+        if (read_cell(lines, column->kind, field, &cell[i]) != UFF_FAULT_NONE)
             bad = i;
     }
     struct uff_field token[UFF_CELL_LIMIT + 1];
@@ -665,31 +667,30 @@ int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_colu
         return bad;
     struct uff_cell other[UFF_CELL_LIMIT];
     for (int i = 0; i < count; ++i)
-        if (read_cell(lines, column[i].kind, token[i], &other[i]) != UFF_FAULT_NONE)
+        if (read_cell(lines, record->member[i].column.kind, token[i], &other[i]) != UFF_FAULT_NONE)
             return bad;
     memcpy(cell, other, (size_t)count * sizeof *cell);
     return -1;
 }
 
-int uff_cut_record(struct uff_lines *lines, int count, const struct uff_column *column, const char *what, struct uff_cell *cell)
+int uff_cut_record(struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT])
 {
-    int bad = uff_cut_line(lines, count, column, cell);
-    if (bad < 0) {
-        for (int i = 0; i < count; ++i)
-            if ((cell[i].integer < INT_MIN || cell[i].integer > INT_MAX) && column[i].kind == UFF_INTEGER)
-                return uff_fail_field(lines, what, UFF_FAULT_RANGE, (struct uff_field){cell[i].start, cell[i].length}, 1,
-                                      "32 bits");
+    int bad = uff_cut_line(lines, record, cell);
+    for (int i = 0; i < record->count && bad < 0; ++i)
+        if ((cell[i].integer < INT_MIN || cell[i].integer > INT_MAX) && record->member[i].column.kind == UFF_INTEGER)
+            return uff_fail_field(lines, record->what, UFF_FAULT_RANGE, (struct uff_field){cell[i].start, cell[i].length}, 1,
+                                  "32 bits");
+    if (bad < 0)
         return ROTID_OK;
-    }
+    const struct uff_column *column = &record->member[bad].column;
     char expected[80];
-    (void)snprintf(expected, sizeof expected, "it in columns %d to %d", column[bad].start + 1,
-                   column[bad].start + column[bad].width);
-    struct uff_field field = uff_cut_column(lines, (size_t)column[bad].start, (size_t)column[bad].width);
+    (void)snprintf(expected, sizeof expected, "it in columns %d to %d", column->start + 1, column->start + column->width);
+    struct uff_field field = uff_cut_column(lines, (size_t)column->start, (size_t)column->width);
     if (!field.length)
-        field.start = (size_t)column[bad].start;
+        field.start = (size_t)column->start;
     if (field.start > lines->length)
         field.start = lines->length;
-    return uff_fail_field(lines, what, UFF_FAULT_MALFORMED, field, column[bad].kind != UFF_REAL, expected);
+    return uff_fail_field(lines, record->what, UFF_FAULT_MALFORMED, field, column->kind != UFF_REAL, expected);
 }
 
 void uff_copy_text(const char *text, size_t length, size_t room, char *out)

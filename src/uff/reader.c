@@ -45,17 +45,32 @@ double uff_si_factor(const struct uff_units *units, const struct uff_axis *axis)
     return factor;
 }
 
+int uff_is_complex(const struct uff_function *function)
+{
+    return function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+}
+
+int uff_is_double(const struct uff_function *function)
+{
+    return function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+}
+
+/* Bytes of an ordinate in a binary set. */
+static int ordinate_size(const struct uff_function *function)
+{
+    return (uff_is_double(function) ? 8 : 4) * (uff_is_complex(function) ? 2 : 1);
+}
+
 /* ---- how long the values of a binary function are, and what has to stand behind them */
 
 /* Record 7 of sets 58: the description of the values. Returns the cell that is wrong, or -1. */
 static int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[UFF_CELL_LIMIT], struct uff_function *function)
 {
     struct uff_function form = *function;
-    int bad = uff_cut_members(lines, &uff_form_58, cell, &form), ordinate = form.ordinate;
+    int bad = uff_cut_members(lines, &uff_form_58, cell, &form);
     if (bad >= 0)
         return bad;
-    if (cell[0].integer != ordinate || (ordinate != UFF_REAL_SINGLE && ordinate != UFF_REAL_DOUBLE &&
-                                        ordinate != UFF_COMPLEX_SINGLE && ordinate != UFF_COMPLEX_DOUBLE))
+    if (cell[0].integer != form.ordinate || (form.ordinate != UFF_REAL_SINGLE && !uff_is_double(&form) && !uff_is_complex(&form)))
         return 0;
     if (form.count < 0 || form.count > LLONG_MAX / 32) /* a value has up to 24 bytes */
         return 1;
@@ -106,13 +121,10 @@ static int uff_measure_binary(struct uff_reader *reader, const struct uff_functi
 {
     struct uff_lines *lines = &reader->lines;
     const struct uff_binary *binary = &reader->binary;
-    int is_double = function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-    int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-    int y_size = (is_double ? 8 : 4) * (is_complex ? 2 : 1);
-    int size[2] = {0, 0}, count = 0;
+    int y_size = ordinate_size(function), size[2] = {0, 0}, count = 0;
     if (function->ordinate) {
         size[count++] = function->is_even ? 0 : 4;
-        if (!function->is_even && is_double)
+        if (!function->is_even && uff_is_double(function))
             size[count++] = 8;
     }
     *bytes = binary->bytes;
@@ -193,10 +205,9 @@ static int read_records(struct uff_lines *lines, struct uff_function *function)
 static void lay_out(struct uff_values *values)
 {
     const struct uff_function *function = &values->function;
-    int is_double = function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-    int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+    int is_double = uff_is_double(function), is_complex = uff_is_complex(function);
     values->per_value = (is_complex ? 2 : 1) + !function->is_even;
-    values->y_size = (is_double ? 8 : 4) * (is_complex ? 2 : 1);
+    values->y_size = ordinate_size(function);
     values->columns = !is_double ? 6 : !function->is_even && is_complex ? 3 : 4;
     for (int i = 0; i < values->columns; ++i)
         values->width[i] = is_double ? 20 : 13;
@@ -398,26 +409,16 @@ int uff_next_record(struct uff_reader *reader, const char *expected, int *is_end
 
 /* ---- ids that must not occur twice */
 
-int uff_add_label(struct pool *pool, struct uff_label_list *labels, int id)
-{
-    struct uff_label *grown = pool_grow(pool, labels->item, labels->count, &labels->capacity, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    labels->item = grown;
-    labels->item[labels->count] = (struct uff_label){id, (int)labels->count};
-    ++labels->count;
-    return ROTID_OK;
-}
-
 ORDER_BY(by_id, struct uff_label, it->id, it->order)
 
-void uff_sort_labels(struct uff_label_list *labels)
+struct uff_label *uff_sort_labels(struct pool *pool, int count, const int *id, size_t stride)
 {
-    size_t sorted = 1;
-    while (sorted < labels->count && labels->item[sorted - 1].id < labels->item[sorted].id)
-        ++sorted;
-    if (sorted < labels->count) /* most writers sort */
-        qsort(labels->item, labels->count, sizeof *labels->item, by_id);
+    struct uff_label *label = POOL_ARRAY(pool, struct uff_label, count);
+    for (int i = 0; i < count && label; ++i)
+        label[i] = (struct uff_label){*(const int *)((const char *)id + (size_t)i * stride), i};
+    if (label)
+        qsort(label, (size_t)count, sizeof *label, by_id);
+    return label;
 }
 
 /* ---- reading over a set, or over what is left of it */
@@ -477,18 +478,12 @@ static int uff_skip_set(struct uff_reader *reader)
 /* Record 4: date and time, then numbers, which no one needs: writers put other things there, or nothing. */
 static void cut_versions(const struct uff_lines *lines, struct uff_header *header)
 {
-    static const struct uff_column column[] = {{UFF_INTEGER, 20, 10}, {UFF_INTEGER, 30, 10}, {UFF_INTEGER, 40, 10}};
-    struct uff_cell cell[3];
-    int bad = uff_cut_line(lines, 3, column, cell);
+    struct uff_cell cell[UFF_CELL_LIMIT];
+    int bad = uff_cut_members(lines, &uff_versions_151, cell, header);
     uff_copy_text(lines->text, lines->length < 20 || bad >= 0 ? lines->length : 20, sizeof header->created, header->created);
     for (int i = 0; i < 3 && bad < 0; ++i)
-        if (cell[i].integer < -2147483647 || cell[i].integer > 2147483647)
-            bad = i;
-    if (bad >= 0)
-        return;
-    header->version[0] = (int)cell[0].integer;
-    header->version[1] = (int)cell[1].integer;
-    header->file_type = (int)cell[2].integer;
+        if (cell[i].integer < INT_MIN || cell[i].integer > INT_MAX)
+            header->version[0] = header->version[1] = header->file_type = 0;
 }
 
 int uff_read_header(struct uff_reader *reader, struct uff_header *header)
@@ -549,15 +544,10 @@ int uff_read_units(struct uff_reader *reader, struct uff_units *units)
 static int add_node(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list, int line,
                     const struct uff_node *node)
 {
-    if (list->count >= INT_MAX)
+    const struct uff_placed_node placed = {.node = *node, .line = line, .set = reader->set.number, .set_line = reader->set.line};
+    if (list->count == INT_MAX)
         return uff_fail(&reader->lines, 0, "more than %d nodes", INT_MAX);
-    struct uff_placed_node *grown = pool_grow(pool, list->item, list->count, &list->capacity, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    list->item = grown;
-    list->item[list->count++] =
-        (struct uff_placed_node){.node = *node, .line = line, .set = reader->set.number, .set_line = reader->set.line};
-    return ROTID_OK;
+    return POOL_ADD(pool, list->item, list->count, &placed) ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* One node, of which the first line is at hand. */
@@ -602,9 +592,9 @@ int uff_read_nodes(struct uff_reader *reader, struct pool *pool, int *count, str
         *node = POOL_ARRAY(pool, struct uff_node, list.count);
         status = *node ? ROTID_OK : ROTID_ERROR_MEMORY;
     }
-    for (size_t i = 0; i < list.count && status == ROTID_OK; ++i)
+    for (int i = 0; i < list.count && status == ROTID_OK; ++i)
         (*node)[i] = list.item[i].node;
-    *count = status == ROTID_OK ? (int)list.count : 0;
+    *count = status == ROTID_OK ? list.count : 0;
     pool_close(&scratch);
     return status;
 }

@@ -95,16 +95,7 @@ static int uff_put_close(struct uff_put *put)
     return put->status;
 }
 
-static void uff_put_integers(struct uff_put *put, int width, int per_line, int count, const int *value)
-{
-    for (int i = 0; i < count; ++i) {
-        uff_put_integer(put, width, value[i]);
-        if ((i + 1) % per_line == 0 || i + 1 == count)
-            uff_put_line(put);
-    }
-}
-
-/* Integers or reals, `per_line` a line. */
+/* `per_line` reals a line. */
 static void uff_put_reals(struct uff_put *put, int width, int decimals, int per_line, int count, const double *value)
 {
     for (int i = 0; i < count; ++i) {
@@ -146,6 +137,10 @@ static void uff_put_text_line(struct uff_put *put, const char *text)
     }
 
 /* clang-format off */
+const struct uff_record uff_versions_151 = {"versions and file type", 0, 3, {
+    WHOLE(uff_header, version[0], 20, 10),
+    WHOLE(uff_header, version[1], 30, 10),
+    WHOLE(uff_header, file_type, 40, 10)}};
 const struct uff_record uff_units_164 = {"record 1 (units code, description, temperature mode)", 0, 3, {
     REQUIRED(uff_units, code, 0, 10),
     WORDS(uff_units, description, 10, 20),
@@ -233,10 +228,7 @@ static void store(const struct uff_lines *lines, const struct uff_member *member
 int uff_cut_members(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT],
                     void *to)
 {
-    struct uff_column column[UFF_CELL_LIMIT];
-    for (int i = 0; i < record->count; ++i)
-        column[i] = record->member[i].column;
-    int bad = uff_cut_line(lines, record->count, column, cell);
+    int bad = uff_cut_line(lines, record, cell);
     for (int i = 0; i < record->count && bad < 0; ++i)
         store(lines, &record->member[i], &cell[i], to);
     return bad;
@@ -265,16 +257,15 @@ static int take_exact(struct uff_lines *lines, const struct uff_record *record, 
 
 int uff_take_record(struct uff_lines *lines, const struct uff_record *record, void *to)
 {
-    struct uff_column column[UFF_CELL_LIMIT];
     struct uff_cell cell[UFF_CELL_LIMIT];
     if (record->is_exact)
         return take_exact(lines, record, to);
-    for (int i = 0; i < record->count; ++i)
-        column[i] = record->member[i].column;
-    int status = uff_cut_record(lines, record->count, column, record->what, cell);
-    for (int i = 0; i < record->count && status == ROTID_OK; ++i)
-        if (column[i].kind == UFF_REQUIRED_INTEGER && cell[i].integer != (int)cell[i].integer)
-            status = uff_fail(lines, column[i].start + 1, "%s: the number is too large for 32 bits", record->what);
+    int status = uff_cut_record(lines, record, cell);
+    for (int i = 0; i < record->count && status == ROTID_OK; ++i) {
+        const struct uff_column *column = &record->member[i].column;
+        if (column->kind == UFF_REQUIRED_INTEGER && cell[i].integer != (int)cell[i].integer)
+            status = uff_fail(lines, column->start + 1, "%s: the number is too large for 32 bits", record->what);
+    }
     for (int i = 0; i < record->count && status == ROTID_OK; ++i)
         store(lines, &record->member[i], &cell[i], to);
     return status;
@@ -402,7 +393,9 @@ static void put_mode(struct uff_put *put, const struct uff_shape *shape)
         count = 6;
     }
     const int record[] = {2, count, shape->load_case, shape->number};
-    uff_put_integers(put, 10, 8, 4, record);
+    for (int i = 0; i < 4; ++i)
+        uff_put_integer(put, 10, record[i]);
+    uff_put_line(put);
     uff_put_reals(put, 13, 5, 6, count, real);
 }
 
@@ -441,16 +434,6 @@ int uff_write_shape(FILE *stream, const struct uff_shape *shape)
 
 #define COUNT_MOST 9999999999 /* I10 */
 
-static int is_complex(const struct uff_function *function)
-{
-    return function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-}
-
-static int is_double(const struct uff_function *function)
-{
-    return function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-}
-
 static void put_records(struct uff_put *put, const struct uff_function *function)
 {
     for (int i = 0; i < UFF_ID_LINES; ++i)
@@ -471,7 +454,7 @@ int uff_write_function(FILE *stream, const struct uff_function *function, struct
 {
     struct uff_put put = {.stream = stream};
     *writer = (struct uff_function_writer){.stream = stream, .function = function};
-    int known = function->ordinate == UFF_REAL_SINGLE || is_complex(function) || is_double(function);
+    int known = function->ordinate == UFF_REAL_SINGLE || uff_is_complex(function) || uff_is_double(function);
     if (!known || function->binary.is_binary || function->count < 0 || function->count > COUNT_MOST)
         return ROTID_ERROR_ARGUMENT;
     uff_put_open(&put, stream, 58);
@@ -483,8 +466,8 @@ int uff_write_function(FILE *stream, const struct uff_function *function, struct
 static int write_text(struct uff_function_writer *writer, int count, const double *number, const int *is_abscissa)
 {
     const struct uff_function *function = writer->function;
-    int wide = is_double(function), uneven = !function->is_even;
-    int per_line = !wide ? 6 : uneven && is_complex(function) ? 3 : 4;
+    int wide = uff_is_double(function), uneven = !function->is_even;
+    int per_line = !wide ? 6 : uneven && uff_is_complex(function) ? 3 : 4;
     for (int i = 0; i < count; ++i) {
         int ordinate = wide && !is_abscissa[i];
         if (!isfinite(number[i]))
@@ -503,7 +486,7 @@ static int write_text(struct uff_function_writer *writer, int count, const doubl
 int uff_write_values(struct uff_function_writer *writer, long long count, const double *x, const double *real, const double *imag)
 {
     const struct uff_function *function = writer->function;
-    int uneven = !function->is_even, pair = is_complex(function), status = ROTID_OK;
+    int uneven = !function->is_even, pair = uff_is_complex(function), status = ROTID_OK;
     if (count < 0 || count > function->count - writer->written || (count && (!real || (uneven && !x) || (pair && !imag))))
         return ROTID_ERROR_ARGUMENT;
     for (long long i = 0; i < count && status == ROTID_OK; ++i) {

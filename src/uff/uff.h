@@ -121,6 +121,10 @@ struct uff_function { /* sets 58 and 58b without their values */
     struct uff_axis abscissa, numerator, denominator, z_axis;
 };
 
+/* Of the values, by the ordinate data type. */
+int uff_is_complex(const struct uff_function *function);
+int uff_is_double(const struct uff_function *function);
+
 /* ---- set by set */
 
 /* Universal files, read one set after the other: nothing but the set at hand is in memory, and of a function only as many values
@@ -171,6 +175,13 @@ int uff_read_values(struct uff_reader *reader, long long most, double *x, double
  * 12 acceleration, 13 and 9 force, 15 pressure, 16 mass, 17 time, 18 frequency) and the exponents of the axis under `units` (NULL
  * or factors of 0: 1). A unit text "g" or "gn" of an acceleration is 9.80665 m/s2, whatever set 164 says. */
 double uff_si_factor(const struct uff_units *units, const struct uff_axis *axis);
+
+/* The ids of `count` structs, that of the first at `id` and the others `stride` bytes apart, with their order there: sorted, so
+ * that those that occur twice are neighbours. NULL where memory is out. */
+struct uff_label {
+    int id, order;
+};
+struct uff_label *uff_sort_labels(struct pool *pool, int count, const int *id, size_t stride);
 
 /* Whether lengths and forces have the same factors; temperatures stand in no quantity of a modal test. */
 int uff_same_units(const struct uff_units *a, const struct uff_units *b);
@@ -367,12 +378,30 @@ struct uff_cell {
 };
 #define UFF_CELL_LIMIT 10
 
-/* Cuts the current line in these columns or, when a number is none there, at blanks if that gives `count` fields. Returns the
- * number of the first cell that is wrong, or -1 when none is. */
-int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_column *column, struct uff_cell *cell);
+/* Lines of universal files with what stands in them, for both directions: which columns, and which member of the struct. From one
+ * layout follow uff_read_record and uff_put_record. */
+
+struct uff_member {
+    struct uff_column column;
+    size_t offset; /* int; UFF_LONG: long long; UFF_REAL: double; UFF_WORDS: char [width + 1], written to the left, NONE where
+                      empty */
+    int decimals;  /* UFF_REAL */
+    int one_more;  /* UFF_REAL: a digit more where the number has one and it leaves a blank before it */
+};
+
+struct uff_record {
+    const char *what; /* in messages */
+    int is_exact; /* integers and behind them reals, all of them there (uff_parse_line); else a blank one is 0 (uff_cut_record) */
+    int count;
+    struct uff_member member[UFF_CELL_LIMIT];
+};
+
+/* Cuts the current line in the columns of a record or, when a number is none there, at blanks if that gives as many fields.
+ * Returns the number of the first cell that is wrong, or -1 when none is. */
+int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT]);
 
 /* The same, with an error in the list when there is one. ROTID_OK or ROTID_ERROR_SYNTAX. */
-int uff_cut_record(struct uff_lines *lines, int count, const struct uff_column *column, const char *what, struct uff_cell *cell);
+int uff_cut_record(struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT]);
 
 /* Copies a text to out [room], without trailing blanks, cut to its room; NONE gives the empty text. */
 void uff_copy_text(const char *text, size_t length, size_t room, char *out);
@@ -398,27 +427,9 @@ struct uff_put {
     char line[UFF_PUT_LIMIT + 1];
 };
 
-/* Lines of universal files with what stands in them, for both directions: which columns, and which member of the struct. From one
- * layout follow uff_read_record and uff_put_record. */
-
-struct uff_member {
-    struct uff_column column;
-    size_t offset; /* int; UFF_LONG: long long; UFF_REAL: double; UFF_WORDS: char [width + 1], written to the left, NONE where
-                      empty */
-    int decimals;  /* UFF_REAL */
-    int one_more;  /* UFF_REAL: a digit more where the number has one and it leaves a blank before it */
-};
-
-struct uff_record {
-    const char *what; /* in messages */
-    int is_exact; /* integers and behind them reals, all of them there (uff_parse_line); else a blank one is 0 (uff_cut_record) */
-    int count;
-    struct uff_member member[UFF_CELL_LIMIT];
-};
-
 /* By set and record. */
-extern const struct uff_record uff_units_164, uff_node_15, uff_node_2411, uff_place_2411, uff_kind_55, uff_location_58,
-    uff_form_58, uff_abscissa_58, uff_ordinate_58, uff_denominator_58, uff_z_axis_58;
+extern const struct uff_record uff_versions_151, uff_units_164, uff_node_15, uff_node_2411, uff_place_2411, uff_kind_55,
+    uff_location_58, uff_form_58, uff_abscissa_58, uff_ordinate_58, uff_denominator_58, uff_z_axis_58;
 
 /* The next line, or the one at hand, to the members of the struct `to`. */
 int uff_read_record(struct uff_lines *lines, const struct uff_record *record, void *to);
@@ -478,21 +489,10 @@ struct uff_placed_node {
 };
 struct uff_node_list {
     struct uff_placed_node *item;
-    size_t count, capacity;
+    int count;
 };
 
 /* Appends the nodes of the set at hand. */
 int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list);
-
-/* Ids with their place in a list, to find those that occur twice. */
-struct uff_label {
-    int id, order;
-};
-struct uff_label_list {
-    struct uff_label *item;
-    size_t count, capacity;
-};
-int uff_add_label(struct pool *pool, struct uff_label_list *labels, int id); /* ROTID_OK or ROTID_ERROR_MEMORY */
-void uff_sort_labels(struct uff_label_list *labels);                         /* by id and then by order */
 
 #endif
