@@ -265,7 +265,7 @@ POOL_TEST(the_output_is_read_back_as_the_same_functions)
     message_open(&messages, &test_pool);
     assert_status(measurement_read(&test_pool, folder_path("synthesised.uff"), &all, &messages, &first), ROTID_OK);
     assert_int_equal(messages.errors, 0);
-    assert_true(first.set.nfrf == 3 && first.set.nline == LINES && first.node_count == 3 && first.has_units);
+    assert_true(first.set.nfrf == 3 && first.set.nline == LINES && first.node_count == 3 && first.units);
     assert_int_equal(first.set.quantity, FRF_ACCELERATION);
     assert_close(first.node[2].x[2], 0.8, 1e-9, 0);
     /* its own output as the measured one: the same to the digits of the file */

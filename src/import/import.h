@@ -174,9 +174,8 @@ struct contents {
     int count;
     struct content *item; /* [count] sets 58 and 58b in the order of the file */
     int node_count;
-    struct uff_node *node; /* ids distinct: the first of several wins, with a warning where they differ; metres */
-    struct uff_units units;
-    int has_units;
+    struct uff_node *node;         /* ids distinct: the first of several wins, with a warning where they differ; metres */
+    const struct uff_units *units; /* NULL: the file has none */
 };
 
 /* ---- A modal test as universal files hold it: transfer functions, or the time records they are made from, and the points. */
@@ -191,11 +190,10 @@ struct measurement_options {
 
 struct measurement {
     int node_count;
-    struct uff_node *node; /* distinct ids; coordinates in metres */
-    struct uff_units units;
-    int has_units;
-    struct frf_set set; /* as measured or as computed from the records; SI */
-    int from_records;   /* nonzero: `transfer` holds the impacts */
+    struct uff_node *node;         /* distinct ids; coordinates in metres */
+    const struct uff_units *units; /* NULL: the file has none */
+    struct frf_set set;            /* as measured or as computed from the records; SI */
+    int from_records;              /* nonzero: `transfer` holds the impacts */
     struct transfer transfer;
     int record_count;
     double rate; /* Hz, of the records */

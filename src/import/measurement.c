@@ -25,6 +25,8 @@ static int is_one_of(const char *text, const char *const *words)
     return 0;
 }
 
+/* Quantity of an axis as enum frf_quantity: -1 where it is no motion. A type that is not given is told by the text of the unit.
+ */
 static int motion_of(const struct uff_axis *axis)
 {
     static const char *const accelerations[] = {"g", "gn", "m/s2", "m/s^2", "m/s**2", "mm/s2", "mm/s^2", NULL},
@@ -47,8 +49,6 @@ static int motion_of(const struct uff_axis *axis)
     }
 }
 
-/* Quantity of an axis as enum frf_quantity: -1 where it is no motion. A type that is not given is told by the text of the unit.
- */
 static int is_force(const struct uff_axis *axis)
 {
     static const char *const forces[] = {"N", "kN", "lbf", NULL};
@@ -66,35 +66,31 @@ struct growing {
     const char *path;
     struct message_list *messages;
     struct contents *contents;
+    int node_count;
     struct placed *node; /* of all sets */
-    size_t item_room, node_count, node_room;
 };
 
 ORDER_BY(by_id, struct placed, it->node.id, it->order)
 
 static int add_nodes(struct growing *g, const struct uff_set *set, int count, const struct uff_node *node)
 {
-    for (int i = 0; i < count; i++) {
-        g->node = pool_grow(g->scratch, g->node, g->node_count, &g->node_room, sizeof *g->node);
-        if (!g->node)
-            return ROTID_ERROR_MEMORY;
-        g->node[g->node_count] = (struct placed){node[i], set->line, (int)g->node_count};
-        g->node_count++;
-    }
-    return ROTID_OK;
+    int failed = 0;
+    for (int i = 0; i < count && !failed; i++)
+        failed = POOL_ADD(g->scratch, g->node, g->node_count, (&(struct placed){node[i], set->line, g->node_count}));
+    return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 /* Sorted, the first of each id, in metres. */
 static int join_nodes(struct growing *g)
 {
     struct contents *c = g->contents;
-    double metre = c->has_units && c->units.length > 0 ? c->units.length : 1;
+    double metre = c->units && c->units->length > 0 ? c->units->length : 1;
     c->node = POOL_ARRAY(g->pool, struct uff_node, g->node_count);
     if (!c->node)
         return ROTID_ERROR_MEMORY;
     if (g->node_count)
-        qsort(g->node, g->node_count, sizeof *g->node, by_id);
-    for (size_t i = 0, first = 0; i < g->node_count; i++) {
+        qsort(g->node, (size_t)g->node_count, sizeof *g->node, by_id);
+    for (int i = 0, first = 0; i < g->node_count; i++) {
         const struct placed *p = &g->node[i];
         if (i && g->node[first].node.id == p->node.id) {
             const double *x = g->node[first].node.x;
@@ -180,16 +176,12 @@ static int take_abscissa(struct growing *g, struct uff_reader *reader, struct co
 
 static int read_function(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
 {
-    struct contents *c = g->contents;
-    c->item = pool_grow(g->pool, c->item, (size_t)c->count, &g->item_room, sizeof *c->item);
-    if (!c->item)
-        return ROTID_ERROR_MEMORY;
-    struct content *item = &c->item[c->count];
-    *item = (struct content){.set = *set};
-    int status = uff_read_function(reader, &item->function);
-    if (!status && !item->function.is_even)
-        status = take_abscissa(g, reader, item);
-    c->count += !status;
+    struct content item = {.set = *set};
+    int status = uff_read_function(reader, &item.function);
+    if (!status && !item.function.is_even)
+        status = take_abscissa(g, reader, &item);
+    if (!status && POOL_ADD(g->pool, g->contents->item, g->contents->count, &item))
+        status = ROTID_ERROR_MEMORY;
     return status;
 }
 
@@ -197,14 +189,12 @@ static int read_function(struct growing *g, struct uff_reader *reader, const str
 static int read_units(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
 {
     struct contents *c = g->contents;
-    struct uff_units units;
-    int status = uff_read_units(reader, &units);
-    if (!status && c->has_units && !uff_same_units(&units, &c->units))
+    struct uff_units *units = POOL_NEW(g->pool, struct uff_units);
+    int status = units ? uff_read_units(reader, units) : ROTID_ERROR_MEMORY;
+    if (!status && c->units && !uff_same_units(units, c->units))
         return message_refuse(g->messages, ROTID_ERROR_ARGUMENT, g->path, set->line, 1,
                               "a second set 164 has other factors than the first, expected one system of units in a file");
-    if (!status)
-        c->units = units;
-    c->has_units |= !status;
+    c->units = status ? c->units : units;
     return status;
 }
 
@@ -335,7 +325,7 @@ static int contradicts(const struct contents *c, const struct uff_axis *axis, in
     if (!*said)
         *said = pool_format(pool, "'%s', which is %.6g %s, where %s %.6g", axis->unit, by_text, si_unit(type),
                             type == ABSCISSA_TIME || type == ABSCISSA_FREQUENCY ? "values count as"
-                            : c->has_units                                      ? "set 164 says"
+                            : c->units                                          ? "set 164 says"
                                                                                 : "no set 164 does and values count as",
                             counts);
     return 1;
@@ -345,7 +335,7 @@ static int contradicts(const struct contents *c, const struct uff_axis *axis, in
 static void check_units(struct pool *pool, const struct contents *c, const char *path, struct message_list *messages)
 {
     static const int motion[] = {[FRF_DISPLACEMENT] = DISPLACEMENT, [FRF_VELOCITY] = VELOCITY, [FRF_ACCELERATION] = ACCELERATION};
-    const struct uff_units *units = c->has_units ? &c->units : NULL;
+    const struct uff_units *units = c->units;
     const char *said = NULL;
     int count = 0, line = 0;
     for (int i = 0; i < c->count; i++) {
@@ -369,22 +359,25 @@ static void check_units(struct pool *pool, const struct contents *c, const char 
                     said ? said : "");
 }
 
+/* A measurement while it is read. */
 struct loading {
-    struct pool *pool;
+    struct pool *pool, scratch; /* scratch: of this reading */
     struct uff_reader *reader;
     const char *path;
-    const struct contents *contents;
+    struct contents contents;
+    const struct measurement_options *options;
     struct message_list *messages;
-    double **values; /* [contents->count] read so far */
+    double **values; /* [contents.count] of records, read so far */
+    struct measurement *out;
 };
 
 /* The values of a function in SI; read once. */
 static int values_of(struct loading *l, int index, const double **values)
 {
-    const struct content *item = &l->contents->item[index];
+    const struct content *item = &l->contents.item[index];
     if (!l->values[index]) {
-        double factor = uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &item->function.numerator);
-        double *out = POOL_ARRAY(l->pool, double, item->function.count);
+        double factor = uff_si_factor(l->contents.units, &item->function.numerator);
+        double *out = POOL_ARRAY(&l->scratch, double, item->function.count);
         int status = out ? contents_values(l->reader, item, 0, item->function.count, factor, out, NULL) : ROTID_ERROR_MEMORY;
         if (status)
             return status;
@@ -469,8 +462,8 @@ static void warn_of_steps(const struct loading *l)
     const struct uff_function *worst = NULL;
     int read = 0, coarse = 0, least = COARSE_LEVELS;
     char place[PLACE_MOST];
-    for (int i = 0; i < l->contents->count; i++) {
-        const struct uff_function *f = &l->contents->item[i].function;
+    for (int i = 0; i < l->contents.count; i++) {
+        const struct uff_function *f = &l->contents.item[i].function;
         int levels = l->values[i] ? values_levels(f->count, l->values[i]) : 0;
         read += l->values[i] != NULL;
         coarse += levels > 0;
@@ -485,24 +478,16 @@ static void warn_of_steps(const struct loading *l)
                     place_text(worst->response_node, worst->response_direction, place), least);
 }
 
-static void say_bad(const struct loading *l)
-{
-    message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1,
-                "no block of these records suits the windows and the band asked for, expected a block within the records and "
-                "lines within the band");
-}
-
 /* A response belongs to the force with its load case number, where numbers differ from measurement to measurement; else to the
  * last force before it. Transfer functions of all pairs by transfer_compute, to out->set. Statuses of measurement_read. */
-static int records_load(struct pool *pool, struct uff_reader *reader, const char *path, const struct contents *contents,
-                        const struct measurement_options *options, struct message_list *messages, struct measurement *out)
+static int load_records(struct loading *l)
 {
-    struct pool scratch;
-    pool_open(&scratch, pool->allocator);
-    struct loading l = {.pool = &scratch, .reader = reader, .path = path, .contents = contents, .messages = messages};
-    struct time_record *record = POOL_ARRAY(&scratch, struct time_record, contents->count);
-    l.values = POOL_ARRAY(&scratch, double *, contents->count);
-    int status = record && l.values ? ROTID_OK : ROTID_ERROR_MEMORY, by_case = load_cases_tell(contents), count = 0, bad = -1;
+    const struct contents *contents = &l->contents;
+    const struct measurement_options *options = l->options;
+    struct measurement *out = l->out;
+    struct time_record *record = POOL_ARRAY(&l->scratch, struct time_record, contents->count);
+    l->values = POOL_ARRAY(&l->scratch, double *, contents->count);
+    int status = record && l->values ? ROTID_OK : ROTID_ERROR_MEMORY, by_case = load_cases_tell(contents), count = 0, bad = -1;
     int quantity = -1;
     for (int i = 0; i < contents->count && !status; i++) {
         const struct uff_function *f = &contents->item[i].function;
@@ -525,17 +510,17 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
         }
         const char *reason = unfit(g, f, out->rate, quantity);
         if (reason) {
-            message_add(messages, SEVERITY_WARNING, path, f->line, 1, "time record of node %d left out: %s", f->response_node,
-                        reason);
+            message_add(l->messages, SEVERITY_WARNING, l->path, f->line, 1, "time record of node %d left out: %s",
+                        f->response_node, reason);
             continue;
         }
-        status = values_of(&l, force, &r->force);
+        status = values_of(l, force, &r->force);
         if (!status)
-            status = values_of(&l, i, &r->response);
+            status = values_of(l, i, &r->response);
         count += !status;
     }
     if (!status && !count) {
-        status = message_refuse(messages, ROTID_ERROR_ARGUMENT, path, 1, 1,
+        status = message_refuse(l->messages, ROTID_ERROR_ARGUMENT, l->path, 1, 1,
                                 "no time record is left to use, expected a force and its response");
     } else if (!status) {
         struct transfer_options transfer = options->transfer;
@@ -543,26 +528,26 @@ static int records_load(struct pool *pool, struct uff_reader *reader, const char
         transfer.high_hz = options->high_hz;
         do {
             if (bad >= 0)
-                count = leave_out(&l, count, record, bad);
+                count = leave_out(l, count, record, bad);
             bad = -1;
-            status = count ? transfer_compute(pool, count, record, out->rate, (enum frf_quantity)quantity, &transfer,
+            status = count ? transfer_compute(l->pool, count, record, out->rate, (enum frf_quantity)quantity, &transfer,
                                               options->threads > 0 ? options->threads : 1, &out->transfer, &bad)
                            : ROTID_ERROR_ARGUMENT;
         } while (status == ROTID_ERROR_ARGUMENT && bad >= 0);
-        if (status == ROTID_ERROR_ARGUMENT && count)
-            say_bad(&l);
-        else if (status == ROTID_ERROR_ARGUMENT)
-            message_add(messages, SEVERITY_ERROR, path, 1, 1, "no time record is left to use, expected a force with an impact");
+        if (status == ROTID_ERROR_ARGUMENT)
+            message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1,
+                        count ? "no block of these records suits the windows and the band asked for, expected a block within the "
+                                "records and lines within the band"
+                              : "no time record is left to use, expected a force with an impact");
         else if (!status) {
-            warn_of_leakage(&l, record, &out->transfer);
-            warn_of_lost_force(&l, record, &out->transfer);
-            warn_of_steps(&l);
+            warn_of_leakage(l, record, &out->transfer);
+            warn_of_lost_force(l, record, &out->transfer);
+            warn_of_steps(l);
         }
     }
     out->from_records = !status;
     out->record_count = count;
     out->set = out->transfer.set;
-    pool_close(&scratch);
     return status;
 }
 
@@ -670,16 +655,6 @@ static void choose_lines(const struct content *item, const struct measurement_op
     *count = high - low;
 }
 
-struct loader {
-    struct pool *pool;
-    struct uff_reader *reader;
-    const char *path;
-    const struct contents *contents;
-    const struct measurement_options *options;
-    struct message_list *messages;
-    struct measurement *out;
-};
-
 static int find_frf(const struct frf_set *set, const struct uff_function *f)
 {
     for (int c = 0; c < set->nfrf; c++)
@@ -696,12 +671,12 @@ static double variance_from(double coherence, double magnitude, int averages)
     return (1 - g) / (g * averages) * magnitude * magnitude;
 }
 
-static int load_coherences(struct loader *l, const struct content *model, long long first)
+static int load_coherences(struct loading *l, const struct content *model, long long first)
 {
     struct frf_set *set = &l->out->set;
     int averages = l->options->averages;
-    for (int i = 0; i < l->contents->count; i++) {
-        const struct content *item = &l->contents->item[i];
+    for (int i = 0; i < l->contents.count; i++) {
+        const struct content *item = &l->contents.item[i];
         int c = item->function.type == UFF_COHERENCE ? find_frf(set, &item->function) : -1;
         if (c < 0 || !same_lines(item, model) || set->frf[c].coherence)
             continue;
@@ -720,13 +695,13 @@ static int load_coherences(struct loader *l, const struct content *model, long l
     return ROTID_OK;
 }
 
-static int load_transfer(struct loader *l, const struct content *item, long long first, double *real, double *imag)
+static int load_transfer(struct loading *l, const struct content *item, long long first, double *real, double *imag)
 {
     struct frf_set *set = &l->out->set;
     const struct uff_function *f = &item->function;
     struct frf *frf = &set->frf[set->nfrf];
-    double factor = uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->numerator) /
-                    uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->denominator);
+    const struct uff_units *units = l->contents.units;
+    double factor = uff_si_factor(units, &f->numerator) / uff_si_factor(units, &f->denominator);
     *frf = (struct frf){.line = f->line,
                         .response_node = f->response_node,
                         .response_direction = f->response_direction,
@@ -741,9 +716,9 @@ static int load_transfer(struct loader *l, const struct content *item, long long
     return status;
 }
 
-static int load_transfers(struct loader *l, int model_index)
+static int load_transfers(struct loading *l, int model_index)
 {
-    const struct contents *c = l->contents;
+    const struct contents *c = &l->contents;
     const struct content *model = &c->item[model_index];
     struct frf_set *set = &l->out->set;
     long long first, count;
@@ -756,9 +731,7 @@ static int load_transfers(struct loader *l, int model_index)
     set->quantity = (enum frf_quantity)motion_of(&model->function.numerator);
     set->frequency_hz = POOL_ARRAY(l->pool, double, count);
     set->frf = POOL_ARRAY(l->pool, struct frf, c->count);
-    struct pool scratch;
-    pool_open(&scratch, l->pool->allocator);
-    double *real = POOL_ARRAY(&scratch, double, count), *imag = POOL_ARRAY(&scratch, double, count);
+    double *real = POOL_ARRAY(&l->scratch, double, count), *imag = POOL_ARRAY(&l->scratch, double, count);
     int status = set->frequency_hz && set->frf && real && imag ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (long long n = 0; n < count && !status; n++)
         set->frequency_hz[n] = line_of(model, first + n);
@@ -777,7 +750,6 @@ static int load_transfers(struct loader *l, int model_index)
         else
             status = load_transfer(l, &c->item[i], first, real, imag);
     }
-    pool_close(&scratch);
     if (!status && !set->nfrf)
         return message_refuse(l->messages, ROTID_ERROR_ARGUMENT, l->path, 1, 1,
                               "no transfer function is left to use, expected at least one");
@@ -787,35 +759,32 @@ static int load_transfers(struct loader *l, int model_index)
 int measurement_read(struct pool *pool, const char *path, const struct measurement_options *options,
                      struct message_list *messages, struct measurement *out)
 {
-    struct contents contents;
-    struct loader l = {.pool = pool, .path = path, .contents = &contents, .options = options, .messages = messages, .out = out};
-    struct pool scratch;
+    struct loading l = {.pool = pool, .path = path, .options = options, .messages = messages, .out = out};
     *out = (struct measurement){0};
     if (analyser_is(path))
         return analyser_read(pool, path, options, messages, out);
-    pool_open(&scratch, pool->allocator);
-    int status = uff_open(&scratch, path, messages, &l.reader);
+    pool_open(&l.scratch, pool->allocator);
+    int status = uff_open(&l.scratch, path, messages, &l.reader);
     if (!status && !uff_can_return(l.reader))
         status = message_refuse(messages, ROTID_ERROR_IO, path, 1, 1,
                                 "this is no regular file, expected one: its functions are read twice");
     if (!status)
-        status = contents_read(pool, l.reader, path, messages, &contents);
+        status = contents_read(pool, l.reader, path, messages, &l.contents);
     if (!status) {
-        out->node_count = contents.node_count;
-        out->node = contents.node;
-        out->units = contents.units;
-        out->has_units = contents.has_units;
-        check_units(&scratch, &contents, path, messages);
-        int model = common_kind(&contents, options);
+        out->node_count = l.contents.node_count;
+        out->node = l.contents.node;
+        out->units = l.contents.units;
+        check_units(&l.scratch, &l.contents, path, messages);
+        int model = common_kind(&l.contents, options);
         if (model >= 0)
             status = load_transfers(&l, model);
-        else if (contents_have_records(&contents))
-            status = records_load(pool, l.reader, path, &contents, options, messages, out);
+        else if (contents_have_records(&l.contents))
+            status = load_records(&l);
         else
-            status = refuse_file(messages, path, &contents);
+            status = refuse_file(messages, path, &l.contents);
     }
     uff_close(l.reader);
-    pool_close(&scratch);
+    pool_close(&l.scratch);
     if (messages->pool->out_of_memory)
         status = ROTID_ERROR_MEMORY;
     return status;
