@@ -91,10 +91,10 @@ static int find_sources(struct bands *b)
         if (own->like != i || !name)
             continue;
         /* what was identified has its deviation from the fit, in place of the one that was stated before it */
-        if (!b->fit || own->unknown[0] < 0)
-            add_source(b, SOURCE_BEARING_K, i, 1, own->std[0], name, pool_format(b->pool, "%s.k", name + strlen("bearing ")));
-        if (!b->fit || own->unknown[1] < 0)
-            add_source(b, SOURCE_BEARING_C, i, 1, own->std[1], name, pool_format(b->pool, "%s.c", name + strlen("bearing ")));
+        for (int d = 0; d < 2; d++)
+            if (!b->fit || own->unknown[d] < 0)
+                add_source(b, d ? SOURCE_BEARING_C : SOURCE_BEARING_K, i, 1, own->std[d], name,
+                           pool_format(b->pool, "%s.%c", name + strlen("bearing "), d ? 'c' : 'k'));
     }
     for (int i = 0; i < machine->nloss; i++) {
         const char *name = pool_format(b->pool, "loss %s", job->rotor.group[machine->loss[i].group].name);
@@ -153,14 +153,10 @@ static void set_values(const struct bands *b, const double *d, double part, doub
             x[i] = source->is_logarithm ? x[i] * by : x[i] + part * d[j];
             break;
         case SOURCE_BEARING_K:
-            for (int other = i; other < machine->nbearing; other++)
-                if (machine->bearing[other].like == i)
-                    values->bearing_k[other] = by;
-            break;
         case SOURCE_BEARING_C:
             for (int other = i; other < machine->nbearing; other++)
                 if (machine->bearing[other].like == i)
-                    values->bearing_c[other] = by;
+                    *(source->kind == SOURCE_BEARING_K ? &values->bearing_k[other] : &values->bearing_c[other]) = by;
             break;
         case SOURCE_LOSS:
             values->loss[i] = machine->loss[i].value > 0 ? 1 + part * d[j] / machine->loss[i].value : 1;

@@ -44,22 +44,13 @@ static void normalise(int n, double complex *u)
         u[i] /= length;
 }
 
-/* v := (2 lambda M + C) u */
-static void by_lambda(const struct system *s, double complex lambda, const double complex *u, double complex *v)
+/* v := (factor A + B) u, of which D has two derivatives: 2 lambda M + C by lambda, lambda dC + dK by the speed */
+static void multiply(int n, double complex factor, const double *a, const double *b, const double complex *u, double complex *v)
 {
-    memset(v, 0, (size_t)s->size * sizeof *v);
-    for (int j = 0; j < s->size; j++)
-        for (int i = 0; i < s->size; i++)
-            v[i] += (2 * lambda * s->mass[i + (ptrdiff_t)s->size * j] + s->c[i + (ptrdiff_t)s->size * j]) * u[j];
-}
-
-/* v := (lambda dC + dK) u, rates by the speed */
-static void by_speed(const struct system *s, double complex lambda, const double complex *u, double complex *v)
-{
-    memset(v, 0, (size_t)s->size * sizeof *v);
-    for (int j = 0; j < s->size; j++)
-        for (int i = 0; i < s->size; i++)
-            v[i] += (lambda * s->dc[i + (ptrdiff_t)s->size * j] + s->dk[i + (ptrdiff_t)s->size * j]) * u[j];
+    memset(v, 0, (size_t)n * sizeof *v);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            v[i] += (factor * a[i + (ptrdiff_t)n * j] + b[i + (ptrdiff_t)n * j]) * u[j];
 }
 
 ORDER_BY(by_imaginary, struct pair, cimag(it->lambda), 0)
@@ -182,8 +173,8 @@ int pair_synchronise(struct system *s, double h, double *speed, struct pair *pai
         double complex lambda = growth + I * h * w;
         system_at(s, w);
         system_dynamic(s, lambda, critical_side(h), s->d);
-        by_lambda(s, lambda, pair->u, x);
-        by_speed(s, lambda, pair->u, y);
+        multiply(n, 2 * lambda, s->mass, s->c, pair->u, x);
+        multiply(n, lambda, s->dc, s->dk, pair->u, y);
         if (complex_factor(n, s->d, s->pivot)) {
             w *= 1 + 1e-15; /* an eigenvalue to the last bit */
             continue;
@@ -221,7 +212,7 @@ static int refine(struct system *s, int side, struct pair *pair)
     memcpy(s->left, pair->u, (size_t)n * sizeof *s->left);
     for (int step = 0; step < STEPS; step++) {
         system_dynamic(s, lambda, side, s->d);
-        by_lambda(s, lambda, pair->u, s->right);
+        multiply(n, 2 * lambda, s->mass, s->c, pair->u, s->right);
         if (complex_factor(n, s->d, s->pivot)) { /* lambda is an eigenvalue to the last bit */
             lambda *= 1 + 1e-15;
             continue;
@@ -296,7 +287,7 @@ double complex pair_difference(struct system *nominal, struct system side[2], do
 
 double complex pair_rate(const struct system *s, const struct pair *pair)
 {
-    by_speed(s, pair->lambda, pair->u, s->right);
+    multiply(s->size, pair->lambda, s->dc, s->dk, pair->u, s->right);
     return -share_of(s, pair, s->right);
 }
 
@@ -347,6 +338,15 @@ int pair_follow(struct system *s, double from, double to, int least, struct pair
     return lost;
 }
 
+void system_orbit(const struct system *s, const double *row, const double complex *u, double complex orbit[2])
+{
+    orbit[0] = orbit[1] = 0;
+    for (int j = 0; j < s->columns; j++) {
+        orbit[0] += row[j] * u[j];
+        orbit[1] += row[j] * u[s->plane + j];
+    }
+}
+
 /* Forward where the orbits x + iy = f e^{iwt} + conj(b) e^{-iwt} of all places run with the spin, |f| > |b|. A place that hardly
  * moves, or moves along a line, says nothing. */
 enum whirl pair_whirl(const struct system *s, const double complex *u)
@@ -355,13 +355,9 @@ enum whirl pair_whirl(const struct system *s, const double complex *u)
     int forward = 0, backward = 0;
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < s->naxis; i++) {
-            const double *row = s->axis + (ptrdiff_t)s->columns * i;
-            double complex x = 0, y = 0;
-            for (int j = 0; j < s->columns; j++) {
-                x += row[j] * u[j];
-                y += row[j] * u[s->plane + j];
-            }
-            double f = cabs(x + I * y), b = cabs(x - I * y), size = f * f + b * b;
+            double complex at[2];
+            system_orbit(s, s->axis + (ptrdiff_t)s->columns * i, u, at);
+            double f = cabs(at[0] + I * at[1]), b = cabs(at[0] - I * at[1]), size = f * f + b * b;
             most = pass ? most : fmax(most, size);
             if (!pass || size < 1e-4 * most)
                 continue;

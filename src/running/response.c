@@ -136,7 +136,7 @@ int response_peak(struct system *s, int probe, double from, double near, double 
 int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds *out)
 {
     const struct machine *machine = s->machine;
-    double complex *q = POOL_ARRAY(pool, double complex, s->size);
+    double complex *q = POOL_ARRAY(pool, double complex, s->size), orbit[2];
     out->nbearing_loads = machine->nbearing;
     out->bearing_loads = POOL_ARRAY(pool, rotid_bearing_load, machine->nbearing);
     if (!q || !out->bearing_loads)
@@ -155,12 +155,10 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
     complex_solve(s->size, 0, s->d, s->pivot, q);
     for (int i = 0, pedestal = 0; i < machine->nbearing; i++) {
         const struct bearing *b = &machine->bearing[i];
-        double k[4], c[4], x = 0, y = 0, f = machine_bearing_factor(s->machine, s->values, i, 0);
+        double k[4], c[4], f = machine_bearing_factor(s->machine, s->values, i, 0);
         coefficients_at(&b->film, speed, k, c, NULL, NULL);
-        for (int j = 0; j < s->columns; j++) {
-            x += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
-            y += s->bearing[j + (ptrdiff_t)s->columns * i] * creal(q[s->plane + j]);
-        }
+        system_orbit(s, s->bearing + (ptrdiff_t)s->columns * i, q, orbit);
+        double x = creal(orbit[0]), y = creal(orbit[1]);
         if (b->pedestal.count) {
             x -= creal(q[s->columns + pedestal]);
             y -= creal(q[s->plane + s->columns + pedestal]);
@@ -169,12 +167,8 @@ int static_loads(struct pool *pool, struct system *s, double speed, rotid_speeds
         out->bearing_loads[i] = (rotid_bearing_load){b->name, b->z, f * (k[XX] * x + k[XY] * y), f * (k[YX] * x + k[YY] * y)};
     }
     for (int i = 0; i < s->naxis; i++) {
-        double x = 0, y = 0;
-        for (int j = 0; j < s->columns; j++) {
-            x += s->axis[j + (ptrdiff_t)s->columns * i] * creal(q[j]);
-            y += s->axis[j + (ptrdiff_t)s->columns * i] * creal(q[s->plane + j]);
-        }
-        out->sag_m = fmax(out->sag_m, hypot(x, y));
+        system_orbit(s, s->axis + (ptrdiff_t)s->columns * i, q, orbit);
+        out->sag_m = fmax(out->sag_m, hypot(creal(orbit[0]), creal(orbit[1])));
     }
     return ROTID_OK;
 }

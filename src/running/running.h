@@ -235,6 +235,9 @@ void system_at(struct system *system, double speed);
 /* a [size^2] := lambda^2 M + lambda C + K at that speed; side: sgn(w - W), of the loss factors. */
 void system_dynamic(const struct system *system, double complex lambda, int side, double complex *a);
 
+/* Motions in x and y of a place whose row of the basis is `row`, in the motion u [size]. */
+void system_orbit(const struct system *system, const double *row, const double complex *u, double complex orbit[2]);
+
 /* The pair of one system on the basis of another one of the same mesh: u := V' M u_full. Without left vector. Returns 0, or 1
  * where the vectors of the other one have lost more than a tenth of it. */
 int system_transfer(const struct system *from, const struct pair *pair, const struct system *to, struct pair *there);

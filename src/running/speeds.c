@@ -33,16 +33,15 @@ ORDER_BY(by_frequency, rotid_campbell_mode, it->frequency_hz, 0)
 static int fill_campbell(struct run *r)
 {
     rotid_speeds *out = r->out;
-    out->ncampbell = r->search.tracks.nspeed;
+    const struct tracks *t = &r->search.tracks;
+    out->ncampbell = t->nspeed;
     out->campbell = POOL_ARRAY(r->pool, rotid_campbell_speed, out->ncampbell);
     for (int i = 0; i < out->ncampbell && out->campbell; i++) {
         rotid_campbell_speed *to = &out->campbell[i];
-        to->speed_rpm = r->search.tracks.speed[i] <= 2 * STANDSTILL * r->search.tracks.speed[r->search.tracks.nspeed - 1]
-                            ? 0
-                            : r->search.tracks.speed[i] / RPM;
-        to->modes = POOL_ARRAY(r->pool, rotid_campbell_mode, r->search.tracks.nmode);
-        for (int m = 0; m < r->search.tracks.nmode && to->modes; m++) {
-            const struct pair *pair = track_at(&r->search.tracks, m, i);
+        to->speed_rpm = t->speed[i] <= 2 * STANDSTILL * t->speed[t->nspeed - 1] ? 0 : t->speed[i] / RPM;
+        to->modes = POOL_ARRAY(r->pool, rotid_campbell_mode, t->nmode);
+        for (int m = 0; m < t->nmode && to->modes; m++) {
+            const struct pair *pair = track_at(t, m, i);
             if (isfinite(creal(pair->lambda)))
                 to->modes[to->nmodes++] = (rotid_campbell_mode){m + 1,
                                                                 cimag(pair->lambda) / (2 * PI),
@@ -75,21 +74,18 @@ static int fill_shape(const struct run *r, const double complex *u, rotid_critic
     to->y_im = all + 4 * (ptrdiff_t)s->naxis;
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < s->naxis; i++) {
-            double complex x = 0, y = 0;
-            for (int j = 0; j < s->columns; j++) {
-                x += s->axis[j + (ptrdiff_t)s->columns * i] * u[j];
-                y += s->axis[j + (ptrdiff_t)s->columns * i] * u[s->plane + j];
-            }
+            double complex at[2];
+            system_orbit(s, s->axis + (ptrdiff_t)s->columns * i, u, at);
             if (!pass) {
-                largest = cabs(x) > cabs(largest) ? x : largest;
-                largest = cabs(y) > cabs(largest) ? y : largest;
+                largest = cabs(at[0]) > cabs(largest) ? at[0] : largest;
+                largest = cabs(at[1]) > cabs(largest) ? at[1] : largest;
                 continue;
             }
             to->z[i] = z[i];
-            to->x_re[i] = creal(x / largest);
-            to->x_im[i] = cimag(x / largest);
-            to->y_re[i] = creal(y / largest);
-            to->y_im[i] = cimag(y / largest);
+            to->x_re[i] = creal(at[0] / largest);
+            to->x_im[i] = cimag(at[0] / largest);
+            to->y_re[i] = creal(at[1] / largest);
+            to->y_im[i] = cimag(at[1] / largest);
         }
     return ROTID_OK;
 }
