@@ -21,12 +21,9 @@ struct part {
 static int compute_part(struct pool *pool, const struct ema_band *band, int order, double decay,
                         const struct ema_options *options, struct part *part)
 {
-    int status = stabilisation_compute(pool, band, order, decay, options->frequency_tolerance, options->damping_tolerance,
-                                       options->threads, &part->table);
-    if (status != ROTID_OK)
-        return status;
-    status = stabilisation_candidates(pool, &part->table, options->frequency_tolerance, options->damping_tolerance, &part->count,
-                                      &part->candidate);
+    int status = stabilisation_compute(pool, band, order, decay, options, &part->table);
+    if (status == ROTID_OK)
+        status = stabilisation_candidates(pool, &part->table, &part->count, &part->candidate);
     if (status != ROTID_OK)
         return status;
     int kept = 0;
@@ -43,7 +40,8 @@ static int merge_tables(struct pool *pool, int nparts, const struct part *part, 
     size_t all = 0;
     for (int i = 0; i < nparts; i++)
         all += (size_t)part[i].table.npole;
-    *table = (struct stabilisation){.norder = part[0].table.norder, .step = part[0].table.step, .order = part[0].table.order};
+    *table = part[0].table;
+    table->npole = 0;
     table->first = POOL_ARRAY(pool, int, table->norder + 1);
     table->pole = POOL_ARRAY(pool, double complex, all);
     table->table = POOL_ARRAY(pool, struct ema_pole, all);
@@ -749,7 +747,7 @@ static int extract(struct extraction *job, struct stabilisation *table)
         return ROTID_ERROR_MEMORY;
     for (int r = 0; r < job->out->nmode; r++)
         pole[r] = job->out->mode[r].pole - job->set->window_decay;
-    stabilisation_assign(table, job->out->nmode, pole, job->options.frequency_tolerance, job->options.damping_tolerance);
+    stabilisation_assign(table, job->out->nmode, pole);
     return ROTID_OK;
 }
 

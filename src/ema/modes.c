@@ -260,20 +260,13 @@ void shapes_of_mode(const struct frf_set *set, const struct ema_points *points, 
 #define MOST_MPD       20 /* degrees */
 #define WEAK_THRESHOLD 3  /* standard deviations of the strongest residue */
 
-static int set_nan(struct pool *pool, size_t count, double **array)
+/* NaN; of complex numbers two each. NULL where memory is out, as the pool says. */
+static void *unknown(struct pool *pool, size_t count)
 {
-    *array = POOL_ARRAY(pool, double, count);
-    for (size_t i = 0; *array && i < count; i++)
-        (*array)[i] = NAN;
-    return *array != NULL;
-}
-
-static int set_complex_nan(struct pool *pool, size_t count, double complex **array)
-{
-    *array = POOL_ARRAY(pool, double complex, count);
-    for (size_t i = 0; *array && i < count; i++)
-        (*array)[i] = CMPLX(NAN, NAN);
-    return *array != NULL;
+    double *array = POOL_ARRAY(pool, double, count);
+    for (size_t i = 0; i < count && array; i++)
+        array[i] = NAN;
+    return array;
 }
 
 int modes_new(struct pool *pool, int nmode, int per_point, struct ema *out)
@@ -281,19 +274,22 @@ int modes_new(struct pool *pool, int nmode, int per_point, struct ema *out)
     size_t nfrf = (size_t)out->nfrf, npoint = (size_t)out->npoint;
     out->nmode = nmode;
     out->mode = POOL_ARRAY(pool, struct ema_mode, nmode);
-    if (!out->mode || !set_complex_nan(pool, nfrf, &out->lower) || !set_complex_nan(pool, nfrf, &out->upper))
-        return ROTID_ERROR_MEMORY;
-    for (int r = 0; r < nmode; r++) {
-        struct ema_mode *mode = &out->mode[r];
-        mode->frequency_std = mode->damping_std = mode->modal_mass = mode->peak_signal_to_noise = mode->nearest_hz = NAN;
-        if (!set_complex_nan(pool, nfrf, &mode->residue) || !set_nan(pool, nfrf, &mode->residue_std) ||
-            !set_nan(pool, npoint, &mode->shape) || !set_nan(pool, npoint, &mode->shape_std) ||
-            !set_complex_nan(pool, npoint, &mode->complex_shape) ||
-            (per_point &&
-             (!set_nan(pool, npoint, &mode->point_frequency_hz) || !set_nan(pool, npoint, &mode->point_frequency_std))))
-            return ROTID_ERROR_MEMORY;
-    }
-    return ROTID_OK;
+    out->lower = unknown(pool, 2 * nfrf);
+    out->upper = unknown(pool, 2 * nfrf);
+    for (int r = 0; r < nmode && out->mode; r++)
+        out->mode[r] = (struct ema_mode){.frequency_std = NAN,
+                                         .damping_std = NAN,
+                                         .modal_mass = NAN,
+                                         .peak_signal_to_noise = NAN,
+                                         .nearest_hz = NAN,
+                                         .residue = unknown(pool, 2 * nfrf),
+                                         .residue_std = unknown(pool, nfrf),
+                                         .shape = unknown(pool, npoint),
+                                         .shape_std = unknown(pool, npoint),
+                                         .complex_shape = unknown(pool, 2 * npoint),
+                                         .point_frequency_hz = per_point ? unknown(pool, npoint) : NULL,
+                                         .point_frequency_std = per_point ? unknown(pool, npoint) : NULL};
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 void modes_of_pole(double complex pole, const double *covariance, struct ema_mode *mode)

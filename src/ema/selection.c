@@ -218,6 +218,8 @@ static int weed(const struct pool *pool, const struct ema_band *band, int thread
     struct pool scratch;
     /* no more unknowns than two thirds of the lines can carry: the last candidates are the ones at the upper end */
     int most = (2 * band->nline * 2 / 3 - 4) / 4, kept = 0;
+    for (int r = 0; r < *count && round != REFINED; r++) /* which is never the first one */
+        candidate[r] = r;
     *count = *count < most ? *count : most > 0 ? most : 0;
     *dropped = 0;
     if (*count == 0)
@@ -240,8 +242,6 @@ int selection_screen(const struct pool *pool, const struct ema_band *band, int t
                      int *count, double complex *pole, int *candidate)
 {
     int dropped;
-    for (int r = 0; r < *count; r++)
-        candidate[r] = r;
     return weed(pool, band, threads, environment, SCREENING, count, pole, candidate, &dropped);
 }
 
@@ -249,8 +249,6 @@ int selection_earn(const struct pool *pool, const struct ema_band *band, int thr
                    int *count, double complex *pole, int *candidate)
 {
     int dropped;
-    for (int r = 0; r < *count; r++)
-        candidate[r] = r;
     /* the first round takes the poles as they come, which is quick; every later one leaves one out at least, or is the last */
     int status = weed(pool, band, threads, environment, AS_THEY_COME, count, pole, candidate, &dropped);
     do {

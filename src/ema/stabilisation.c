@@ -370,32 +370,36 @@ static double damping_change(double complex a, double complex b)
     return fabs(damping_of(a) / damping_of(b) - 1);
 }
 
-static void mark_stable(struct stabilisation *s, int i, double frequency_tolerance, double damping_tolerance)
+static void mark_stable(struct stabilisation *s, int i)
 {
     for (int k = s->first[i]; k < s->first[i + 1]; k++) {
         for (int j = i ? s->first[i - 1] : 0; i && j < s->first[i]; j++) {
-            if (frequency_change(s->pole[k], s->pole[j]) > frequency_tolerance)
+            if (frequency_change(s->pole[k], s->pole[j]) > s->frequency_tolerance)
                 continue;
             s->table[k].stable_frequency = 1;
-            if (damping_of(s->pole[k]) > 0 && damping_change(s->pole[k], s->pole[j]) <= damping_tolerance)
+            if (damping_of(s->pole[k]) > 0 && damping_change(s->pole[k], s->pole[j]) <= s->damping_tolerance)
                 s->table[k].stable_damping = 1;
         }
     }
 }
 
-int stabilisation_compute(struct pool *pool, const struct ema_band *band, int order, double decay, double frequency_tolerance,
-                          double damping_tolerance, int threads, struct stabilisation *out)
+int stabilisation_compute(struct pool *pool, const struct ema_band *band, int order, double decay,
+                          const struct ema_options *options, struct stabilisation *out)
 {
     int step = 2, norder = order / step;
     order = norder * step;
-    *out = (struct stabilisation){.norder = norder, .step = step, .order = order};
+    *out = (struct stabilisation){.norder = norder,
+                                  .step = step,
+                                  .order = order,
+                                  .frequency_tolerance = options->frequency_tolerance,
+                                  .damping_tolerance = options->damping_tolerance};
     double *normal = POOL_ARRAY(pool, double, (size_t)(order + 1) * (size_t)(order + 1));
     double complex *raw = POOL_ARRAY(pool, double complex, (size_t)norder *(size_t)order);
     int *count = POOL_ARRAY(pool, int, norder);
     out->first = POOL_ARRAY(pool, int, norder + 1);
     if (!normal || !raw || !count || !out->first)
         return ROTID_ERROR_MEMORY;
-    int status = lscf_normal_matrix(pool, band, order, threads, normal);
+    int status = lscf_normal_matrix(pool, band, order, options->threads, normal);
     if (status == ROTID_OK)
         status = lscf_poles(pool, band, order, step, normal, count, raw);
     if (status != ROTID_OK)
@@ -414,7 +418,7 @@ int stabilisation_compute(struct pool *pool, const struct ema_band *band, int or
             out->table[out->first[i] + k] = (struct ema_pole){
                 .order = (i + 1) * step, .frequency_hz = cabs(free) / TWO_PI, .damping = damping_of(free), .mode = ROTID_NONE};
         }
-        mark_stable(out, i, frequency_tolerance, damping_tolerance);
+        mark_stable(out, i);
     }
     return ROTID_OK;
 }
@@ -425,20 +429,17 @@ struct track {
     int last;               /* pole */
 };
 
-/* Distance of a pole from the end of a track in tolerances, or INFINITY. */
-static double distance(const struct stabilisation *s, const struct track *track, int k, double frequency_tolerance,
-                       double damping_tolerance)
+/* Distance of a pole from another one in tolerances, that of the damping fourfold, or INFINITY. */
+static double distance(const struct stabilisation *s, double complex pole, double complex from)
 {
-    double complex end = s->pole[track->last];
-    double df = frequency_change(s->pole[k], end) / frequency_tolerance;
-    double dz = damping_change(s->pole[k], end) / (LOOSER * damping_tolerance);
+    double df = frequency_change(pole, from) / s->frequency_tolerance;
+    double dz = damping_change(pole, from) / (LOOSER * s->damping_tolerance);
     return df <= 1 && dz <= 1 ? df + dz : INFINITY;
 }
 
 /* Extends the tracks by the poles of order i, nearest pairs first; what is left over begins a track. Returns the number of
  * tracks. */
-static int follow(const struct stabilisation *s, int i, double frequency_tolerance, double damping_tolerance, int ntrack,
-                  struct track *track, int *owner)
+static int follow(const struct stabilisation *s, int i, int ntrack, struct track *track, int *owner)
 {
     int begin = s->first[i], end = s->first[i + 1];
     for (int t = 0; t < ntrack; t++)
@@ -453,7 +454,7 @@ static int follow(const struct stabilisation *s, int i, double frequency_toleran
             for (int t = 0; t < ntrack; t++) {
                 if (track[t].taken >= 0 || track[t].end < i - GAP)
                     continue;
-                double d = distance(s, &track[t], k, frequency_tolerance, damping_tolerance);
+                double d = distance(s, s->pole[k], s->pole[track[t].last]);
                 if (d < best) {
                     best = d;
                     best_track = t;
@@ -479,7 +480,7 @@ static int follow(const struct stabilisation *s, int i, double frequency_toleran
 }
 
 /* Tracks that end before another begins, at the same place, are one. */
-static void join(const struct stabilisation *s, int ntrack, struct track *track, int *owner, double frequency_tolerance)
+static void join(const struct stabilisation *s, int ntrack, struct track *track, int *owner)
 {
     for (int t = 0; t < ntrack; t++)
         for (int u = 0; u < ntrack; u++) {
@@ -487,7 +488,7 @@ static void join(const struct stabilisation *s, int ntrack, struct track *track,
                 continue;
             double complex a = s->pole[track[t].last], b = s->pole[track[u].last];
             double width = 2 * fmax(fabs(creal(a)), fabs(creal(b)));
-            if (cabs(a - b) > width || frequency_change(a, b) > frequency_tolerance)
+            if (cabs(a - b) > width || frequency_change(a, b) > s->frequency_tolerance)
                 continue;
             for (int k = 0; k < s->npole; k++)
                 if (owner[k] == t)
@@ -498,8 +499,7 @@ static void join(const struct stabilisation *s, int ntrack, struct track *track,
         }
 }
 
-int stabilisation_candidates(struct pool *pool, const struct stabilisation *table, double frequency_tolerance,
-                             double damping_tolerance, int *count, double complex **pole)
+int stabilisation_candidates(struct pool *pool, const struct stabilisation *table, int *count, double complex **pole)
 {
     struct track *track = POOL_ARRAY(pool, struct track, table->npole);
     int *owner = POOL_ARRAY(pool, int, table->npole), ntrack = 0;
@@ -510,8 +510,8 @@ int stabilisation_candidates(struct pool *pool, const struct stabilisation *tabl
     for (int k = 0; k < table->npole; k++)
         owner[k] = -1;
     for (int i = 0; i < table->norder; i++)
-        ntrack = follow(table, i, frequency_tolerance, damping_tolerance, ntrack, track, owner);
-    join(table, ntrack, track, owner, frequency_tolerance);
+        ntrack = follow(table, i, ntrack, track, owner);
+    join(table, ntrack, track, owner);
     int least = table->norder / TRACK_SHARE > LEAST_TRACK ? table->norder / TRACK_SHARE : LEAST_TRACK;
     for (int t = 0; t < ntrack; t++) {
         if (track[t].length < least)
@@ -556,16 +556,14 @@ void stabilisation_picks(const struct stabilisation *table, int npick, const dou
     }
 }
 
-void stabilisation_assign(const struct stabilisation *table, int nmode, const double complex *pole, double frequency_tolerance,
-                          double damping_tolerance)
+void stabilisation_assign(const struct stabilisation *table, int nmode, const double complex *pole)
 {
     for (int k = 0; k < table->npole; k++) {
         double best = INFINITY;
         for (int r = 0; r < nmode; r++) {
-            double df = frequency_change(table->pole[k], pole[r]) / frequency_tolerance;
-            double dz = damping_change(table->pole[k], pole[r]) / (LOOSER * damping_tolerance);
-            if (df <= 1 && dz <= 1 && df + dz < best) {
-                best = df + dz;
+            double d = distance(table, table->pole[k], pole[r]);
+            if (d < best) {
+                best = d;
                 table->table[k].mode = r + 1;
             }
         }
