@@ -4,9 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int refuse_points(struct message_list *notes, const struct job *job, const char *format, int id)
+#define DEFAULT_LINES 1601 /* where the card gives no lines, as many as a usual analyser has */
+#define MOST_LINES    1000000
+
+/* The deck as a whole; number: what the text has a place for, if it has one. */
+static int refuse_deck(struct message_list *notes, const struct job *job, const char *format, int number)
 {
-    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, format, id);
+    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, format, number);
 }
 
 /* ------------------------------------------------------------------------------------------------ rows */
@@ -24,25 +28,19 @@ static double sign_of(const struct frf *frf)
     return (frf->response_direction < 0) == (frf->reference_direction < 0) ? 1 : -1;
 }
 
-struct chooser {
-    struct pool *pool;
-    struct frf_result *out;
-};
-
-static void take(struct chooser *chooser, int response, int reference, const struct frf *frf)
+static void take(struct pool *pool, struct frf_result *out, int response, int reference, const struct frf *frf)
 {
-    struct frf_result *out = chooser->out;
     const struct frf_row row = {.response = response,
                                 .reference = reference,
                                 .measured = frf,
                                 .sign = frf ? sign_of(frf) : 1,
                                 .is_reciprocal = frf && frf->response_node != response};
-    (void)POOL_ADD(chooser->pool, out->row, out->nrow, &row);
+    (void)POOL_ADD(pool, out->row, out->nrow, &row);
 }
 
 /* The functions of a pair, those measured with force and response exchanged only where there is none the right way round. How
  * many there are. */
-static int take_pair(struct chooser *chooser, const struct frf_set *set, struct frf_pair pair, int axis)
+static int take_pair(struct pool *pool, struct frf_result *out, const struct frf_set *set, struct frf_pair pair, int axis)
 {
     int found = 0;
     for (int swapped = 0; swapped < 2 && !found; swapped++)
@@ -52,18 +50,18 @@ static int take_pair(struct chooser *chooser, const struct frf_set *set, struct 
                 reference = swapped ? frf->response_node : frf->reference_node;
             if (response != pair.response || reference != pair.reference || !is_lateral(frf, axis))
                 continue;
-            take(chooser, response, reference, frf);
+            take(pool, out, response, reference, frf);
             found++;
         }
     return found;
 }
 
-static int requested_rows(struct chooser *chooser, const struct job *job, const struct frf_measured *measured,
-                          struct message_list *notes)
+static int requested_rows(struct pool *pool, const struct job *job, const struct frf_measured *measured,
+                          struct message_list *notes, struct frf_result *out)
 {
     const struct frf_request *request = &job->options.frf;
     for (int i = 0; i < request->npair; i++)
-        if (!take_pair(chooser, measured->set, request->pair[i], request->axis))
+        if (!take_pair(pool, out, measured->set, request->pair[i], request->axis))
             return message_refuse(
                 notes, ROTID_ERROR_ARGUMENT, measured->path, 1, 1,
                 "there is no lateral transfer function between %d and %d, expected what *FRF names, or the axis of the rotor "
@@ -72,25 +70,26 @@ static int requested_rows(struct chooser *chooser, const struct job *job, const 
     return ROTID_OK;
 }
 
-static int all_rows(struct chooser *chooser, const struct job *job, const struct frf_set *set, struct message_list *notes)
+static int all_rows(struct pool *pool, const struct job *job, const struct frf_set *set, struct message_list *notes,
+                    struct frf_result *out)
 {
     int axis = job->options.frf.axis;
     for (int c = 0; c < set->nfrf; c++)
         if (is_lateral(&set->frf[c], axis))
-            take(chooser, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
-    if (!chooser->out->nrow)
-        return refuse_points(
+            take(pool, out, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
+    if (!out->nrow)
+        return refuse_deck(
             notes, job,
             "none of the %d measured transfer functions is lateral, expected response and force along one axis other "
             "than that of the rotor, AXIS on *FRF",
             set->nfrf);
-    chooser->out->nleft_out = set->nfrf - chooser->out->nrow;
-    if (chooser->out->nleft_out)
+    out->nleft_out = set->nfrf - out->nrow;
+    if (out->nleft_out)
         message_add(
             notes, SEVERITY_WARNING, NULL, 0, 0,
             "%d measured transfer functions are left out: not lateral (AXIS=%s is that of the rotor), or response and force "
             "along different axes",
-            chooser->out->nleft_out,
+            out->nleft_out,
             axis == 0   ? "X"
             : axis == 1 ? "Y"
                         : "Z");
@@ -104,16 +103,16 @@ static int frf_choose_rows(struct pool *pool, const struct job *job, const struc
 {
     const struct rotor *rotor = &job->rotor;
     const struct frf_request *request = &job->options.frf;
-    struct chooser chooser = {.pool = pool, .out = out};
     int status = ROTID_OK;
     if (measured)
-        status = request->npair ? requested_rows(&chooser, job, measured, notes) : all_rows(&chooser, job, measured->set, notes);
+        status =
+            request->npair ? requested_rows(pool, job, measured, notes, out) : all_rows(pool, job, measured->set, notes, out);
     else if (!request->npair && !rotor->nsensor)
-        status = refuse_points(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
+        status = refuse_deck(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
     for (int i = 0; i < request->npair && !measured; i++)
-        take(&chooser, request->pair[i].response, request->pair[i].reference, NULL);
+        take(pool, out, request->pair[i].response, request->pair[i].reference, NULL);
     for (int s = 0; s < rotor->nsensor && !measured && !request->npair; s++)
-        take(&chooser, rotor->sensor[s].id, rotor->sensor[0].id, NULL);
+        take(pool, out, rotor->sensor[s].id, rotor->sensor[0].id, NULL);
     return pool->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
@@ -152,7 +151,7 @@ static int node_position(const struct job *job, const struct frf_measured *measu
                 "the unit",
                 id, *z, length);
         }
-    return refuse_points(
+    return refuse_deck(
         notes, job, "point %d of the transfer functions has no position, expected it in *SENSORS or among the nodes of the file",
         id);
 }
@@ -406,14 +405,6 @@ void synthesis_evaluate(const struct synthesis *s, const struct synthesis_lines 
         finish(s, lines, first + c, h + (ptrdiff_t)c * lines->nline);
 }
 
-#define DEFAULT_LINES 1601 /* where the card gives no lines, as many as a usual analyser has */
-#define MOST_LINES    1000000
-
-static int refuse_settling(struct message_list *notes, const struct job *job, const char *text)
-{
-    return message_refuse(notes, ROTID_ERROR_ARGUMENT, job->deck, 1, 1, "%s", text);
-}
-
 /* ------------------------------------------------------------------------------------------------ lines */
 
 static int measured_lines(const struct job *job, const struct frf_set *set, struct message_list *notes, struct frf_result *out)
@@ -432,7 +423,7 @@ static int measured_lines(const struct job *job, const struct frf_set *set, stru
     out->quantity = request->has_quantity ? request->quantity : set->quantity;
     return out->nline > 0
                ? ROTID_OK
-               : refuse_settling(notes, job, "no measured line lies between LOW and HIGH, expected other limits on *FRF");
+               : refuse_deck(notes, job, "no measured line lies between LOW and HIGH, expected other limits on *FRF", 0);
 }
 
 static int requested_lines(struct pool *pool, const struct job *job, struct message_list *notes, struct frf_result *out)
@@ -446,11 +437,11 @@ static int requested_lines(struct pool *pool, const struct job *job, struct mess
             high = fmax(high, 1.1 * job->measurement.frequency_hz[k]);
     }
     if (!(low > 0 && high > low))
-        return refuse_settling(
-            notes, job, "the lines of the transfer functions are not known, expected LOW and HIGH [Hz] on *FRF, LOW first");
+        return refuse_deck(notes, job,
+                           "the lines of the transfer functions are not known, expected LOW and HIGH [Hz] on *FRF, LOW first", 0);
     double step = request->step_hz;
     if (step > 0 && (high - low) / step >= MOST_LINES)
-        return refuse_settling(notes, job, "there are more than 1000000 lines, expected a larger STEP on *FRF");
+        return refuse_deck(notes, job, "there are more than %d lines, expected a larger STEP on *FRF", MOST_LINES);
     out->nline = step > 0 ? (int)floor((high - low) / step * (1 + 1e-12)) + 1 : request->nline ? request->nline : DEFAULT_LINES;
     double *hz = POOL_ARRAY(pool, double, out->nline);
     if (!hz)
@@ -492,10 +483,11 @@ static int frf_choose_damping(struct pool *pool, const struct job *job, const st
         }
     int of = count[1] > 0; /* the mean is that of elastic modes, as far as one has a ratio */
     if (!count[of] && stated <= 0)
-        return refuse_settling(
+        return refuse_deck(
             notes, job,
             "no mode has a damping ratio, expected one as third value of *MODES, in the file of *MEASURED, or DAMPING= on "
-            "*FRF");
+            "*FRF",
+            0);
     memcpy(out->moved_lambda, s->lambda, (size_t)s->nmode * sizeof *s->lambda);
     for (int r = 0; r < s->nmode; r++) {
         int rigid = r < s->nrigid + suspended;

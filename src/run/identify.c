@@ -333,20 +333,16 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
 {
     const struct job *job = &state->job;
     const rotid_fit_result *fit = out->fit;
-    int failed, highest = 1, nmode = job->measurement.nmode;
+    const struct paired paired = {out->compared.number, job->measurement.holdout, NULL};
+    int highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
-    const double *shape;
-    double *frequency_hz;
-    int refine;
+    rotid_measured measured;
+    rotid_state opened;
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz ? mesh_of_fit(pool, job, out->compared.number, &refine, &frequency_hz, &shape)
-                                           : ROTID_ERROR_MEMORY;
-    if (!status)
-        status =
-            model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
+    int status = model && out->baseline_hz ? open_state(pool, state, &paired, model, &measured, &opened) : ROTID_ERROR_MEMORY;
     if (!status)
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
@@ -359,7 +355,7 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
             out->baseline_hz[k + (ptrdiff_t)i * nmode] =
                 lost ? NAN
                      : prediction_hz(&p, model->equations.nrigid + out->compared.number[k] - 1) *
-                           job->measurement.frequency_hz[k] / frequency_hz[k];
+                           job->measurement.frequency_hz[k] / measured.frequency_hz[k];
     }
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
@@ -367,12 +363,8 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
 static void pass_on(const struct message_list *from, const char *name, struct message_list *notes)
 {
     for (size_t i = 0; i < from->count; i++)
-        if (name)
-            message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column,
-                        "%s (state %s)", from->item[i].text, name);
-        else
-            message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column, "%s",
-                        from->item[i].text);
+        message_add(notes, from->item[i].severity, from->item[i].file, from->item[i].line, from->item[i].column,
+                    name ? "%s (state %s)" : "%s", from->item[i].text, name);
 }
 
 /* A state while it is fitted. */

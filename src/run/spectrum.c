@@ -12,23 +12,27 @@
 #define MOST_ENTRIES 2e7   /* of its K, which has eight times as many then */
 #define MOST_MASTERS 1000  /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-/* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
- * parameter. Of a solid, a third of whose solution a factor of M would be. */
-static int mass_is_positive(const struct models *models, const struct rotor *rotor, int nparameter,
-                            const struct parameter *parameter)
-{
-    int only_moduli = discretisation_is_solid(models_discretisation(models)) && !rotor->neffect;
-    for (int p = 0; p < nparameter; p++)
-        only_moduli &= parameter[p].kind == PARAMETER_E || parameter[p].kind == PARAMETER_G;
-    return only_moduli;
-}
-
-/* How exact a solution is, and what it begins with in place of the modes that all share: NULL, or a spectrum of nearly the same
- * model, which may be of another size. */
-struct manner {
+/* What is solved for: a rotor at the values x of its parameters; how exactly, and what a solution begins with in place of the
+ * modes that all share: NULL, or a spectrum of nearly the same model, which may be of another size. */
+struct task {
+    struct models *models;
+    const struct rotor *rotor;
+    int nparameter;
+    const struct parameter *parameter;
+    const double *x;
     double within;
     const struct spectrum *near;
 };
+
+/* Whether M is a sum of elements and disks of positive mass: without causes, which may take mass away, and where no mass is a
+ * parameter. Of a solid, a third of whose solution a factor of M would be. */
+static int mass_is_positive(const struct task *task)
+{
+    int only_moduli = discretisation_is_solid(models_discretisation(task->models)) && !task->rotor->neffect;
+    for (int p = 0; p < task->nparameter; p++)
+        only_moduli &= task->parameter[p].kind == PARAMETER_E || task->parameter[p].kind == PARAMETER_G;
+    return only_moduli;
+}
 
 /* What is kept of a solution: pairs from the rigid ones on. */
 struct solution {
@@ -41,17 +45,16 @@ struct solution {
 
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. known: NULL, or the solution on another
  * mesh. scratch: for what its solution takes */
-static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
-                      const struct parameter *parameter, const double *x, int refine, struct manner manner,
-                      const struct solution *known, int *count, struct rotor_model *model, struct prediction *prediction)
+static int full_model(struct pool *pool, struct pool *scratch, const struct task *task, int refine, const struct solution *known,
+                      int *count, struct rotor_model *model, struct prediction *prediction)
 {
-    int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
+    int failed, status = model_open(pool, task->models, task->rotor, task->nparameter, task->parameter, refine, model, &failed);
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
     const double *shared = status ? NULL : model->equations.modes;
     int nshared = status ? 0 : model->equations.nmodes;
     *count = *count < most ? *count : most;
     int pairs = status ? 0 : model->equations.nrigid + *count;
-    const struct spectrum *near = manner.near;
+    const struct spectrum *near = task->near;
     if (!status && near && near->model->equations.n == model->equations.n && near->nrigid + near->count >= pairs) {
         model->equations.modes = near->phi - (ptrdiff_t)near->nrigid * model->equations.n;
         model->equations.nmodes = pairs;
@@ -63,13 +66,13 @@ static int full_model(struct pool *pool, struct pool *scratch, struct models *mo
     model->equations.modes = shared; /* the others do not last as long */
     model->equations.nmodes = nshared;
     if (!status) {
-        eigen_full_within(&prediction->full, manner.within);
-        if (mass_is_positive(models, rotor, nparameter, parameter))
+        eigen_full_within(&prediction->full, task->within);
+        if (mass_is_positive(task))
             eigen_full_vouch(&prediction->full);
-        status = prediction_compute(prediction, x);
+        status = prediction_compute(prediction, task->x);
     }
-    if (!status && !rotor->neffect) /* before candidates are tried, one after the other */
-        status = models_keep_modes(models, model->equations.n, prediction->count, prediction->phi);
+    if (!status && !task->rotor->neffect) /* before candidates are tried, one after the other */
+        status = models_keep_modes(task->models, model->equations.n, prediction->count, prediction->phi);
     return status;
 }
 
@@ -123,9 +126,8 @@ static int pair_meshes(struct pool *pool, struct pool *scratch, const struct pre
 }
 
 /* The matrices and factors of a solution, ten times what is kept of it, go before the next one. */
-static int solve(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                 const struct parameter *parameter, const double *x, int refine, struct manner manner,
-                 const struct solution *known, int *count, struct solution *out)
+static int solve(struct pool *pool, const struct task *task, int refine, const struct solution *known, int *count,
+                 struct solution *out)
 {
     struct pool scratch;
     struct prediction p;
@@ -133,8 +135,7 @@ static int solve(struct pool *pool, struct models *models, const struct rotor *r
     if (!out->model)
         return ROTID_ERROR_MEMORY;
     pool_open(&scratch, pool->allocator);
-    int status =
-        full_model(pool, &scratch, models, rotor, nparameter, parameter, x, refine, manner, known, count, out->model, &p);
+    int status = full_model(pool, &scratch, task, refine, known, count, out->model, &p);
     if (!status) {
         const rotid_model *equations = &out->model->equations;
         out->size = p.size;
@@ -263,9 +264,8 @@ static double newcomer_hz(const struct solution *s, int count)
 
 /* Leads the modes whose meshes are apart, or both too coarse for their waves, by finer and finer ones, until two of these agree
  * or the unknowns are too many. *missed: lowered to a mode that only the finer ones have. */
-static int refine_apart(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                        const struct parameter *parameter, const double *x, struct manner manner, const struct mesh_limit *limit,
-                        const struct solution *own, struct spectrum *s, double *missed)
+static int refine_apart(struct pool *pool, const struct task *task, const struct mesh_limit *limit, const struct solution *own,
+                        struct spectrum *s, double *missed)
 {
     struct solution before = *own;
     int status = ROTID_OK, *at = POOL_ARRAY(pool, int, s->count);
@@ -280,7 +280,7 @@ static int refine_apart(struct pool *pool, struct models *models, const struct r
          refine *= limit->finer) {
         struct solution finer = {0};
         int count = s->count;
-        status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, &before, &count, &finer);
+        status = solve(pool, task, refine, &before, &count, &finer);
         for (int j = 0; j < s->count && !status; j++) {
             int partner = at[j] < 0 ? -1 : partner_from(&finer, count, at[j]);
             if (isnan(s->mesh_error_percent[j]) && at[j] >= 0) {
@@ -300,21 +300,18 @@ static int refine_apart(struct pool *pool, struct models *models, const struct r
     return status;
 }
 
-static int compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                   const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct manner manner,
-                   struct spectrum *s)
+static int compute(struct pool *pool, const struct task *task, int reduction, int count, int parts, struct spectrum *s)
 {
     struct solution own = {0}, other = {0};
     double missed = INFINITY;
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(models), rotor);
+    const struct mesh_limit limit = discrete_mesh_limit(models_discretisation(task->models), task->rotor);
     int meshed = parts & SPECTRUM_MESH, coarse_first = meshed && limit.refine == COARSE_MESH && refine != COARSE_MESH;
-    int status = coarse_first ? solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, NULL, &count, &other)
-                              : ROTID_OK;
+    int status = coarse_first ? solve(pool, task, limit.refine, NULL, &count, &other) : ROTID_OK;
     if (!status)
-        status = solve(pool, models, rotor, nparameter, parameter, x, refine, manner, coarse_first ? &other : NULL, &count, &own);
+        status = solve(pool, task, refine, coarse_first ? &other : NULL, &count, &own);
     if (!status && meshed && !coarse_first)
-        status = solve(pool, models, rotor, nparameter, parameter, x, limit.refine, manner, &own, &count, &other);
+        status = solve(pool, task, limit.refine, &own, &count, &other);
     if (status)
         return status;
     const rotid_model *equations = &own.model->equations;
@@ -352,7 +349,7 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
         *error = copysign(limit.may_be_off * fabs(*error) + 100 * pow(TWO_PI * passage * hz, 4) / 1440, *error);
     }
     if (limit.counts && coarse_first)
-        status = refine_apart(pool, models, rotor, nparameter, parameter, x, manner, &limit, &own, s, &missed);
+        status = refine_apart(pool, task, &limit, &own, s, &missed);
     if (status)
         return status;
     for (int j = count - 1; j >= 0 && coarse_first; j--)
@@ -362,7 +359,8 @@ static int compute(struct pool *pool, struct models *models, const struct rotor 
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other.model->equations.n < equations->n;
     if (parts & (SPECTRUM_REDUCED | SPECTRUM_MASS) && s->nmaster <= MOST_MASTERS)
-        status = condense(pool, on_other ? &other : &own, x, reduction, parts, on_other ? s->other_hz : own.hz + s->nrigid, s);
+        status =
+            condense(pool, on_other ? &other : &own, task->x, reduction, parts, on_other ? s->other_hz : own.hz + s->nrigid, s);
     for (int j = 0; j < count && !status; j++)
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
     return status;
@@ -372,8 +370,8 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,
                            struct spectrum *spectrum)
 {
-    return compute(pool, models, rotor, nparameter, parameter, x, reduction, count, parts, (struct manner){WITHIN, NULL},
-                   spectrum);
+    const struct task task = {models, rotor, nparameter, parameter, x, WITHIN, NULL};
+    return compute(pool, &task, reduction, count, parts, spectrum);
 }
 
 int job_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int parts, struct spectrum *spectrum)
@@ -387,7 +385,8 @@ int spectrum_try(struct pool *pool, struct models *models, const struct rotor *r
                  const struct parameter *parameter, const double *x, int count, const struct spectrum *near,
                  struct spectrum *spectrum)
 {
-    return compute(pool, models, rotor, nparameter, parameter, x, ROTID_GUYAN, count, 0, (struct manner){ROUGH, near}, spectrum);
+    const struct task task = {models, rotor, nparameter, parameter, x, ROUGH, near};
+    return compute(pool, &task, ROTID_GUYAN, count, 0, spectrum);
 }
 
 double spectrum_correlation(const struct spectrum *s, const double *shape, int j, double *work)
