@@ -452,63 +452,49 @@ static void put_records(struct uff_put *put, const struct uff_function *function
 
 int uff_write_function(FILE *stream, const struct uff_function *function, struct uff_function_writer *writer)
 {
-    struct uff_put put = {.stream = stream};
-    *writer = (struct uff_function_writer){.stream = stream, .function = function};
+    *writer = (struct uff_function_writer){.function = function};
     int known = function->ordinate == UFF_REAL_SINGLE || uff_is_complex(function) || uff_is_double(function);
     if (!known || function->binary.is_binary || function->count < 0 || function->count > COUNT_MOST)
         return ROTID_ERROR_ARGUMENT;
-    uff_put_open(&put, stream, 58);
-    put_records(&put, function);
-    return put.status;
+    uff_put_open(&writer->put, stream, 58);
+    put_records(&writer->put, function);
+    return writer->put.status;
 }
 
 /* The columns of the format: 6E13.5, 4E20.12, 2(E13.5,E20.12), E13.5,2E20.12. */
-static int write_text(struct uff_function_writer *writer, int count, const double *number, const int *is_abscissa)
+static void put_number(struct uff_function_writer *writer, int is_abscissa, double number)
 {
     const struct uff_function *function = writer->function;
-    int wide = uff_is_double(function), uneven = !function->is_even;
-    int per_line = !wide ? 6 : uneven && uff_is_complex(function) ? 3 : 4;
-    for (int i = 0; i < count; ++i) {
-        int ordinate = wide && !is_abscissa[i];
-        if (!isfinite(number[i]))
-            return ROTID_ERROR_ARGUMENT;
-        if (fprintf(writer->stream, ordinate ? "%20.12E" : "%13.5E", number[i]) < 0)
-            return ROTID_ERROR_IO;
-        if (++writer->on_line == per_line) {
-            writer->on_line = 0;
-            if (putc('\n', writer->stream) == EOF)
-                return ROTID_ERROR_IO;
-        }
-    }
-    return ROTID_OK;
+    int wide = uff_is_double(function), per_line = !wide ? 6 : !function->is_even && uff_is_complex(function) ? 3 : 4;
+    uff_put_real(&writer->put, wide && !is_abscissa ? 20 : 13, wide && !is_abscissa ? 12 : 5, number);
+    writer->on_line = (writer->on_line + 1) % per_line;
+    if (!writer->on_line)
+        uff_put_line(&writer->put);
 }
 
 int uff_write_values(struct uff_function_writer *writer, long long count, const double *x, const double *real, const double *imag)
 {
     const struct uff_function *function = writer->function;
-    int uneven = !function->is_even, pair = uff_is_complex(function), status = ROTID_OK;
+    int uneven = !function->is_even, pair = uff_is_complex(function);
     if (count < 0 || count > function->count - writer->written || (count && (!real || (uneven && !x) || (pair && !imag))))
         return ROTID_ERROR_ARGUMENT;
-    for (long long i = 0; i < count && status == ROTID_OK; ++i) {
-        double number[3];
-        int is_abscissa[3] = {uneven, 0, 0}, n = 0;
+    for (long long i = 0; i < count && writer->put.status == ROTID_OK; ++i) {
         if (uneven)
-            number[n++] = x[i];
-        number[n++] = real[i];
+            put_number(writer, 1, x[i]);
+        put_number(writer, 0, real[i]);
         if (pair)
-            number[n++] = imag[i];
-        status = write_text(writer, n, number, is_abscissa);
+            put_number(writer, 0, imag[i]);
     }
-    if (status == ROTID_OK)
+    if (writer->put.status == ROTID_OK)
         writer->written += count;
-    return status;
+    return writer->put.status;
 }
 
 int uff_end_function(struct uff_function_writer *writer)
 {
     if (writer->written != writer->function->count)
         return ROTID_ERROR_ARGUMENT;
-    if (writer->on_line && putc('\n', writer->stream) == EOF)
-        return ROTID_ERROR_IO;
-    return fputs("    -1\n", writer->stream) < 0 || ferror(writer->stream) ? ROTID_ERROR_IO : ROTID_OK;
+    if (writer->on_line)
+        uff_put_line(&writer->put);
+    return uff_put_close(&writer->put);
 }

@@ -247,6 +247,18 @@ int uff_extra_frequency_std(const struct uff_shape *set, double *hz);
  * format cannot hold: a value that is not finite (binary sets hold it), a line of text that looks like the end of a set, a label
  * beyond the width of its field. The stream may hold a part of the set then. */
 
+/* Lines of a universal file under construction, column by column. */
+
+#define UFF_PUT_LIMIT 160 /* the widest line has 13 + 2 * 20 or 80 columns */
+
+/* The first failure stays: what follows it is not written, so one look at the end is enough. */
+struct uff_put {
+    FILE *stream;
+    int status;    /* ROTID_OK, ROTID_ERROR_IO or ROTID_ERROR_ARGUMENT */
+    size_t length; /* of the line so far */
+    char line[UFF_PUT_LIMIT + 1];
+};
+
 int uff_write_header(FILE *stream, const struct uff_header *header);                /* 151 */
 int uff_write_units(FILE *stream, const struct uff_units *units);                   /* 164 */
 int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node); /* 15 or 2411 */
@@ -256,7 +268,7 @@ int uff_write_shape(FILE *stream, const struct uff_shape *shape);               
  * records before them, uff_write_values any number of values (x only of an uneven abscissa, imag only of complex ones), until
  * function->count are there; uff_end_function closes the set. */
 struct uff_function_writer {
-    FILE *stream;
+    struct uff_put put;
     const struct uff_function *function;
     long long written;
     int on_line; /* numbers on the current line of text */
@@ -413,18 +425,6 @@ int uff_read_text(struct uff_lines *lines, const char *expected, char out[UFF_TE
 
 struct uff_field {
     size_t start, length;
-};
-
-/* Lines of a universal file under construction, column by column. */
-
-#define UFF_PUT_LIMIT 160 /* the widest line has 13 + 2 * 20 or 80 columns */
-
-/* The first failure stays: what follows it is not written, so one look at the end is enough. */
-struct uff_put {
-    FILE *stream;
-    int status;    /* ROTID_OK, ROTID_ERROR_IO or ROTID_ERROR_ARGUMENT */
-    size_t length; /* of the line so far */
-    char line[UFF_PUT_LIMIT + 1];
 };
 
 /* By set and record. */
