@@ -137,19 +137,20 @@ static void add_following(const struct solid *solid, const struct element *q, in
         double length = ((l < to ? z[l + 1] : z[l]) - (l > from ? z[l - 1] : z[l])) / 2;
         if (k && q->force != 0)
             motion_add(k, q->force * length, &line->theta, &line->theta);
-        if (m && q->rhos != 0) {
+        if (m && q->rhos != 0)
             motion_add(m, q->rhos * length, &line->v, &line->v);
+        if (m && q->rhoi != 0)
             motion_add(m, q->rhoi * length, &line->theta, &line->theta);
-        }
     }
 }
 
-static void add_chain(const struct solid *solid, const struct member *member, int i, const struct element *d, int from, int to,
+/* Elements like `element` between the lines; d: NULL, or the derivative of K alone in this direction. */
+static void add_chain(const struct solid *solid, struct element element, int i, const struct element *d, int from, int to,
                       const struct target *k, const struct target *m)
 {
     double ek[16], em[16];
     for (int l = from; l < to; l++) {
-        struct element element = element_of(solid, member, solid->mesh.z[l + 1] - solid->mesh.z[l]);
+        element.length = solid->mesh.z[l + 1] - solid->mesh.z[l];
         if (d)
             element_derivatives(&element, d, ek, em);
         else
@@ -199,7 +200,7 @@ void members_assemble(const struct solid *solid, int p, const struct target *k, 
         if (solid_mesh_follows(rotor, i))
             add_following(solid, &d, from, to, k, m);
         else
-            add_chain(solid, &member, i, p < 0 ? NULL : &d, from, to, k, m);
+            add_chain(solid, element_of(solid, &member, 1), i, p < 0 ? NULL : &d, from, to, k, m);
         double area = member.section.stiff_area, length = mesh->z[to] - mesh->z[from];
         if (i < rotor->ntierod)
             add_stretch(solid, i, rate * member.material->e * member.young * area / 2 / length,
@@ -214,7 +215,6 @@ void members_gyroscopic(const struct solid *solid, const struct target *p)
 {
     const struct rotor *rotor = &solid->rotor;
     const struct solid_mesh *mesh = &solid->mesh;
-    double k[16], m[16];
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
         struct member member = member_of(solid, i);
         int from, to;
@@ -222,18 +222,10 @@ void members_gyroscopic(const struct solid *solid, const struct target *p)
         struct element turning = element_of(solid, &member, 1);
         turning.rhos = turning.force = 0;
         turning.rhoi *= 2;
-        if (solid_mesh_follows(rotor, i)) {
-            for (int l = from; l <= to; l++) {
-                double length = ((l < to ? mesh->z[l + 1] : mesh->z[l]) - (l > from ? mesh->z[l - 1] : mesh->z[l])) / 2;
-                motion_add(p, turning.rhoi * length, &solid->line[l].theta, &solid->line[l].theta);
-            }
-        } else {
-            for (int l = from; l < to; l++) {
-                turning.length = mesh->z[l + 1] - mesh->z[l];
-                element_matrices(&turning, k, m);
-                add_between(solid, i, l, m, p);
-            }
-        }
+        if (solid_mesh_follows(rotor, i))
+            add_following(solid, &turning, from, to, NULL, p);
+        else
+            add_chain(solid, turning, i, NULL, from, to, NULL, p);
         double length = mesh->z[to] - mesh->z[from];
         if (i < rotor->ntierod) {
             add_stretch(solid, i, 0, member.material->rho * member.section.stiff_area * length, NULL, p);

@@ -197,13 +197,19 @@ static double corner_size(const struct rotor *rotor, const struct solid_rule *ru
     return refine ? size / refine : COARSE * size;
 }
 
+/* Whether the outline steps behind section s. */
+static int is_step(const struct rotor *rotor, int s)
+{
+    return differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
+           differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1));
+}
+
 int outline_has_corners(const struct rotor *rotor)
 {
-    for (int s = 0; s + 1 < rotor->nsegment; s++)
-        if (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
-            differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1)))
-            return 1;
-    return 0;
+    int s = 0;
+    while (s + 1 < rotor->nsegment && !is_step(rotor, s))
+        s++;
+    return s + 1 < rotor->nsegment;
 }
 
 /* Without corners the coarse mesh has twice the size in both directions, else across alone. */
@@ -311,8 +317,7 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
     for (int s = 0; s < rotor->nsegment; s++) {
         double size = 0;
         end += rotor->segment[s].length;
-        if (s + 1 < rotor->nsegment && (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
-                                        differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1))))
+        if (s + 1 < rotor->nsegment && is_step(rotor, s))
             size = corner_size(rotor, rule, s, refine);
         else if (s + 1 < rotor->nsegment && rotor->segment[s].group != rotor->segment[s + 1].group)
             size = INTERFACE * outline_outer(rotor, s);
