@@ -42,10 +42,9 @@ static double rms(const struct tally *t)
 }
 
 struct parameter_sums {
-    const char *name, *unit;
-    double min, max;
+    struct cell_parameter said;        /* min, max and intervals grow with the runs, the rest follows at the end */
     struct tally value, stated, error; /* stated: deviations of the fits; error: value less truth */
-    int intervals, covered;            /* with a truth beside; that hold it */
+    int covered;                       /* intervals that hold a truth */
 };
 
 struct cell_sums {
@@ -138,11 +137,11 @@ rotid_fitted_parameter *study_run_values(struct pool *pool, const struct study_r
 static void add_value(struct sums *s, struct cell_sums *cell, const rotid_fitted_parameter *parameter, double truth)
 {
     int i = 0;
-    while (i < cell->nparameter && strcmp(cell->parameter[i].name, parameter->name) != 0)
+    while (i < cell->nparameter && strcmp(cell->parameter[i].said.name, parameter->name) != 0)
         i++;
     if (i == cell->nparameter) {
         const struct parameter_sums none = {
-            .name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY};
+            .said = {.name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY}};
         if (s->pool->out_of_memory || POOL_ADD(s->pool, cell->parameter, cell->nparameter, &none)) /* without a name it is none */
             return;
     }
@@ -153,10 +152,10 @@ static void add_value(struct sums *s, struct cell_sums *cell, const rotid_fitted
     tally(&p->value, value);
     tally(&p->stated, parameter->std);
     tally(&p->error, value - truth);
-    p->min = fmin(p->min, value);
-    p->max = fmax(p->max, value);
+    p->said.min = fmin(p->said.min, value);
+    p->said.max = fmax(p->said.max, value);
     if (isfinite(truth) && isfinite(lower) && isfinite(upper)) {
-        p->intervals++;
+        p->said.intervals++;
         p->covered += lower <= truth && truth <= upper;
     }
 }
@@ -257,19 +256,16 @@ static void add_run(struct sums *s, const struct study_run *run)
 
 static struct cell_parameter finish_parameter(const struct parameter_sums *p)
 {
-    return (struct cell_parameter){.name = p->name,
-                                   .unit = p->unit,
-                                   .count = p->value.count,
-                                   .mean = mean(&p->value),
-                                   .std = deviation(&p->value),
-                                   .min = p->min,
-                                   .max = p->max,
-                                   .mean_stated_std = mean(&p->stated),
-                                   .bias = mean(&p->error),
-                                   .std_error = deviation(&p->error),
-                                   .rms_error = rms(&p->error),
-                                   .intervals = p->intervals,
-                                   .coverage95 = p->intervals ? (double)p->covered / (double)p->intervals : (double)NAN};
+    struct cell_parameter said = p->said;
+    said.count = p->value.count;
+    said.mean = mean(&p->value);
+    said.std = deviation(&p->value);
+    said.mean_stated_std = mean(&p->stated);
+    said.bias = mean(&p->error);
+    said.std_error = deviation(&p->error);
+    said.rms_error = rms(&p->error);
+    said.coverage95 = said.intervals ? (double)p->covered / (double)said.intervals : (double)NAN;
+    return said;
 }
 
 static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *cell)
