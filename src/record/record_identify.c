@@ -97,24 +97,26 @@ TABLE(weighed_record, rotid_weighed) = {
     {0},
 };
 
+/* Rows of a model beside measured modes: of all states, and of each. SINCE: bits of what older results lack. */
+#define COMPARED_ROWS(S, SINCE)                                                                                                  \
+    STRUCTS(S, modes, NOT_EMPTY, compared_mode_record),                                                                          \
+        NUMBERS_BY(S, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),                                           \
+        NUMBERS_BY(S, mesh_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"), NUMBER(S, mass_kg, ABOVE_0),                   \
+        NUMBER(S, center_of_mass_m, 0), STRUCT(S, shapes, MAY_BE_NULL | BEHIND_POINTER | SINCE, shapes_record),                  \
+        MATRIX(S, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE, nmatrix_rows,                  \
+               nmatrix_columns),                                                                                                 \
+        MATRIX(S, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE, nmatrix_rows,                  \
+               nmatrix_columns),                                                                                                 \
+        INTEGERS_BY(S, matrix_rows, FROM_1 | SINCE, nmatrix_rows, "rows of mac_matrix"),                                         \
+        INTEGERS_BY(S, matrix_columns, FROM_1 | SINCE, nmatrix_columns, "columns of mac_matrix")
+
 PART_TABLE(state_record, rotid_identified_state) = {
     TEXT(rotid_identified_state, name, 0),
     INTEGER(rotid_identified_state, fitted_residuals, FROM_0),
     FLAG(rotid_identified_state, shapes_fitted, 0),
     NUMBER(rotid_identified_state, objective, FROM_0),
     NUMBER(rotid_identified_state, chi2, MAY_BE_NULL | FROM_0),
-    STRUCTS(rotid_identified_state, modes, NOT_EMPTY, compared_mode_record),
-    NUMBERS_BY(rotid_identified_state, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
-    NUMBERS_BY(rotid_identified_state, mesh_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
-    NUMBER(rotid_identified_state, mass_kg, ABOVE_0),
-    NUMBER(rotid_identified_state, center_of_mass_m, 0),
-    STRUCT(rotid_identified_state, shapes, MAY_BE_NULL | BEHIND_POINTER, shapes_record),
-    MATRIX(rotid_identified_state, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED, nmatrix_rows,
-           nmatrix_columns),
-    MATRIX(rotid_identified_state, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED, nmatrix_rows,
-           nmatrix_columns),
-    INTEGERS_BY(rotid_identified_state, matrix_rows, FROM_1, nmatrix_rows, "rows of mac_matrix"),
-    INTEGERS_BY(rotid_identified_state, matrix_columns, FROM_1, nmatrix_columns, "columns of mac_matrix"),
+    COMPARED_ROWS(rotid_identified_state, 0),
     STRUCT(rotid_identified_state, noise, BEHIND_POINTER, noise_record),
     STRUCT(rotid_identified_state, geometry, BEHIND_POINTER, geometry_record),
     {0},
@@ -139,18 +141,7 @@ TABLE(identification_record, rotid_identification) = {
     NUMBER(rotid_identification, condition_number, MAY_BE_NULL | FROM_0),
     MAPS(rotid_identification, undetermined_directions, 0, nparameters),
     NUMBER(rotid_identification, intervals_widened_by, FROM_1),
-    STRUCTS(rotid_identification, modes, NOT_EMPTY, compared_mode_record),
-    NUMBERS_BY(rotid_identification, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
-    NUMBERS_BY(rotid_identification, mesh_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
-    NUMBER(rotid_identification, mass_kg, ABOVE_0),
-    NUMBER(rotid_identification, center_of_mass_m, 0),
-    STRUCT(rotid_identification, shapes, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, shapes_record),
-    MATRIX(rotid_identification, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER,
-           nmatrix_rows, nmatrix_columns),
-    MATRIX(rotid_identification, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER,
-           nmatrix_rows, nmatrix_columns),
-    INTEGERS_BY(rotid_identification, matrix_rows, FROM_1 | SINCE_LATER, nmatrix_rows, "rows of mac_matrix"),
-    INTEGERS_BY(rotid_identification, matrix_columns, FROM_1 | SINCE_LATER, nmatrix_columns, "columns of mac_matrix"),
+    COMPARED_ROWS(rotid_identification, SINCE_LATER),
     STRUCTS(rotid_identification, history, NOT_EMPTY, history_record),
     FLAG(rotid_identification, nlopt, SINCE_LATER),
     STRUCTS(rotid_identification, baseline, 0, minimiser_record),
