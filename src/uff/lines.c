@@ -409,15 +409,15 @@ static int uff_is_cut_off(const struct uff_lines *lines, struct uff_field field)
     return (touches_left || touches_right) && !memchr(lines->text + field.start, '.', field.length);
 }
 
-static enum uff_fault parse_fields(const struct uff_lines *lines, const struct uff_form *form, const struct uff_field *field,
+/* Numbers in `count` fields, integers first; the first field that is none to *bad. */
+static enum uff_fault parse_fields(const struct uff_lines *lines, int integers, int count, const struct uff_field *field,
                                    int may_touch, int *bad, int *integer, double *real)
 {
-    int total = form->integers + form->reals;
-    for (*bad = 0; *bad < total; ++*bad) {
+    for (*bad = 0; *bad < count; ++*bad) {
         const char *text = lines->text + field[*bad].start;
         size_t length = field[*bad].length;
         enum uff_fault fault;
-        if (*bad < form->integers) {
+        if (*bad < integers) {
             long long value = 0;
             fault = parse_integer(text, length, &value);
             if (fault == UFF_FAULT_NONE && (value < INT_MIN || value > INT_MAX))
@@ -425,7 +425,7 @@ static enum uff_fault parse_fields(const struct uff_lines *lines, const struct u
             if (fault == UFF_FAULT_NONE)
                 integer[*bad] = (int)value;
         } else {
-            fault = uff_parse_real(text, length, &real[*bad - form->integers]);
+            fault = uff_parse_real(text, length, &real[*bad - integers]);
             if (fault == UFF_FAULT_NONE && may_touch && uff_is_cut_off(lines, field[*bad]))
                 fault = UFF_FAULT_MALFORMED;
         }
@@ -436,15 +436,15 @@ static enum uff_fault parse_fields(const struct uff_lines *lines, const struct u
 }
 
 /* "4 integers and 3 reals" */
-static const char *count_numbers(const struct uff_form *form, char buffer[64])
+static const char *count_numbers(int integers, int reals, char buffer[64])
 {
-    const char *s_integers = form->integers == 1 ? "" : "s", *s_reals = form->reals == 1 ? "" : "s";
-    if (form->integers && form->reals)
-        (void)snprintf(buffer, 64, "%d integer%s and %d real%s", form->integers, s_integers, form->reals, s_reals);
-    else if (form->integers)
-        (void)snprintf(buffer, 64, "%d integer%s", form->integers, s_integers);
+    const char *s_integers = integers == 1 ? "" : "s", *s_reals = reals == 1 ? "" : "s";
+    if (integers && reals)
+        (void)snprintf(buffer, 64, "%d integer%s and %d real%s", integers, s_integers, reals, s_reals);
+    else if (integers)
+        (void)snprintf(buffer, 64, "%d integer%s", integers, s_integers);
     else
-        (void)snprintf(buffer, 64, "%d real%s", form->reals, s_reals);
+        (void)snprintf(buffer, 64, "%d real%s", reals, s_reals);
     return buffer;
 }
 
@@ -461,65 +461,6 @@ static int uff_fail_field(struct uff_lines *lines, const char *what, enum uff_fa
         return uff_fail(lines, column, "%s: %s is not a finite number; expected %s", what, excerpt, expected);
     return uff_fail(lines, column, "%s: '%s' is not %s; expected %s", what, excerpt, is_integer ? "an integer" : "a real",
                     expected);
-}
-
-static int report(struct uff_lines *lines, const struct uff_form *form, const char *what, enum uff_fault fault,
-                  struct uff_field field, int is_integer)
-{
-    char numbers[64];
-    return uff_fail_field(lines, what, fault, field, is_integer, count_numbers(form, numbers));
-}
-
-int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const char *what, int *integer, double *real)
-{
-    struct uff_field blank[UFF_VALUE_LIMIT + 3], column[UFF_VALUE_LIMIT + 2], sign[UFF_VALUE_LIMIT + 3];
-    int total = form->integers + form->reals;
-
-    int bad = 0;
-    int found = split(lines, 0, blank, total + 1);
-    enum uff_fault fault = UFF_FAULT_COUNT;
-    if (found == total)
-        fault = parse_fields(lines, form, blank, 0, &bad, integer, real);
-    if (fault == UFF_FAULT_NONE)
-        return ROTID_OK;
-    if (fault == UFF_FAULT_RANGE || fault == UFF_FAULT_NOT_FINITE) /* a number for certain, do not cut it in two */
-        return report(lines, form, what, fault, blank[bad], bad < form->integers);
-
-    size_t start = 0;
-    int complete = 1, bad_column = 0;
-    for (int i = 0; i < total; ++i) {
-        size_t width = (size_t)(i < form->integers ? form->integer_width : form->real_width);
-        column[i] = uff_cut_column(lines, start, width);
-        complete = complete && column[i].length > 0;
-        start += width;
-    }
-    complete = complete && start >= lines->length; /* text has no trailing blanks */
-    enum uff_fault column_fault = UFF_FAULT_COUNT;
-    if (complete)
-        column_fault = parse_fields(lines, form, column, 1, &bad_column, integer, real);
-    if (column_fault == UFF_FAULT_NONE)
-        return ROTID_OK;
-
-    int bad_sign = 0;
-    if (split(lines, 1, sign, total + 1) == total &&
-        parse_fields(lines, form, sign, 1, &bad_sign, integer, real) == UFF_FAULT_NONE)
-        return ROTID_OK;
-
-    if (found == total)
-        return report(lines, form, what, fault, blank[bad], bad < form->integers);
-    if (complete)
-        return report(lines, form, what, column_fault, column[bad_column], bad_column < form->integers);
-    char numbers[64];
-    return uff_fail(lines, 0, "%s: expected %s, found %s%d field%s", what, count_numbers(form, numbers),
-                    found > total ? "at least " : "", found, found == 1 ? "" : "s");
-}
-
-/* Parses `count` fields that are reals; the first that is none to *bad. */
-static enum uff_fault parse_reals(const struct uff_lines *lines, int count, const struct uff_field *field, int may_touch,
-                                  int *bad, double *value)
-{
-    const struct uff_form form = {.reals = count};
-    return parse_fields(lines, &form, field, may_touch, bad, NULL, value);
 }
 
 /* Fields that all end with a column, one of which is left blank before the last: there a Fortran reader sees a zero. Where they
@@ -547,37 +488,60 @@ static int cut_columns(const struct uff_lines *lines, int columns, const int *wi
     return lines->length <= start ? count : 0;
 }
 
-int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
-                     int *taken)
+/* Numbers of a line by blanks, else by columns, else by signs, whichever gives them all: `exact`, one in each column; else as
+ * many as there are, up to UFF_VALUE_LIMIT, of which at most `left` are due, *taken. A number that is one for certain, out of
+ * range or not finite, is not cut in two. */
+static int parse_numbers(struct uff_lines *lines, const char *what, int integers, int columns, const int *width, int exact,
+                         long long left, int *integer, double *real, int *taken)
 {
-    struct uff_field blank[UFF_VALUE_LIMIT + 1], column[UFF_VALUE_LIMIT], sign[UFF_VALUE_LIMIT + 1];
+    struct uff_field blank[UFF_VALUE_LIMIT + 3], column[UFF_VALUE_LIMIT + 2], sign[UFF_VALUE_LIMIT + 3];
     int bad = 0, bad_column = 0, bad_sign = 0, due = left < columns ? (int)left : columns;
-    int found = split(lines, 0, blank, UFF_VALUE_LIMIT + 1);
+    int most = exact ? columns : UFF_VALUE_LIMIT, found = split(lines, 0, blank, most + 1);
     /* more than are left only as filling of the last line */
-    int fits = found > 0 && found <= UFF_VALUE_LIMIT && (found <= left || found <= columns) &&
-               (found >= due || !has_hole(columns, width, found, blank));
-    enum uff_fault fault = fits ? parse_reals(lines, found, blank, 0, &bad, value) : UFF_FAULT_COUNT;
+    int fits = exact ? found == columns
+                     : found > 0 && found <= most && (found <= left || found <= columns) &&
+                           (found >= due || !has_hole(columns, width, found, blank));
+    enum uff_fault fault = fits ? parse_fields(lines, integers, found, blank, 0, &bad, integer, real) : UFF_FAULT_COUNT;
     *taken = found <= left ? found : (int)left;
     if (fault == UFF_FAULT_NONE)
         return ROTID_OK;
+    char expected[64];
+    count_numbers(integers, due - integers, expected);
+    if (fault == UFF_FAULT_RANGE || fault == UFF_FAULT_NOT_FINITE)
+        return uff_fail_field(lines, what, fault, blank[bad], bad < integers, expected);
 
-    char expected[48];
-    (void)snprintf(expected, sizeof expected, "%d real%s", due, due == 1 ? "" : "s");
-    if (fault == UFF_FAULT_NOT_FINITE) /* a number for certain, do not cut it in two */
-        return uff_fail_field(lines, what, fault, blank[bad], 0, expected);
     int cut = cut_columns(lines, columns, width, column);
-    enum uff_fault column_fault = cut ? parse_reals(lines, cut, column, 1, &bad_column, value) : UFF_FAULT_COUNT;
+    cut = exact && cut < columns ? 0 : cut;
+    enum uff_fault column_fault =
+        cut ? parse_fields(lines, integers, cut, column, 1, &bad_column, integer, real) : UFF_FAULT_COUNT;
     *taken = cut <= left ? cut : (int)left;
     if (column_fault == UFF_FAULT_NONE)
         return ROTID_OK;
     *taken = due;
-    if (split(lines, 1, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
+    if (split(lines, 1, sign, due + 1) == due &&
+        parse_fields(lines, integers, due, sign, 1, &bad_sign, integer, real) == UFF_FAULT_NONE)
         return ROTID_OK;
-    if (column_fault == UFF_FAULT_NOT_FINITE)
-        return uff_fail_field(lines, what, column_fault, column[bad_column], 0, expected);
-    if (fits)
-        return uff_fail_field(lines, what, fault, blank[bad], 0, expected);
-    return uff_fail(lines, 0, "%s: expected %s, found %d field%s", what, expected, found, found == 1 ? "" : "s");
+
+    if (fits && (exact || column_fault != UFF_FAULT_NOT_FINITE))
+        return uff_fail_field(lines, what, fault, blank[bad], bad < integers, expected);
+    if (cut && (exact || column_fault == UFF_FAULT_NOT_FINITE))
+        return uff_fail_field(lines, what, column_fault, column[bad_column], bad_column < integers, expected);
+    return uff_fail(lines, 0, "%s: expected %s, found %s%d field%s", what, expected, exact && found > columns ? "at least " : "",
+                    found, found == 1 ? "" : "s");
+}
+
+int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const char *what, int *integer, double *real)
+{
+    int width[UFF_VALUE_LIMIT + 2], total = form->integers + form->reals, taken;
+    for (int i = 0; i < total; ++i)
+        width[i] = i < form->integers ? form->integer_width : form->real_width;
+    return parse_numbers(lines, what, form->integers, total, width, 1, total, integer, real, &taken);
+}
+
+int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
+                     int *taken)
+{
+    return parse_numbers(lines, what, 0, columns, width, 0, left, NULL, value, taken);
 }
 
 /* ---- Records: numbers over several lines, lists of integers, and lines of mixed contents in columns. */
