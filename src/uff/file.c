@@ -77,34 +77,36 @@ static void take_reals(struct uff_shape *shape, int count, const double *real)
 /* Records 7 and 8: number, frequency and damping. */
 static int read_mode(struct uff_lines *lines, struct uff_shape *shape)
 {
-    static const int start[] = {0, 10}, width[] = {10, 10}, field[] = {0, 1};
+    static const struct uff_record counts = {.count = 2,
+                                             .member = {{.column = {UFF_LONG, 0, 10}}, {.column = {UFF_LONG, 10, 10}}}};
     int integer[UFF_VALUE_LIMIT + 2];
     double real[UFF_VALUE_LIMIT];
-    long long counts[2];
+    struct uff_cell cell[UFF_CELL_LIMIT];
     int is_mode = is_eigenvalue(shape) || shape->analysis_type == NORMAL_MODE || shape->analysis_type == FREQUENCY_RESPONSE;
     int least_integers = is_mode ? 2 : 1, least_reals = is_eigenvalue(shape) ? 2 : 1;
 
     int status = uff_expect_line(lines, "record 7 (numbers of integers and reals, load case, mode number)");
     if (status != ROTID_OK)
         return status;
-    if (!uff_find_integers(lines, 2, start, width, field, counts))
+    if (uff_cut_line(lines, &counts, 0, cell) >= 0)
         return uff_fail(lines, 1, "record 7: expected the numbers of integers and reals");
-    if (counts[0] < least_integers || counts[0] > UFF_VALUE_LIMIT)
-        return uff_fail(lines, 0, "record 7: %lld integers announced; expected load case and mode number", counts[0]);
-    if (counts[1] < least_reals || counts[1] > UFF_VALUE_LIMIT)
-        return uff_fail(lines, 0, "record 7: %lld reals announced; expected at least %d", counts[1], least_reals);
-    status = uff_read_integers(lines, (int)counts[0] + 2, "record 7", integer);
+    long long integers = cell[0].integer, reals = cell[1].integer;
+    if (integers < least_integers || integers > UFF_VALUE_LIMIT)
+        return uff_fail(lines, 0, "record 7: %lld integers announced; expected load case and mode number", integers);
+    if (reals < least_reals || reals > UFF_VALUE_LIMIT)
+        return uff_fail(lines, 0, "record 7: %lld reals announced; expected at least %d", reals, least_reals);
+    status = uff_read_integers(lines, (int)integers + 2, "record 7", integer);
     if (status != ROTID_OK)
         return status;
-    int has_case = counts[0] > 1 || shape->analysis_type != 0; /* of unknown data the one integer is a number */
+    int has_case = integers > 1 || shape->analysis_type != 0; /* of unknown data the one integer is a number */
     shape->load_case = has_case ? integer[2] : 0;
-    shape->number = counts[0] > 1 ? integer[3] : has_case ? 0 : integer[2];
+    shape->number = integers > 1 ? integer[3] : has_case ? 0 : integer[2];
 
     int line = lines->line + 1;
-    status = uff_read_reals(lines, (int)counts[1], 6, 13, "record 8", real);
+    status = uff_read_reals(lines, (int)reals, 6, 13, "record 8", real);
     if (status != ROTID_OK)
         return status;
-    take_reals(shape, (int)counts[1], real);
+    take_reals(shape, (int)reals, real);
     if (shape->frequency_hz >= 0 && isfinite(shape->frequency_hz))
         return ROTID_OK;
     return message_refuse(lines->messages, ROTID_ERROR_SYNTAX, lines->path, line, 1,

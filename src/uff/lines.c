@@ -583,29 +583,6 @@ int uff_read_integers(struct uff_lines *lines, int count, const char *what, int 
     return ROTID_OK;
 }
 
-int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,
-                      long long *value)
-{
-    int found = 0;
-    for (int i = 0; i < count; ++i) {
-        struct uff_field column = uff_cut_column(lines, (size_t)start[i], (size_t)width[i]);
-        found += column.length && parse_integer(lines->text + column.start, column.length, &value[i]) == UFF_FAULT_NONE;
-    }
-    if (found == count)
-        return 1;
-
-    struct uff_field token[UFF_VALUE_LIMIT];
-    int tokens = split(lines, 0, token, UFF_VALUE_LIMIT);
-    for (int i = 0; i < count; ++i) {
-        if (field[i] >= tokens)
-            return 0;
-        struct uff_field one = token[field[i]];
-        if (parse_integer(lines->text + one.start, one.length, &value[i]) != UFF_FAULT_NONE)
-            return 0;
-    }
-    return 1;
-}
-
 static enum uff_fault read_cell(const struct uff_lines *lines, enum uff_kind kind, struct uff_field field, struct uff_cell *cell)
 {
     const char *text = lines->text + field.start;
@@ -617,21 +594,21 @@ static enum uff_fault read_cell(const struct uff_lines *lines, enum uff_kind kin
     return kind == UFF_REAL ? uff_parse_real(text, field.length, &cell->real) : parse_integer(text, field.length, &cell->integer);
 }
 
-int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT])
+int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, int before, struct uff_cell cell[UFF_CELL_LIMIT])
 {
-    int bad = -1, count = record->count;
+    int bad = -1, count = record->count, whole = before == UFF_WHOLE, skipped = whole ? 0 : before;
     for (int i = count - 1; i >= 0; --i) {
         const struct uff_column *column = &record->member[i].column;
         struct uff_field field = uff_cut_column(lines, (size_t)column->start, (size_t)column->width);
         if (read_cell(lines, column->kind, field, &cell[i]) != UFF_FAULT_NONE)
             bad = i;
     }
-    struct uff_field token[UFF_CELL_LIMIT + 1];
-    if (bad < 0 || split(lines, 0, token, count + 1) != count)
+    struct uff_field token[UFF_CELL_LIMIT + 1], *first = token + skipped;
+    if (bad < 0 || split(lines, 0, token, skipped + count + whole) != skipped + count)
         return bad;
     struct uff_cell other[UFF_CELL_LIMIT];
     for (int i = 0; i < count; ++i)
-        if (read_cell(lines, record->member[i].column.kind, token[i], &other[i]) != UFF_FAULT_NONE)
+        if (read_cell(lines, record->member[i].column.kind, first[i], &other[i]) != UFF_FAULT_NONE)
             return bad;
     memcpy(cell, other, (size_t)count * sizeof *cell);
     return -1;
@@ -639,7 +616,7 @@ int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record,
 
 int uff_cut_record(struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT])
 {
-    int bad = uff_cut_line(lines, record, cell);
+    int bad = uff_cut_line(lines, record, UFF_WHOLE, cell);
     for (int i = 0; i < record->count && bad < 0; ++i)
         if ((cell[i].integer < INT_MIN || cell[i].integer > INT_MAX) && record->member[i].column.kind == UFF_INTEGER)
             return uff_fail_field(lines, record->what, UFF_FAULT_RANGE, (struct uff_field){cell[i].start, cell[i].length}, 1,

@@ -687,18 +687,22 @@ static int read_opener(struct uff_reader *reader)
 /* 58b: its first line says how many lines and then how many bytes follow. */
 static int read_binary_line(struct uff_reader *reader)
 {
-    static const int start[] = {7, 13, 19, 31}, width[] = {6, 6, 12, 12}, field[] = {1, 2, 3, 4};
+    static const struct uff_record behind_number = {.count = 4,
+                                                    .member = {{.column = {UFF_LONG, 7, 6}},
+                                                               {.column = {UFF_LONG, 13, 6}},
+                                                               {.column = {UFF_LONG, 19, 12}},
+                                                               {.column = {UFF_LONG, 31, 12}}}};
     struct uff_binary *binary = &reader->binary;
-    long long value[4];
-    if (!uff_find_integers(&reader->lines, 4, start, width, field, value) || value[2] < 0 || value[3] < 0)
+    struct uff_cell cell[UFF_CELL_LIMIT];
+    if (uff_cut_line(&reader->lines, &behind_number, 1, cell) >= 0 || cell[2].integer < 0 || cell[3].integer < 0)
         return uff_fail(&reader->lines, 0, "binary; expected byte order, number format, number of lines and number of bytes");
     binary->is_binary = 1;
     /* anything but 1 to 3 is refused when the values are read */
-    binary->order = value[0] == 1 || value[0] == 2 ? (int)value[0] : 0;
-    binary->format = value[1] >= 1 && value[1] <= 3 ? (int)value[1] : 0;
+    binary->order = cell[0].integer == 1 || cell[0].integer == 2 ? (int)cell[0].integer : 0;
+    binary->format = cell[1].integer >= 1 && cell[1].integer <= 3 ? (int)cell[1].integer : 0;
     /* the format fixes 11 for set 58, and some writers leave 0 there */
-    binary->text_lines = reader->set.number == 58 && value[2] < 11 ? 11 : value[2];
-    binary->bytes = value[3];
+    binary->text_lines = reader->set.number == 58 && cell[2].integer < 11 ? 11 : cell[2].integer;
+    binary->bytes = cell[3].integer;
     return ROTID_OK;
 }
 

@@ -228,7 +228,7 @@ static void store(const struct uff_lines *lines, const struct uff_member *member
 int uff_cut_members(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT],
                     void *to)
 {
-    int bad = uff_cut_line(lines, record, cell);
+    int bad = uff_cut_line(lines, record, UFF_WHOLE, cell);
     for (int i = 0; i < record->count && bad < 0; ++i)
         store(lines, &record->member[i], &cell[i], to);
     return bad;

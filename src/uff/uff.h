@@ -372,11 +372,6 @@ int uff_read_integers(struct uff_lines *lines, int count, const char *what, int 
 int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
                      int *taken);
 
-/* Some integers of the current line whose other contents are not known yet: value[i] from column start[i] (from 0) of
- * width[i], or, unless every one of them is there, blank-separated field number field[i] (from 0). Nonzero when found. */
-int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,
-                      long long *value);
-
 /* A record of mixed contents in columns. A blank number is 0, as Fortran reads it, unless it is required. */
 enum uff_kind { UFF_INTEGER, UFF_REQUIRED_INTEGER, UFF_LONG, UFF_REAL, UFF_WORDS };
 struct uff_column {
@@ -408,9 +403,12 @@ struct uff_record {
     struct uff_member member[UFF_CELL_LIMIT];
 };
 
-/* Cuts the current line in the columns of a record or, when a number is none there, at blanks if that gives as many fields.
- * Returns the number of the first cell that is wrong, or -1 when none is. */
-int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT]);
+/* Cuts the current line in the columns of a record or, when a number is none there, at blanks if that gives as many fields: all
+ * of the line (UFF_WHOLE), or of a line with other contents those behind the first `before`. Returns the number of the first cell
+ * that is wrong, or -1 when none is. */
+#define UFF_WHOLE (-1)
+int uff_cut_line(const struct uff_lines *lines, const struct uff_record *record, int before,
+                 struct uff_cell cell[UFF_CELL_LIMIT]);
 
 /* The same, with an error in the list when there is one. ROTID_OK or ROTID_ERROR_SYNTAX. */
 int uff_cut_record(struct uff_lines *lines, const struct uff_record *record, struct uff_cell cell[UFF_CELL_LIMIT]);
