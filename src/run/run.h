@@ -792,6 +792,11 @@ struct sensitivity {
                                          that was not asked for */
 };
 
+/* The first `count` elastic modes of a rotor at x with the derivatives of their eigenvalues by the parameters: behind the rigid
+ * ones in p->lambda [p->count] and p->dlambda [p->count * nparameter]. Statuses of model_open and the prediction. */
+int elastic_rates(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                  const struct parameter *parameter, int reduction, const double *x, int count, struct prediction *p);
+
 /* Around the values x0 [n] of the parameters, whose names are `named`, with the reduction of the job's FIT. Statuses of the
  * prediction; at points of a curve where the model has no modes the curve is NaN. */
 int sensitivity_run(struct pool *pool, const struct job *job, int n, const struct parameter *parameter,

@@ -141,6 +141,22 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
     return status;
 }
 
+int elastic_rates(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                  const struct parameter *parameter, int reduction, const double *x, int count, struct prediction *p)
+{
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
+    int failed, status = model ? model_open(pool, models, rotor, nparameter, parameter, 1, model, &failed) : ROTID_ERROR_MEMORY;
+    int nrigid = status ? 0 : model->equations.nrigid, *wanted = POOL_ARRAY(pool, int, nrigid + count);
+    if (!status)
+        status =
+            wanted ? prediction_new(pool, &model->equations, reduction, ROTID_NELSON, nrigid + count, 0, p) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = prediction_compute(p, x);
+    for (int k = 0; k < count && !status; k++)
+        wanted[nrigid + k] = 1;
+    return status ? status : prediction_differentiate(p, x, wanted, 0);
+}
+
 /* E_k = 1 - lambda_k(x)/lambda_k(x0) of mode k; R*_k is lambda~_k for every shape (docs/errata.md) */
 static double residual(const struct prediction *p, int nrigid, const double *reference, int k)
 {
@@ -176,29 +192,17 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
                     const rotid_parameter *named, const double *x0, const struct sensitivity_options *options,
                     struct sensitivity *out)
 {
-    int m = options->modes, failed;
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
+    int m = options->modes, status = allocate(pool, n, named, x0, options, out);
     struct prediction p;
-    int status = model ? allocate(pool, n, named, x0, options, out) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = model_open(pool, job->models, &job->rotor, n, parameter, 1, model, &failed);
-    if (status)
-        return status;
-    int nrigid = model->equations.nrigid;
-    status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON, nrigid + m, 0, &p);
     double *x = POOL_ARRAY(pool, double, n), *lambda = POOL_ARRAY(pool, double, m);
-    int *wanted = POOL_ARRAY(pool, int, nrigid + m);
-    if (!status && (!x || !lambda || !wanted))
-        status = ROTID_ERROR_MEMORY;
     if (!status)
-        status = prediction_compute(&p, x0);
+        status = x && lambda ? elastic_rates(pool, job->models, &job->rotor, n, parameter, job->options.fit.reduction, x0, m, &p)
+                             : ROTID_ERROR_MEMORY;
+    int nrigid = status ? 0 : p.count - m;
     for (int k = 0; k < m && !status; k++) {
-        wanted[nrigid + k] = 1;
         lambda[k] = p.lambda[nrigid + k];
         out->frequency_hz[k] = prediction_hz(&p, nrigid + k);
     }
-    if (!status)
-        status = prediction_differentiate(&p, x0, wanted, 0);
     for (int q = 0; q < n && !status; q++) {
         struct sensitivity_parameter *one = &out->parameters[q];
         for (int k = 0; k < m; k++) {

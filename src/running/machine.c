@@ -193,31 +193,20 @@ int loss_of_test(struct pool *pool, const struct job *job, int group, struct los
     const struct material *material = &job->rotor.group[group].material;
     const struct parameter parameter[2] = {{.kind = PARAMETER_E, .index = group}, {.kind = PARAMETER_G, .index = group}};
     const double x[2] = {material->e, material->g};
-    int n = material->isotropic ? 1 : 2, highest = 0, failed, status = ROTID_OK;
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
+    int n = material->isotropic ? 1 : 2, highest = 0;
     struct prediction p;
     *out = (struct loss_of_test){0};
     for (int k = 0; k < measured->nmode; k++)
         highest = isfinite(measured->damping[k]) && measured->number[k] > highest ? measured->number[k] : highest;
-    if (!highest || !model)
-        return model ? ROTID_OK : ROTID_ERROR_MEMORY;
-    status = model_open(pool, NULL, &job->rotor, n, parameter, 1, model, &failed);
-    int nrigid = status ? 0 : model->equations.nrigid, *wanted = POOL_ARRAY(pool, int, nrigid + highest);
-    if (!status)
-        status = wanted ? prediction_new(pool, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, nrigid + highest, 0, &p)
-                        : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = prediction_compute(&p, x);
-    for (int k = 0; k < highest && !status; k++)
-        wanted[nrigid + k] = 1;
-    if (!status)
-        status = prediction_differentiate(&p, x, wanted, 0);
+    if (!highest)
+        return ROTID_OK;
+    int status = elastic_rates(pool, NULL, &job->rotor, n, parameter, ROTID_REDUCTION_NONE, x, highest, &p);
     double sum[2] = {0, 0}, square[2] = {0, 0};
     for (int k = 0; k < measured->nmode && !status; k++) {
-        int pair = nrigid + measured->number[k] - 1;
+        int pair = p.count - highest + measured->number[k] - 1;
         double share = 0;
         for (int q = 0; q < n && isfinite(measured->damping[k]); q++)
-            share += x[q] * p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / p.lambda[pair];
+            share += x[q] * p.dlambda[pair + (ptrdiff_t)p.count * q] / p.lambda[pair];
         if (share < LEAST_SHARE)
             continue;
         const double loss[2] = {2 * measured->damping[k] / share, 2 * measured->damping[k] / share / sqrt(p.lambda[pair])};

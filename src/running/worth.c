@@ -83,25 +83,13 @@ static double deviation(struct worth *w, const double *information)
 /* d ln f/dp [highest * at_rest] of the elastic modes of a rotor. */
 static int differentiate(struct pool *pool, const struct worth *w, const struct rotor *rotor, int highest, double *rows)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
-    int failed, status = model ? model_open(pool, NULL, rotor, w->at_rest, w->job->unknowns.parameter, 1, model, &failed)
-                               : ROTID_ERROR_MEMORY;
-    if (status)
-        return status;
-    int nrigid = model->equations.nrigid, *wanted = POOL_ARRAY(pool, int, nrigid + highest);
-    status = wanted ? prediction_new(pool, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, nrigid + highest, 0, &p)
-                    : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = prediction_compute(&p, w->x);
-    for (int k = 0; k < highest && !status; k++)
-        wanted[nrigid + k] = 1;
-    if (!status)
-        status = prediction_differentiate(&p, w->x, wanted, 0);
+    int status =
+        elastic_rates(pool, NULL, rotor, w->at_rest, w->job->unknowns.parameter, ROTID_REDUCTION_NONE, w->x, highest, &p);
     for (int q = 0; q < w->at_rest && !status; q++)
         for (int k = 0; k < highest; k++) {
-            int pair = nrigid + k;
-            rows[k + (ptrdiff_t)highest * q] = p.dlambda[pair + (ptrdiff_t)(nrigid + highest) * q] / (2 * p.lambda[pair]) *
+            int pair = p.count - highest + k;
+            rows[k + (ptrdiff_t)highest * q] = p.dlambda[pair + (ptrdiff_t)p.count * q] / (2 * p.lambda[pair]) *
                                                (machine_by_logarithm(w->machine, w->job, q) ? w->x[q] : 1);
         }
     return status;
