@@ -266,20 +266,15 @@ struct skip { /* sets of one type that were not read */
     int line, count; /* line of the first one */
 };
 
-struct shape_list {
-    struct uff_shape *item;
-    int count;
-};
-
 /* One reading. */
 struct uff_run {
     struct uff_reader *reader;
     const char *path;
     struct message_list *messages;
     struct pool *pool;   /* of the caller */
-    struct pool scratch; /* ends with the job; what grows grows here and is copied to its length */
+    struct pool scratch; /* ends with the job */
     struct uff_node_list nodes;
-    struct shape_list shapes, extras;
+    struct uff_file *out;
     struct skip skip[SKIP_LIMIT];
     int skip_count, skip_others;
 };
@@ -356,8 +351,10 @@ static int read_shape(struct uff_run *job)
     status = uff_read_shape_rest(job->reader, job->pool, &shape);
     if (status != ROTID_OK)
         return status;
-    struct shape_list *list = is_extra ? &job->extras : &job->shapes;
-    return list->count == INT_MAX || POOL_ADD(&job->scratch, list->item, list->count, &shape) ? ROTID_ERROR_MEMORY : ROTID_OK;
+    struct uff_file *out = job->out;
+    int failed = is_extra ? POOL_ADD(job->pool, out->extra, out->extra_count, &shape)
+                          : POOL_ADD(job->pool, out->shape, out->shape_count, &shape);
+    return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
 static int read_nodes(struct uff_run *job, const struct uff_set *set)
@@ -392,20 +389,9 @@ static int read_sets(struct uff_run *job)
     }
 }
 
-static int keep_shapes(struct pool *pool, const struct shape_list *list, int *count, struct uff_shape **out)
-{
-    *out = POOL_ARRAY(pool, struct uff_shape, list->count);
-    if (!*out)
-        return ROTID_ERROR_MEMORY;
-    if (list->count)
-        memcpy(*out, list->item, (size_t)list->count * sizeof *list->item);
-    *count = list->count;
-    return ROTID_OK;
-}
-
 int uff_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_file *out)
 {
-    struct uff_run job = {.path = path, .messages = messages, .pool = pool};
+    struct uff_run job = {.path = path, .messages = messages, .pool = pool, .out = out};
     *out = (struct uff_file){0};
     pool_open(&job.scratch, pool->allocator);
 
@@ -417,10 +403,6 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
     }
     if (status == ROTID_OK && job.nodes.count)
         status = uff_join_nodes(pool, &job.scratch, path, &job.nodes, messages, out);
-    if (status == ROTID_OK)
-        status = keep_shapes(pool, &job.shapes, &out->shape_count, &out->shape);
-    if (status == ROTID_OK)
-        status = keep_shapes(pool, &job.extras, &out->extra_count, &out->extra);
     pool_close(&job.scratch);
 
     if (messages->pool->out_of_memory)

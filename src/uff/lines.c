@@ -280,17 +280,18 @@ static int fail_short(struct uff_lines *lines, long long missing)
     return uff_fail(lines, 0, "the file ends %lld bytes before the binary data do", missing);
 }
 
-int uff_take_bytes(struct uff_lines *lines, size_t count, void *bytes)
+int uff_take_bytes(struct uff_lines *lines, long long count, void *bytes)
 {
-    for (char *to = bytes; count;) {
+    for (char *to = bytes; count > 0;) {
         int status = fill(lines);
         if (status != ROTID_OK)
-            return status == UFF_END ? fail_short(lines, (long long)count) : status;
-        size_t there = lines->filled - lines->at, piece = there < count ? there : count;
-        memcpy(to, lines->buffer + lines->at, piece);
+            return status == UFF_END ? fail_short(lines, count) : status;
+        size_t there = lines->filled - lines->at, piece = (long long)there < count ? there : (size_t)count;
+        if (to)
+            memcpy(to, lines->buffer + lines->at, piece);
         lines->at += piece;
-        to += piece;
-        count -= piece;
+        to += to ? piece : 0;
+        count -= (long long)piece;
     }
     lines->length = 0; /* the line before is no neighbour of what comes now */
     return ROTID_OK;
@@ -303,16 +304,7 @@ int uff_skip_bytes(struct uff_lines *lines, long long count)
         return fail_short(lines, count - (lines->size - here));
     if (lines->size >= 0)
         return uff_seek(lines, here + count, lines->line + 1);
-    while (count > 0) {
-        int status = fill(lines);
-        if (status != ROTID_OK)
-            return status == UFF_END ? fail_short(lines, count) : status;
-        size_t there = lines->filled - lines->at, piece = (long long)there < count ? there : (size_t)count;
-        lines->at += piece;
-        count -= (long long)piece;
-    }
-    lines->length = 0;
-    return ROTID_OK;
+    return uff_take_bytes(lines, count, NULL);
 }
 
 int uff_seek(struct uff_lines *lines, long long offset, int line)
@@ -342,7 +334,7 @@ int uff_find_end(struct uff_lines *lines, long long count, int *found)
     int line = lines->line;
     int status = uff_seek(lines, here + count, line + 1);
     if (status == ROTID_OK)
-        status = uff_take_bytes(lines, length, text);
+        status = uff_take_bytes(lines, (long long)length, text);
     if (status == ROTID_OK)
         status = uff_seek(lines, here, line + 1);
     while (i < length && memchr("\r\n \t", text[i], 4))

@@ -287,7 +287,7 @@ static int take_binary(struct uff_reader *reader, int limit, double *number)
     struct uff_values *values = &reader->values;
     int parts = values->per_value - !values->function.is_even, order = reader->binary.order;
     int size = values->x_size + values->y_size;
-    int status = uff_take_bytes(&reader->lines, (size_t)limit * (size_t)size, bytes);
+    int status = uff_take_bytes(&reader->lines, (long long)limit * size, bytes);
     if (status != ROTID_OK)
         return status;
     int first = values->per_value - parts, y_size = values->y_size / parts;

@@ -10,22 +10,23 @@ static void fail(struct uff_put *put)
         put->status = ROTID_ERROR_ARGUMENT;
 }
 
-static void add(struct uff_put *put, int width, const char *cell, int length)
+/* A cell of that length to the left or to the right of `width` columns; ROTID_ERROR_ARGUMENT where it is wider. */
+static void add(struct uff_put *put, int width, int to_left, const char *cell, int length)
 {
+    char *at = put->line + put->length;
     if (put->status != ROTID_OK || length < 0 || length > width || put->length + (size_t)width > UFF_PUT_LIMIT) {
         fail(put);
         return;
     }
-    memset(put->line + put->length, ' ', (size_t)(width - length));
-    memcpy(put->line + put->length + (width - length), cell, (size_t)length);
+    memset(at, ' ', (size_t)width);
+    memcpy(at + (to_left ? 0 : width - length), cell, (size_t)length);
     put->length += (size_t)width;
 }
 
-/* To the right of `width` columns; ROTID_ERROR_ARGUMENT where it is wider. */
 static void uff_put_integer(struct uff_put *put, int width, long long value)
 {
     char cell[32];
-    add(put, width, cell, snprintf(cell, sizeof cell, "%lld", value));
+    add(put, width, 0, cell, snprintf(cell, sizeof cell, "%lld", value));
 }
 
 /* 1PEw.d: `decimals` behind the point, one digit before it. The exponent letter is E also where the format says D: every reader
@@ -34,7 +35,7 @@ static void uff_put_real(struct uff_put *put, int width, int decimals, double va
 {
     char cell[64];
     if (isfinite(value))
-        add(put, width, cell, snprintf(cell, sizeof cell, "%.*E", decimals, value));
+        add(put, width, 0, cell, snprintf(cell, sizeof cell, "%.*E", decimals, value));
     else
         fail(put);
 }
@@ -44,19 +45,10 @@ static void uff_put_real(struct uff_put *put, int width, int decimals, double va
 static void uff_put_text(struct uff_put *put, int width, const char *text, const char *fallback)
 {
     const char *shown = *text ? text : fallback;
-    size_t length = strlen(shown);
-    if (put->status != ROTID_OK || length > (size_t)width || put->length + (size_t)width > UFF_PUT_LIMIT) {
-        fail(put);
-        return;
-    }
-    for (size_t i = 0; i < length; ++i)
-        if ((unsigned char)shown[i] < ' ') {
+    for (const char *c = shown; *c; ++c)
+        if ((unsigned char)*c < ' ')
             fail(put);
-            return;
-        }
-    memcpy(put->line + put->length, shown, length);
-    memset(put->line + put->length + length, ' ', (size_t)width - length);
-    put->length += (size_t)width;
+    add(put, width, 1, shown, (int)strlen(shown));
 }
 
 static void write_line(struct uff_put *put, const char *text, size_t length)

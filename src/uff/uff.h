@@ -341,7 +341,7 @@ int uff_expect_line(struct uff_lines *lines, const char *expected);
 int uff_is_delimiter(const struct uff_lines *lines, int strict);
 
 /* Reads or skips `count` bytes that are not lines; lines are not counted there, since what can be skipped is not looked at. */
-int uff_take_bytes(struct uff_lines *lines, size_t count, void *bytes);
+int uff_take_bytes(struct uff_lines *lines, long long count, void *bytes); /* bytes NULL: reads over them */
 int uff_skip_bytes(struct uff_lines *lines, long long count);
 
 /* Goes to a byte of the file, after which uff_take_line returns line number `line`. ROTID_OK or ROTID_ERROR_IO (in the list). */
