@@ -42,11 +42,6 @@ static double *correlations(struct pool *pool, const struct job *job, const stru
     return correlation;
 }
 
-static void note(struct message_list *notes, const char *format, int mode, double first, int partner, double second)
-{
-    message_add(notes, SEVERITY_WARNING, NULL, 0, 0, format, mode, first, partner, second);
-}
-
 static void say_what_is_odd(const struct job *job, const struct spectrum *spectrum, const struct comparison *c,
                             struct message_list *notes)
 {
@@ -56,17 +51,16 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
         highest = c->number[k] > highest ? c->number[k] : highest;
         shapes += isfinite(c->mac[k]);
         alike = isfinite(c->mac[k]) ? fmax(alike, c->mac[k]) : alike;
-        if (c->number[k] != job->measurement.number[k] && !isfinite(c->nco[k]))
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "measured mode %d at %.6g Hz is mode %d of the model by its shape",
-                        job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k]);
-        else if (c->number[k] != job->measurement.number[k])
-            note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->measurement.number[k],
-                 job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
+        const char *odd = NULL;
+        if (c->number[k] != job->measurement.number[k])
+            odd = isfinite(c->nco[k]) ? "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)"
+                                      : "measured mode %d at %.6g Hz is mode %d of the model by its shape";
         else if (isfinite(c->nco[k]) && c->nco[k] < PAIRING_LEAST && components(job, k) >= comparison_candidates(job))
-            note(notes,
-                 "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, "
-                 "correlates by %.2f only",
-                 job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
+            odd = "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, "
+                  "correlates by %.2f only";
+        if (odd)
+            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, odd, job->measurement.number[k], job->measurement.frequency_hz[k],
+                        c->number[k], c->nco[k]);
     }
     if (shapes > 1 && alike < ALIKE)
         message_add(

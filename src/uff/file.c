@@ -306,11 +306,8 @@ static void say_skipped(struct uff_run *job)
 {
     for (int i = 0; i < job->skip_count; ++i) {
         const struct skip *skip = &job->skip[i];
-        if (skip->count == 1)
-            message_add(job->messages, SEVERITY_NOTE, job->path, skip->line, 1, "%s skipped", skip->what);
-        else
-            message_add(job->messages, SEVERITY_NOTE, job->path, skip->line, 1, "%s skipped, %d times from here on", skip->what,
-                        skip->count);
+        message_add(job->messages, SEVERITY_NOTE, job->path, skip->line, 1,
+                    skip->count == 1 ? "%s skipped" : "%s skipped, %d times from here on", skip->what, skip->count);
     }
     if (job->skip_others)
         message_add(job->messages, SEVERITY_NOTE, job->path, 1, 1, "%d sets of further types skipped", job->skip_others);
