@@ -27,6 +27,7 @@ enum {
     REFITTED,
     CLEARLY_NAMED,
     ANY_WRONG,
+    PAIR_SHAPES,
     PAIR_ANY_WRONG,
     OUTSIDE_LEFT,
     OUTSIDE_MIXTURE,
@@ -61,6 +62,7 @@ static const struct {
     [REFITTED] = {"one effect worth 30: the true cause refitted", 0, 0, 1},
     [CLEARLY_NAMED] = {"one effect, margin 15: named, or one of two", 0, 0, 1},
     [ANY_WRONG] = {"one effect of any size: wrong name", 1, 0, 1},
+    [PAIR_SHAPES] = {"two effects worth 150 each, shapes: both named", 0, 0, 1},
     [PAIR_ANY_WRONG] = {"two effects of any size: wrong name", 1, 0, 1},
     [OUTSIDE_LEFT] = {"outside, 60 left by the best causes: no name", 0, 0, 1},
     [OUTSIDE_MIXTURE] = {"outside: 95 % intervals of E and G", 0, 0, 1},
@@ -127,7 +129,10 @@ static void add_case(const struct hidden_score *s, struct power_share share[LINE
     case HIDDEN_PAIR:
         add(&share[PAIR_ANY_WRONG], wrong);
         if (s->lesser >= LARGE) {
-            add(&share[PAIR_BOTH], s->outcome == HIDDEN_RIGHT && s->names > 1);
+            int both = s->outcome == HIDDEN_RIGHT && s->names > 1;
+            add(&share[PAIR_BOTH], both);
+            if (s->shapes)
+                add(&share[PAIR_SHAPES], both);
             add(&share[PAIR_WRONG], wrong);
         }
         break;
