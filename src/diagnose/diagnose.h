@@ -89,8 +89,6 @@ struct explanation { /* a set of causes, perhaps with something else beside it *
     const struct scan *scan;    /* at that fit; NULL: not scanned */
     struct evidence_data *data; /* with its faults of the measurement put right */
     double outside;             /* of these, see struct fault_proposal */
-    double of_columns;          /* not 0: its ln Z is that of the scan's columns over all places and widths, so much more than
-                                   that of its fit */
     struct evidence evidence;
     double log_prior, log_posterior, probability;
     double at_rest, runup_chi2; /* the probability without the measured critical speeds; chi2 of these, NaN: none */

@@ -90,33 +90,6 @@ static double gain_of(const struct states *states, const struct scan *scan, int 
     return sum - log(c->count);
 }
 
-static void add_to_evidence(struct explanation *e, double more)
-{
-    e->evidence.log_z += more;
-    e->evidence.log_stated += more;
-    e->evidence.log_exact += more;
-    e->log_posterior += more;
-}
-
-/* ln Z of a single cause by its columns alone where the fit goes no further than they do: then the sum over all places and widths
- * counts, not the normal about the best one. */
-static void prefer_columns(const struct states *states, const struct scan *scan, int index, const struct explanation *parent,
-                           struct explanation *e)
-{
-    const struct scan_candidate *c = &scan->candidate[index];
-    int best;
-    if (c->best < 0 || !e->refit)
-        return;
-    double drop = scan->item[c->best].drop, fitted = scan->chi2 - e->refit->chi2;
-    if (fabs(drop - fitted) > 1 || fitted > 30)
-        return;
-    double columns = parent->evidence.log_exact + gain_of(states, scan, index, &best), more = columns - e->evidence.log_exact;
-    if (e->evidence.log_stated > e->evidence.log_exact + 1 || fabs(e->evidence.log_z - e->evidence.log_exact) > 3)
-        return; /* it leaves something, or the noise is another one: columns know neither */
-    add_to_evidence(e, more);
-    e->of_columns = more;
-}
-
 /* A cause whose columns lie within those of the unknowns: no fit tells it from what it was added to. */
 static int is_inseparable(const struct proposal *p)
 {
@@ -411,9 +384,9 @@ static struct explanation *find_there(const struct posterior *p, const struct ex
     return NULL;
 }
 
-/* Enters a set by its fit, from a proposal or NULL, unless it is there with a better one: not in place of one with less chi2, as
+/* Enters a set by its fit, unless it is there with a better one: not in place of one with less chi2, as
  * a saddle between two places has a wide normal. */
-static int enter(struct engine *engine, struct posterior *p, struct explanation *e, const struct proposal *from)
+static int enter(struct engine *engine, struct posterior *p, struct explanation *e)
 {
     e->evidence = (struct evidence){0};
     for (int m = 0; m < e->nmember; m++)
@@ -421,9 +394,6 @@ static int enter(struct engine *engine, struct posterior *p, struct explanation 
     int status = posterior_score(engine, p, NULL, e);
     if (status)
         return status;
-    if (from && from->candidate >= 0)
-        prefer_columns(explanation_states(engine, &p->item[from->parent]), from->scan, from->candidate, &p->item[from->parent],
-                       e);
     struct explanation *known = find_there(p, e), *first = posterior_find(p, e);
     if (first)
         first->again = e->again = 1;
@@ -456,7 +426,7 @@ static int fit_proposals(struct engine *engine, struct round_result *result, str
         e.refit = &refit[i];
         e.data = task.data[i / 2];
         if (refit[i].fit)
-            status = enter(engine, p, &e, &proposal[i / 2]);
+            status = enter(engine, p, &e);
     }
     return status;
 }
@@ -579,10 +549,10 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
     return status;
 }
 
-/* The first cause of a set whose width is free; NULL: none, or its ln Z is over all widths already. */
+/* The first cause of a set whose width is free; NULL: none. */
 static const struct candidate *free_width(const struct explanation *e)
 {
-    for (int m = 0; m < e->nmember && e->refit && e->of_columns == 0; m++)
+    for (int m = 0; m < e->nmember && e->refit; m++)
         if (e->member[m].cause->width >= 0 && !e->member[m].fixed[e->member[m].cause->width])
             return &e->member[m];
     return NULL;
@@ -715,12 +685,11 @@ static int enter_at(struct engine *engine, struct round_result *result, struct p
     c->effect.value[c->cause->place] = z;
     c->effect.value[c->cause->size] *= factor;
     e.scan = NULL;
-    e.of_columns = 0;
     e.refit = refit;
     int status = refit_set(engine->pool, engine, &e, from->refit->fit->x, refit);
     if (status || !refit->fit)
         return status;
-    status = enter(engine, p, &e, NULL);
+    status = enter(engine, p, &e);
     for (int i = 0; i < p->count && !status; i++)
         if (p->item[i].refit == refit) {
             result->nrefit++;
@@ -729,19 +698,6 @@ static int enter_at(struct engine *engine, struct round_result *result, struct p
     rotid_fit_free(refit->fit);
     *refit = (struct refit){0};
     return status;
-}
-
-/* Takes out of a set whose ln Z is over all places those that stand in the list of their own; what its fit has is left. */
-static void leave_to_others(struct posterior *p, struct explanation *e)
-{
-    double others = -INFINITY;
-    for (int k = 0; k < p->count; k++)
-        if (&p->item[k] != e && p->item[k].refit && posterior_same_set(&p->item[k], e))
-            others = log_sum(others, p->item[k].log_posterior);
-    double rest = others < e->log_posterior ? log1p(-exp(others - e->log_posterior)) : -INFINITY,
-           more = fmax(rest, -e->of_columns); /* which is above 0 */
-    add_to_evidence(e, more);
-    e->of_columns += more;
 }
 
 /* By frequencies alone a cause does the same at several places: likely ones are fitted from all over the rotor. */
@@ -790,9 +746,6 @@ int search_run(struct engine *engine, struct round_result *result, struct poster
     }
     if (!status)
         status = enter_elsewhere(engine, result, p);
-    for (int i = 0; i < p->count && !status; i++)
-        if (p->item[i].of_columns > 0)
-            leave_to_others(p, &p->item[i]);
     posterior_sort(p);
     if (!status)
         status = integrate_widths(engine, p);
