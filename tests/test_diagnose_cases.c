@@ -273,7 +273,7 @@ UNIT_TEST(six_frequencies_of_the_paper_carry_no_name)
 
 /* Without its cause the model takes G to its bound, eight times what is true; from there every refit of the true cause ends in
  * another minimum, and beam theory, which has no size, took the name. */
-UNIT_TEST(a_cause_is_refitted_from_the_deck_where_the_base_has_strayed)
+UNIT_TEST(a_cause_is_found_where_the_base_has_strayed)
 {
     struct run r;
     diagnose(&r, ROTID_SOURCE_DIR "/tests/data/decks/strayed_base.inp");

@@ -461,9 +461,8 @@ struct refit {
 
 /* The best of the fits from the most promising places of a candidate, and the best of those that end at another place, more than
  * a width or 3 % of the length away. The states' own parameters start at x [nparameter], which is where the scan was made; and at
- * `deck` [nparameter] as well where none of those fits succeeded, one of these parameters ends at a bound, or one at x is more
- * than three times as large or small as in the deck. Statuses of memory and cancellation only: where every fit fails, or ends
- * above the model without the cause, which it contains, fit is NULL. */
+ * `deck` [nparameter] where none of those fits succeeded, or all ended above the model without the cause, which they contain.
+ * Statuses of memory and cancellation only: where that leads no further fit is NULL. */
 int refit_cause(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                 const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
                 struct refit refit[2]);

@@ -9,7 +9,6 @@
 #define STARTS     3    /* places a candidate is fitted from */
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
-#define STRAYED    3    /* times as large or small as in the deck */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
 
 static const struct refit no_refit = {.chi2 = INFINITY};
@@ -329,24 +328,6 @@ static int keep_best(struct pool *pool, const struct states *extended, const str
     return ROTID_OK;
 }
 
-static int fit_at_bound(const rotid_fit_result *fit, int nown)
-{
-    int any = 0;
-    for (int p = 0; p < nown; p++)
-        any |= fit->at_bound[p];
-    return any;
-}
-
-/* Whether the base model has drawn an own parameter far away from the deck to make up for what it lacks: fits from there may end
- * in a minimum beside the one of the cause. */
-static int strayed(int n, const double *x, const double *deck)
-{
-    int far = 0;
-    for (int p = 0; p < n; p++)
-        far |= fabs(x[p]) > STRAYED * fabs(deck[p]) || STRAYED * fabs(x[p]) < fabs(deck[p]);
-    return far;
-}
-
 int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)
 {
     struct states started;
@@ -400,8 +381,7 @@ int refit_cause(struct pool *pool, const struct states *states, const int *numbe
     int nested = cause_has_free_size(c->cause, c->fixed);
     refit[0] = refit[1] = no_refit;
     int status = fit_from(pool, states, number, holdout, x, scan, c, environment, refit);
-    if (!status && (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE) ||
-                    fit_at_bound(refit->fit, states->nparameter) || strayed(states->nparameter, x, deck)))
+    if (!status && (!refit->fit || (nested && refit->chi2 > scan->chi2 + REFIT_WORSE)))
         status = fit_from(pool, states, number, holdout, deck, scan, c, environment, refit);
     for (int i = 0; i < 2 && nested && !status; i++)
         if (refit[i].fit && refit[i].chi2 > scan->chi2 + REFIT_WORSE) {
