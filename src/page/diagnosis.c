@@ -42,7 +42,9 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
         return pool_text(pool, "Named: %s%s%s", names(pool, d, 0),
                          *shifts ? "; effects below the detection limits may shift " : "", shifts);
     case ROTID_AMBIGUOUS:
-        return pool_text(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
+        return d->verdict.nexplanations == 1
+                   ? "Ambiguous: one explanation, which these data do not name"
+                   : pool_text(pool, "Ambiguous: one of %s explanations", human_count(pool, d->verdict.nexplanations));
     case ROTID_UNEXPLAINED:
         return pool_text(pool, "Unexplained: something outside of the catalogue with %s %%",
                          human_digits(pool, 100 * d->verdict.something_else, 2));

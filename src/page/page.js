@@ -840,8 +840,9 @@
       const out = several('holdout_rms') ? ['holdout_rms', 'error of held-out modes [%]'] : several('sensor_out_rms') ? ['sensor_out_rms', 'error at sensors left out, over its noise'] : null;
       const tint = (c) => (c.fate === 'named' ? 'green' : c.fate.startsWith('possible') ? 'ochre' : 'steel');
       const title = stay.length && stay[0].fate === 'named' ? `${names[0]} lowers the misfit by ${num(stay[0].chi2_drop, 3)} of ${num(round.chi2, 3)}`
-        : stay.length ? `${stay.length} ${stay.length === 1 ? 'cause' : 'causes'} cannot be told apart: ${names.slice(0, 3).join('; ')}${names.length > 3 ? '; \u2026' : ''}`
-          : `None of ${list.length} single causes that were fitted is likely`;
+        : stay.length === 1 ? `One cause is likely, and not named: ${names[0]}`
+          : stay.length ? `${stay.length} causes cannot be told apart: ${names.slice(0, 3).join('; ')}${names.length > 3 ? '; \u2026' : ''}`
+            : `None of ${list.length} single causes that were fitted is likely`;
       const columns = [{ label: 'drop of the misfit \u03c7\u00b2', domain: padded(list.map((c) => Math.max(c.chi2_drop, 0)).concat(0), 0.04, true), head: ['drop of the misfit', 'what became of it'], value: (c) => [c.chi2_drop, c.fate],
         draw: (c, x, y, content) => bar(content, x(0), x(Math.max(c.chi2_drop, 0)), y, tint(c)) }];
       if (out) columns.push({ label: out[1], domain: padded(list.map((c) => c[out[0]]), 0.06, true), value: (c) => c[out[0]], draw: (c, x, y, content) => known(c[out[0]]) && dot(content, x(c[out[0]]), y, tint(c) === 'steel' ? 'muted' : tint(c)) });
