@@ -647,7 +647,7 @@ static int evidence_of_rows(const struct evidence_data *d, struct pool *pool, in
         if (!mean)
             return ROTID_ERROR_MEMORY;
         status = with_field(d, pool, n, u, rows, known, 0, nown, &with, &weighed, &field);
-        for (int p = 0; p < nown && !status; p++)
+        for (int p = 0; p < nown && !status && isfinite(field); p++)
             mix_moments(exp(field - log_sum(out->log_z, field)), with.mean[p], with.std[p], &out->mean[p], &out->std[p]);
         out->log_z = log_sum(out->log_z, field) - LN_2;
         out->log_stated = log_sum(out->log_stated, field) - LN_2;
