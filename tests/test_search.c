@@ -212,6 +212,14 @@ static const rotid_explanation *alone(const rotid_diagnosis *d, const char *id, 
     return NULL;
 }
 
+/* A fault that its fit takes to where no data can be put right stays at what was fitted; the diagnosis was an error. */
+UNIT_TEST(a_line_of_sensors_stays_in_the_rotor)
+{
+    rotid_diagnosis *d = diagnosed("beyond");
+    assert_int_equal(d->verdict.kind, ROTID_UNEXPLAINED);
+    rotid_diagnosis_free(d);
+}
+
 /* The moduli of a model that is fitted so badly are no start. */
 UNIT_TEST(what_is_far_is_looked_for_from_the_deck)
 {

@@ -495,6 +495,7 @@ int fault_refit(struct pool *pool, const struct states *states, int nown, const 
                 struct evidence_data **data)
 {
     double *own = POOL_ARRAY(pool, double, nown + 1), *std = POOL_ARRAY(pool, double, nown + 1);
+    struct candidate fitted = *fault;
     *refit = (struct refit){.chi2 = INFINITY};
     if (!own || !std)
         return ROTID_ERROR_MEMORY;
@@ -516,6 +517,7 @@ int fault_refit(struct pool *pool, const struct states *states, int nown, const 
             status = evidence_of_fit(*data, &right, nown, fit, 0, NULL, count, column, NULL, &e);
         if (status) {
             rotid_fit_free(fit);
+            *fault = fitted; /* no sensor may leave the rotor, as a step may ask */
             return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
         }
         status = refit_keep(pool, &right, fit, refit);
@@ -534,6 +536,7 @@ int fault_refit(struct pool *pool, const struct states *states, int nown, const 
         }
         if (!(most > STEP_DONE) || pass + 1 == STEPS)
             return ROTID_OK;
+        fitted = *fault;
         *fault = next;
     }
     return ROTID_OK;
