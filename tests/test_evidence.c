@@ -858,6 +858,27 @@ POOL_TEST(two_places)
     }
 }
 
+/* In the middle of the bar the first derivative by the place vanishes, but for noise: the normal about the fit is too wide. */
+POOL_TEST(a_place_of_symmetry)
+{
+    const double value[EFFECT_MOST_PARAMETERS] = {0.012, 0.305};
+    struct refit refit[2];
+    struct likelihood l;
+    open_bar(1);
+    hide("added_mass", value, 0);
+    double z = hidden_evidence("added_mass", refit);
+    heaviest = refit->states.bounds[1].upper;
+    bar_length = refit->states.bounds[2].upper;
+    const struct axis axis[3] = {
+        modulus_axis(refit->fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {120, 0, 0, bar_length, of_place}};
+    open_likelihood(&refit->states.state->job, &l);
+    double grid = over_grid(&l, 3, axis);
+    print_message("a mass in the middle: ln Z %.3f, by a grid %.3f\n", z, grid);
+    assert_close(z, grid, 0, 0.85); /* the limit that docs/method.md states */
+    rotid_fit_free(refit[0].fit);
+    rotid_fit_free(refit[1].fit);
+}
+
 static double of_depth(double x)
 {
     return normal(x, 0.5) + log(2) - log(erf(0.95 / 0.5 / sqrt(2)));
