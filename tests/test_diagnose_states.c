@@ -361,6 +361,31 @@ POOL_TEST(a_shared_unknown_is_held_in_every_group)
     assert_close(out.rotor.group[1].material.e, 2.1e11, 0, 0);
 }
 
+/* In two states that are alike a cause of both moves the rows of both alike. */
+POOL_TEST(a_cause_of_all_states_has_columns_in_each)
+{
+    static const char text[] = ROTOR "*NOISE, FREQUENCY=0.01\n*FIT, FUNCTIONAL=LIKELIHOOD, REDUCTION=NONE\n"
+                                     "*STATE, NAME=before\n" MEASURED "*STATE, NAME=after\n" MEASURED;
+    const struct deck_memory memory = {"deck", sizeof text - 1, text, NULL};
+    const int number[] = {1, 2, 3, 1, 2, 3}, holdout[6] = {0};
+    const double x[] = {1.9e11, 7e10};
+    struct message_list messages;
+    struct states states;
+    struct scan scan;
+    int common = 0;
+    message_open(&messages, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &messages, &states), ROTID_OK);
+    assert_int_equal(states.nparameter, 2);
+    assert_status(scan_run(&test_pool, &states, number, holdout, x, SCAN_ALL, &scan), ROTID_OK);
+    assert_int_equal(scan.nrow, 6);
+    for (int i = 0; i < scan.nitem; i++) {
+        const double *column = scan.column + (ptrdiff_t)i * scan.nrow;
+        for (int row = 0; row < 3 && scan.candidate[scan.item[i].candidate].state < 0; row++, common++)
+            assert_close(column[row + 3], column[row], 1e-6, 1e-12);
+    }
+    assert_true(common > 100);
+}
+
 /* What is missed counts as noise by how much the mode has moved, d^2 = (2 ln f_a/f_b)^2 without shapes. */
 POOL_TEST(what_a_mode_has_moved_widens_its_noise)
 {

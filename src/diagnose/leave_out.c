@@ -79,8 +79,7 @@ static int step_without(const rotid_parameter *bounds, const rotid_fit_result *f
     int n = fit->n, m = fit->nresidual;
     double *jacobian = work, *rest = jacobian + (ptrdiff_t)m * n, *one = rest + m, *held = one + n, *step = held + n, damping = 0,
            length;
-    for (int i = 0; i < m; i++)
-        rest[i] = marked[i] ? 0 : fit->r[i];
+    memcpy(rest, fit->r, (size_t)m * sizeof *rest); /* rows whose derivatives are zero have no part in a step */
     for (int p = 0; p < n; p++) {
         one[p] = 1;
         held[p] = fit->at_bound[p];
