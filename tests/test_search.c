@@ -212,6 +212,15 @@ static const rotid_explanation *alone(const rotid_diagnosis *d, const char *id, 
     return NULL;
 }
 
+/* Without one mode two causes explain the rest, and with it the true one alone. */
+UNIT_TEST(a_mode_that_was_left_out_is_back_beside_its_cause)
+{
+    rotid_diagnosis *d = diagnosed("left_out");
+    names(d, "added_inertia", "disk1");
+    assert_int_equal(d->ndata_findings, 0);
+    rotid_diagnosis_free(d);
+}
+
 /* A fault that its fit takes to where no data can be put right stays at what was fitted; the diagnosis was an error. */
 UNIT_TEST(a_line_of_sensors_stays_in_the_rotor)
 {

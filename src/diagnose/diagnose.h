@@ -655,8 +655,8 @@ struct far_start {
     struct effect effect; /* with its target, at the values to start from */
 };
 
-/* Behind a search where even the best single cause leaves more than FAR_RATE of chi2 a degree of freedom; once in a diagnosis, of
- * one state, as a beam. Every candidate is looked at with sizes over all of its
+/* Behind a search where even the best single cause leaves more than FAR_RATE of chi2 a degree of freedom, or a mode was left out
+ * that nobody's shape fits; once in a diagnosis, of one state, as a beam. Every candidate is looked at with sizes over all of its
  * bounds, at places along the rotor, all modes paired anew with each; what comes nearest is fitted with its own pairing. Where
  * one of these fits leaves less than half of what all others do, a degree of freedom, or with the modes that were left out less
  * than twice that, it is the start of its candidate from then on, its pairing is settled for all, and the round has to be

@@ -241,7 +241,7 @@ int far_starts_search(struct engine *engine, const struct round_result *result, 
                             POOL_ARRAY(engine->pool, struct pool, result->scan.ncandidate)};
     double rate = least_rate(engine, posterior);
     *changed = 0;
-    if (engine->searched_far || engine->states.nstate > 1 || engine->job->options.solid || !(rate > FAR_RATE))
+    if (engine->searched_far || engine->states.nstate > 1 || engine->job->options.solid || !(rate > FAR_RATE || engine->dropped))
         return ROTID_OK;
     engine->searched_far = 1;
     if (!trials.best || !trials.pool)

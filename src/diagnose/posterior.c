@@ -141,7 +141,11 @@ static double cause_prior(const struct posterior *p, const struct candidate *c)
 {
     if (candidate_is_fault(c))
         return -log((double)p->nkind * faults_alike(p, c));
-    return log(share_of_kind(p->base, c->cause, c->target, c->state) / p->nkind * (c->result.suspect ? SUSPECTED : 1));
+    int other_form = c->cause->reshape && c->effect.variant == 1 && !c->result.suspect;
+    return log(share_of_kind(p->base, c->cause, c->target, c->state) / p->nkind *
+               (c->result.suspect ? SUSPECTED
+                : other_form      ? 0.5
+                                  : 1));
 }
 
 double posterior_gain_shown(const struct scan *scan, int candidate)

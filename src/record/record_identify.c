@@ -102,13 +102,13 @@ TABLE(weighed_record, rotid_weighed) = {
     STRUCTS(S, modes, NOT_EMPTY, compared_mode_record),                                                                          \
         NUMBERS_BY(S, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),                                           \
         NUMBERS_BY(S, mesh_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"), NUMBER(S, mass_kg, ABOVE_0),                   \
-        NUMBER(S, center_of_mass_m, 0), STRUCT(S, shapes, MAY_BE_NULL | BEHIND_POINTER | SINCE, shapes_record),                  \
-        MATRIX(S, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE, nmatrix_rows,                  \
+        NUMBER(S, center_of_mass_m, 0), STRUCT(S, shapes, MAY_BE_NULL | BEHIND_POINTER | (SINCE), shapes_record),                \
+        MATRIX(S, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | (SINCE), nmatrix_rows,                \
                nmatrix_columns),                                                                                                 \
-        MATRIX(S, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE, nmatrix_rows,                  \
+        MATRIX(S, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | (SINCE), nmatrix_rows,                \
                nmatrix_columns),                                                                                                 \
-        INTEGERS_BY(S, matrix_rows, FROM_1 | SINCE, nmatrix_rows, "rows of mac_matrix"),                                         \
-        INTEGERS_BY(S, matrix_columns, FROM_1 | SINCE, nmatrix_columns, "columns of mac_matrix")
+        INTEGERS_BY(S, matrix_rows, FROM_1 | (SINCE), nmatrix_rows, "rows of mac_matrix"),                                       \
+        INTEGERS_BY(S, matrix_columns, FROM_1 | (SINCE), nmatrix_columns, "columns of mac_matrix")
 
 PART_TABLE(state_record, rotid_identified_state) = {
     TEXT(rotid_identified_state, name, 0),

@@ -231,7 +231,7 @@ int worth_run(struct pool *pool, const struct machine *machine, const struct job
         status = bands_gradient(pool, &search, 1, critical, w.gradient, &w.rest);
     if (!status)
         status = invert(&w, fit);
-    if (status)
+    if (status || !critical)
         return status;
     w.speed = critical->speed;
     double now = deviation(&w, w.known);

@@ -302,7 +302,7 @@ static int add_runs(struct pool *pool, struct message_list *messages, const stru
     int status = ROTID_OK;
     for (long run = 0; run < file->header.runs && !status; run++) {
         struct pool own, *of = runs ? pool : &own; /* the table keeps its texts */
-        struct study_run said;
+        struct study_run said = {0};
         out->runs += run % file->shards == file->shard - 1;
         if (!file->place[run].length)
             continue;
