@@ -217,8 +217,7 @@ static void add_run(struct sums *s, const struct study_run *run)
 {
     struct cell_sums *cell = find_cell(s, run);
     const rotid_identification *fit = run->fit;
-    int usable = fit && (run->status == STUDY_CONVERGED || run->status == STUDY_AT_BOUND), failed = run->status == STUDY_FAILED,
-        count;
+    int usable = run->status == STUDY_CONVERGED || run->status == STUDY_AT_BOUND, failed = run->status == STUDY_FAILED, count;
     double seconds = isfinite(run->seconds) ? run->seconds : 0;
     if (!cell)
         return;
@@ -236,6 +235,8 @@ static void add_run(struct sums *s, const struct study_run *run)
         add_error(s, run);
         return;
     }
+    if (!fit)
+        return;
     tally(&cell->evaluations, fit->evaluations);
     add_objective(s, cell, run->replicate, usable ? fit->objective : (double)NAN);
     if (!usable)
