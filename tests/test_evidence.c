@@ -827,6 +827,18 @@ static double hidden_evidence(const char *id, struct refit refit[2])
     return sum;
 }
 
+/* ln Z of a mass of up to 0.04 kg at any of so many places. */
+static double mass_on_grid(const struct refit *refit, int places)
+{
+    struct likelihood l;
+    heaviest = refit->states.bounds[1].upper;
+    bar_length = refit->states.bounds[2].upper;
+    const struct axis axis[3] = {
+        modulus_axis(refit->fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {places, 0, 0, bar_length, of_place}};
+    open_likelihood(&refit->states.state->job, &l);
+    return over_grid(&l, 3, axis);
+}
+
 /* By its frequencies a bar without supports does not know its left end from its right one, though it was weighed; shapes of eight
  * times the noise hardly tell them apart. */
 POOL_TEST(two_places)
@@ -835,7 +847,6 @@ POOL_TEST(two_places)
     struct random_stream stream = {1};
     for (int i = 0; i < 3; i++) {
         struct refit refit[2];
-        struct likelihood l;
         open_bar(1);
         hide("added_mass", value, i == 1);
         if (i == 2)
@@ -846,12 +857,7 @@ POOL_TEST(two_places)
                 job.measurement.shape[at] += job.measurement.shape_std[at] * random_normal(&stream);
         }
         double z = hidden_evidence("added_mass", refit);
-        heaviest = refit->states.bounds[1].upper;
-        bar_length = refit->states.bounds[2].upper;
-        const struct axis axis[3] = {
-            modulus_axis(refit->fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {80, 0, 0, bar_length, of_place}};
-        open_likelihood(&refit->states.state->job, &l);
-        check("a mass at one of two places", z, over_grid(&l, 3, axis));
+        check("a mass at one of two places", z, mass_on_grid(refit, 80));
         assert_true(refit[1].fit && refit[1].chi2 < refit->chi2 + 4);
         rotid_fit_free(refit[0].fit);
         rotid_fit_free(refit[1].fit);
@@ -863,16 +869,9 @@ POOL_TEST(a_place_of_symmetry)
 {
     const double value[EFFECT_MOST_PARAMETERS] = {0.012, 0.305};
     struct refit refit[2];
-    struct likelihood l;
     open_bar(1);
     hide("added_mass", value, 0);
-    double z = hidden_evidence("added_mass", refit);
-    heaviest = refit->states.bounds[1].upper;
-    bar_length = refit->states.bounds[2].upper;
-    const struct axis axis[3] = {
-        modulus_axis(refit->fit->x[0], 0.02, 10), {20, 0, 0, 0.04, of_mass}, {120, 0, 0, bar_length, of_place}};
-    open_likelihood(&refit->states.state->job, &l);
-    double grid = over_grid(&l, 3, axis);
+    double z = hidden_evidence("added_mass", refit), grid = mass_on_grid(refit, 120);
     print_message("a mass in the middle: ln Z %.3f, by a grid %.3f\n", z, grid);
     assert_close(z, grid, 0, 0.85); /* the limit that docs/method.md states */
     rotid_fit_free(refit[0].fit);

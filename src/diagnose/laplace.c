@@ -97,6 +97,11 @@ static struct unknown normal_unknown(double x, double neutral, double deviation,
 
 /* x > 0 is uniform in ln x over decades below its upper bound, and in x below their least one, with a density that is continuous:
  * uniform in t, x = least t up to t = 1, least e^(t - 1) from there on. */
+static double decades_least(const struct cause_parameter *p, double upper)
+{
+    return upper * pow(10, -p->scale);
+}
+
 static double decades_range(const struct cause_parameter *p)
 {
     return 1 + p->scale * log(10);
@@ -104,7 +109,7 @@ static double decades_range(const struct cause_parameter *p)
 
 static double decades_value(const struct cause_parameter *p, double upper, double t)
 {
-    double least = upper * pow(10, -p->scale);
+    double least = decades_least(p, upper);
     return least * (t < 1 ? t : exp(t - 1));
 }
 
@@ -126,7 +131,7 @@ static struct unknown unknown_of_cause(const struct cause_kind *cause, int p, do
     if (p == cause->place || p == cause->width || parameter->prior == PRIOR_FLAT)
         return flat_unknown(1, lower - x, upper - x);
     if (parameter->prior == PRIOR_LOG_FLAT) {
-        double least = upper * pow(10, -parameter->scale), t = x < least ? x / least : 1 + log(x / least);
+        double least = decades_least(parameter, upper), t = x < least ? x / least : 1 + log(x / least);
         return flat_unknown(fmax(x, least), -t, decades_range(parameter) - t);
     }
     if (parameter->prior == PRIOR_LOG_NORMAL) {

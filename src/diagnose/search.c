@@ -207,7 +207,7 @@ static void propose_removals(const struct posterior *p, int parent, struct propo
         not_fitted(p, set);
         set->log_posterior = from->evidence.log_exact + set->log_prior; /* worth a fit */
         struct explanation *known = posterior_find(p, set);
-        if (is_of_beams(from) && (!known || stands_elsewhere(p, known, set)))
+        if (!known || stands_elsewhere(p, known, set))
             proposal[(*count)++] = one;
     }
 }
@@ -219,7 +219,7 @@ static void propose_forms(const struct posterior *p, int parent, struct proposal
     for (int m = 0; m < from->nmember && *count < most; m++) {
         const struct candidate *c = &from->member[m];
         struct proposal one = {.parent = parent, .candidate = ANEW, .set = *from};
-        if (!is_of_beams(from) || !c->cause->reshape || c->effect.variant || c->result.suspect)
+        if (!c->cause->reshape || c->effect.variant || c->result.suspect)
             continue;
         c->cause->reshape(&one.set.member[m].effect);
         not_fitted(p, &one.set);
@@ -384,8 +384,8 @@ static struct explanation *find_there(const struct posterior *p, const struct ex
     return NULL;
 }
 
-/* Enters a set by its fit, unless it is there with a better one: not in place of one with less chi2, as
- * a saddle between two places has a wide normal. */
+/* Enters a set by its fit, unless it is there with a better one: not in place of one with less chi2, as a saddle between two
+ * places has a wide normal. */
 static int enter(struct engine *engine, struct posterior *p, struct explanation *e)
 {
     e->evidence = (struct evidence){0};
@@ -510,8 +510,10 @@ static int expand(struct engine *engine, struct round_result *result, struct pos
         struct explanation *from = &p->item[parent];
         from->expanded = 1;
         taken++;
-        propose_removals(p, parent, proposal, most, &count);
-        propose_forms(p, parent, proposal, most, &count);
+        if (is_of_beams(from)) {
+            propose_removals(p, parent, proposal, most, &count);
+            propose_forms(p, parent, proposal, most, &count);
+        }
         if (from->nmember == MOST_MEMBERS)
             continue;
         struct scan *scan = parent ? POOL_NEW(pool, struct scan) : &result->scan;

@@ -211,6 +211,13 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     return ROTID_OK;
 }
 
+/* Before the first round every pole is its own candidate. */
+static void begin(int count, int *candidate)
+{
+    for (int r = 0; r < count; r++)
+        candidate[r] = r;
+}
+
 /* One round on a pool of its own; *count becomes smaller by *dropped. */
 static int weed(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
                 enum round round, int *count, double complex *pole, int *candidate, int *dropped)
@@ -218,8 +225,6 @@ static int weed(const struct pool *pool, const struct ema_band *band, int thread
     struct pool scratch;
     /* no more unknowns than two thirds of the lines can carry: the last candidates are the ones at the upper end */
     int most = (2 * band->nline * 2 / 3 - 4) / 4, kept = 0;
-    for (int r = 0; r < *count && round != REFINED; r++) /* which is never the first one */
-        candidate[r] = r;
     *count = *count < most ? *count : most > 0 ? most : 0;
     *dropped = 0;
     if (*count == 0)
@@ -242,6 +247,7 @@ int selection_screen(const struct pool *pool, const struct ema_band *band, int t
                      int *count, double complex *pole, int *candidate)
 {
     int dropped;
+    begin(*count, candidate);
     return weed(pool, band, threads, environment, SCREENING, count, pole, candidate, &dropped);
 }
 
@@ -249,6 +255,7 @@ int selection_earn(const struct pool *pool, const struct ema_band *band, int thr
                    int *count, double complex *pole, int *candidate)
 {
     int dropped;
+    begin(*count, candidate);
     /* the first round takes the poles as they come, which is quick; every later one leaves one out at least, or is the last */
     int status = weed(pool, band, threads, environment, AS_THEY_COME, count, pole, candidate, &dropped);
     do {

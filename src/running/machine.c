@@ -60,13 +60,12 @@ int machine_fit(struct pool *pool, const struct states *states, const rotid_fit_
     own->std = x + n;
     own->covariance = x + 2 * (ptrdiff_t)n;
     for (int p = 0; p < n; p++) {
-        int i = p < at_rest ? state_unknown(state, p) : states->nparameter + p - at_rest;
-        own->x[p] = fit && i < all ? fit->x[i] : machine_bounds(states->machine, &state->job, p)->start;
-        own->std[p] = fit && i < all ? fit->std[i] : (double)NAN;
+        int i = p < at_rest ? state_unknown(state, p) : states->nparameter + p - at_rest, is_fitted = fit && i < all;
+        own->x[p] = is_fitted ? fit->x[i] : machine_bounds(states->machine, &state->job, p)->start;
+        own->std[p] = is_fitted ? fit->std[i] : (double)NAN;
         for (int q = 0; q < n; q++) {
             int j = q < at_rest ? state_unknown(state, q) : states->nparameter + q - at_rest;
-            own->covariance[p + (ptrdiff_t)n * q] =
-                fit && i < all && j < all ? fit->covariance[i + (ptrdiff_t)all * j] : (double)NAN;
+            own->covariance[p + (ptrdiff_t)n * q] = is_fitted && j < all ? fit->covariance[i + (ptrdiff_t)all * j] : (double)NAN;
         }
     }
     return ROTID_OK;

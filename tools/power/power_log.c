@@ -73,13 +73,7 @@ static void add_diagnosis(cJSON *line, const struct diagnosis *d, const cJSON *t
     for (int i = 0; i < d->posterior.count && i < 60; i++) {
         const struct explanation *e = &d->posterior.item[i];
         cJSON *o = cJSON_CreateObject(), *set = cJSON_AddArrayToObject(o, "causes");
-        int right = 0, found = 0;
-        for (int m = 0; m < e->nmember; m++) {
-            int which = hidden_which(&d->job, &e->member[m], truth);
-            right += which >= 0 && !(found & 1 << which);
-            found |= which >= 0 ? 1 << which : 0;
-        }
-        cJSON_AddNumberToObject(o, "right", right);
+        cJSON_AddNumberToObject(o, "right", hidden_truths(d, e, truth, HIDDEN_PLACE));
         for (int m = 0; m < e->nmember; m++)
             cJSON_AddItemToArray(set, candidate_line(&e->member[m]));
         cJSON_AddBoolToObject(o, "else", e->something_else);

@@ -10,7 +10,6 @@
 #include "diagnose/diagnose.h"
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
-#define PLACE_WIDEST    0.25 /* of it: what an interval may span that tells a place */
 #define VALUE_TOLERANCE 0.1  /* of a gain, a shift, a factor */
 #define VALUE_STDS      4.0
 #define BEST            3 /* causes fitted without noise */
@@ -145,15 +144,14 @@ static int which(const struct job *job, const struct candidate *c, const cJSON *
 
 int hidden_which(const struct job *job, const struct candidate *c, const cJSON *truth)
 {
-    return which(job, c, truth, PLACE_WIDEST);
+    return which(job, c, truth, HIDDEN_PLACE);
 }
 
-/* How many true effects are among the causes of an explanation, each in the places that are stated for it. */
-static int truths_of(const struct diagnosis *d, const struct explanation *e, const cJSON *truth)
+int hidden_truths(const struct diagnosis *d, const struct explanation *e, const cJSON *truth, double widest)
 {
     int seen = 0, count = 0;
     for (int m = 0; m < e->nmember; m++) {
-        int n = which(&d->job, &e->member[m], truth, 1);
+        int n = which(&d->job, &e->member[m], truth, widest);
         count += n >= 0 && !(seen & 1 << n);
         seen |= n >= 0 ? 1 << n : 0;
     }
@@ -383,7 +381,7 @@ static void take_posterior(const struct diagnosis *d, const cJSON *truth, struct
     s->before = 1;
     for (int i = 0; i < p->count && s->truths; before += p->item[i++].probability) {
         const struct explanation *e = &p->item[i];
-        int whole = truths_of(d, e, truth) == s->truths;
+        int whole = hidden_truths(d, e, truth, 1) == s->truths;
         if (whole)
             s->before = fmin(s->before, before);
         if (whole && !known && e->nmember == s->truths && !e->something_else)

@@ -76,6 +76,11 @@ double hidden_lead(const struct diagnosis *diagnosis, const cJSON *truth);
 /* The number of the true physical effect that a candidate is, or -1. */
 int hidden_which(const struct job *job, const struct candidate *candidate, const cJSON *truth);
 
+/* How many true effects are among the causes of an explanation, each in the places that are stated for it, where these span no
+ * more than `widest` of the rotor: HIDDEN_PLACE tells a place, 1 is any. */
+#define HIDDEN_PLACE 0.25
+int hidden_truths(const struct diagnosis *diagnosis, const struct explanation *explanation, const cJSON *truth, double widest);
+
 /* The drop of the data of `truth`, of the same rotor with the same noise and as many modes: NaN where
  * the fit fails. ROTID_OK or ROTID_ERROR_MEMORY. */
 int hidden_drop(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth, double *drop);

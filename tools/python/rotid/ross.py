@@ -545,13 +545,15 @@ def section_of_rods(part):
 PLANES = ((0, "x"), (4, "beta"), (1, "y"), (3, "alpha"))  # alpha = -dy/dz
 
 
+def of_planes(n):
+    """Zeros for n nodes in the order of PLANES, the places of both planes there, and the signs of the second one."""
+    places = [[4 * i + c for i in range(n) for c in part] for part in ((0, 1), (2, 3))]
+    return np.zeros((4 * n, 4 * n)), *places, np.tile([1.0, -1.0], n)
+
+
 def planes(matrix):
     """A matrix in x and dx/dz of some nodes in the order of PLANES for each of them, both planes."""
-    n = len(matrix) // 2
-    full = np.zeros((4 * n, 4 * n))
-    first = [4 * i + c for i in range(n) for c in (0, 1)]
-    second = [4 * i + c for i in range(n) for c in (2, 3)]
-    sign = np.tile([1.0, -1.0], n)
+    full, first, second, sign = of_planes(len(matrix) // 2)
     full[np.ix_(first, first)] = matrix
     full[np.ix_(second, second)] = sign[:, None] * matrix * sign
     return full
@@ -559,11 +561,7 @@ def planes(matrix):
 
 def between_planes(polar):
     """The gyroscopic matrix of a polar inertia in x and dx/dz of some nodes, in the order of PLANES."""
-    n = len(polar) // 2
-    full = np.zeros((4 * n, 4 * n))
-    first = [4 * i + c for i in range(n) for c in (0, 1)]
-    second = [4 * i + c for i in range(n) for c in (2, 3)]
-    sign = np.tile([1.0, -1.0], n)
+    full, first, second, sign = of_planes(len(polar) // 2)
     full[np.ix_(first, second)] = polar * sign
     full[np.ix_(second, first)] = -sign[:, None] * polar
     return full
