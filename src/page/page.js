@@ -643,7 +643,7 @@
         const turn = () => {
           const model = last.modes[state.mode];
           const mode = modes[state.mode];
-          const size = Math.max(...model.w.map(Math.abs), 1e-12);
+          const size = Math.max(...model.w.map(Math.abs), ...(mode.measured || []).filter(known).map(Math.abs), 1e-12);
           const axis = along(model.z, model.w);
           const share = state.phase * amplitude / size;
           const per = x(1) - x(0);
