@@ -331,6 +331,27 @@ POOL_TEST(a_mode_that_is_overdamped_at_the_next_row_has_crossed_the_speed)
     running_case_close(&c);
 }
 
+/* Oil that damps beyond whirl at low speeds: Im lambda = sqrt(k/m - (c/2m)^2) is none at standstill and above the speed at the
+ * highest one. */
+POOL_TEST(a_mode_that_is_overdamped_at_standstill_has_crossed_the_speed)
+{
+    const char *path = folder_write("rise.csv", "speed_rpm,kxx,kyy,cxx,cyy\n0,3e6,3e6,5e4,5e4\n3000,3e6,3e6,10,10\n");
+    const char *deck = pool_format(&test_pool,
+                                   "*MATERIAL, NAME=s\n*ELASTIC\n1e14, 0.3\n*DENSITY\n1e-3\n*SHAFT, NAME=a, MATERIAL=s\n0.5, "
+                                   "0.2, 0, 2\n0.5, 0.2, 0, 2\n*RUNNING\n*DISK\n0.5, 50, 1e-3, 1e-3\n*BEARING, FILE=%s\nstart\n"
+                                   "*BEARING, FILE=%s\nend\n",
+                                   path, path);
+    struct running_case c;
+    assert_int_equal(running_case_open(deck, 3200, 41, 0, &c), ROTID_OK);
+    assert_int_equal(c.speeds.ncritical_speeds, 2);
+    for (int i = 0; i < 2; i++) {
+        double rpm = c.speeds.critical_speeds[i].speed_rpm, w = rpm * RPM, decay = (5e4 + (10 - 5e4) * rpm / 3000) / 50;
+        assert_close(decay * decay + w * w, 6e6 / 50, 1e-4, 0);
+        assert_close(running_case_mode(&c, 3200, i + 1)->frequency_hz, sqrt(6e6 / 50) / (2 * PI), 1e-4, 0);
+    }
+    running_case_close(&c);
+}
+
 /* A loss factor makes Im lambda jump where it crosses the speed: what is called critical lies between, side 0. */
 POOL_TEST(a_jump_at_a_critical_speed_hides_none)
 {

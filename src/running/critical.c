@@ -196,7 +196,7 @@ int tracks_make(struct pool *pool, struct system *s, int nspeed, const double *s
     int followed = t->nmode;
     if (!status)
         status = pairs_all(pool, s, speed[last], &count, all, NULL);
-    for (int i = 0; i < count && !status && cimag(all[i].lambda) < speed[last] && t->nmode < t->room; i++) {
+    for (int i = 0; i < count && !status && cimag(all[i].lambda) < limit && t->nmode < t->room; i++) {
         int known = settle(s, speed[last], &all[i]);
         for (int m = 0; m < t->nmode && !known; m++)
             known = are_same(s, track_at(t, m, last), &all[i]);
