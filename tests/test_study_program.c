@@ -303,6 +303,23 @@ UNIT_TEST(a_mended_deck_runs_again)
     bench_says("study first.inp -o mended.jsonl", 2, "the plan has changed"); /* not the same decks */
 }
 
+/* Sections and bearings in tables are part of the deck. */
+UNIT_TEST(a_deck_with_a_changed_table_runs_again)
+{
+    (void)bench_write("core.csv", "length,od,elements\n0.4,0.1,8\n");
+    (void)bench_write("oil.csv", "speed_rpm,kxx,kyy,cxx,cyy\n1000,1e8,1e8,1e4,1e4\n");
+    (void)bench_write("tables.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, "
+                                    "MATERIAL=steel, FILE=core.csv\n*MODES\n1, 2600\n2, 6000\n*IDENTIFY\ncore.E, 1e10, 1e12, "
+                                    "2e11\n*RUNNING\n*BEARING, FILE=oil.csv\nstart\n*BEARING, FILE=oil.csv\nend\n");
+    (void)bench_write("oil.plan", "*STUDY, COMMAND=SPEEDS\n*DECKS\ntables.inp\n");
+    bench_says("study tables.inp -o tables.jsonl", 0, "1 of 1 runs");
+    bench_says("study oil.plan -o oil.jsonl", 0, "1 of 1 runs");
+    (void)bench_write("oil.csv", "speed_rpm,kxx,kyy,cxx,cyy\n1000,1e8,1e8,1e4,2e4\n");
+    bench_says("study oil.plan -o oil.jsonl", 2, "the measured data or a table has changed since it was begun");
+    (void)bench_write("core.csv", "length,od,elements\n0.4,0.11,8\n");
+    bench_says("study tables.inp -o tables.jsonl", 0, "lines of decks that have changed since: 1");
+}
+
 UNIT_TEST(wrong_usage_is_refused)
 {
     bench_says("study a.plan", 2, "no file for the results, expected -o FILE");

@@ -191,7 +191,7 @@ FIXTURE_TEST(other_files_are_left_alone, setup, close_test_pool)
     } table[] = {
         {.rotid = "1.2.4", .words = "begun by rotid 1.2.3 (abc), this is 1.2.4 (abc)"},
         {.plan = "x", .words = "the plan has changed"},
-        {.decks = "x", .data = "y", .words = "a deck and the measured data have changed"},
+        {.decks = "x", .data = "y", .words = "a deck and the measured data or a table have changed"},
         {.options = "x", .words = "--set has changed"},
         {.seed = 7, .words = "its seed is 1, not 7"},
         {.shard = "2/3", .words = "is of shard 1/1 and not of 2/3"},

@@ -103,7 +103,7 @@ const char *header_difference(struct pool *pool, const struct study_header *file
         const char *file, *here, *what;
     } parts[] = {{file->digest.plan, here->digest.plan, "the plan"},
                  {file->digest.decks, here->digest.decks, "a deck"},
-                 {file->digest.data, here->digest.data, "the measured data"},
+                 {file->digest.data, here->digest.data, "the measured data or a table"},
                  {file->digest.options, here->digest.options, "--set"}};
     int other_options = strcmp(file->digest.options, here->digest.options) != 0; /* they may change the data as well */
     for (int i = 0; i < 4 && changed; i++)

@@ -53,11 +53,39 @@ static void digest_measured(struct digest *digest, const struct job *job)
     }
     digest_doubles(digest, nmode, m->frequency_hz);
     digest_doubles(digest, nmode, m->frequency_std);
+    digest_doubles(digest, nmode, m->damping);
     digest_doubles(digest, m->shape ? components : 0, m->shape);
     digest_doubles(digest, m->shape ? components : 0, m->shape_std);
     digest_doubles(digest, m->point_frequency_hz ? components : 0, m->point_frequency_hz);
     digest_doubles(digest, m->point_frequency_hz ? components : 0, m->point_frequency_std);
     digest_integer(digest, m->hammer);
+}
+
+/* What tables may say in the place of data lines: the sections. */
+static void digest_sections(struct digest *digest, const struct rotor *rotor)
+{
+    for (int i = 0; i < rotor->nsegment; i++) {
+        const struct segment *segment = &rotor->segment[i];
+        digest_text(digest, rotor->group[segment->group].name);
+        digest_text(digest, rotor->group[segment->group].material.name);
+        digest_integer(digest, segment->elements);
+        digest_doubles(digest, 6,
+                       (const double[]){segment->length, segment->outer, segment->inner, segment->stiff_outer, segment->height,
+                                        segment->width});
+    }
+}
+
+/* And bearings with their pedestals. */
+static void digest_bearings(struct digest *digest, const struct machine *machine)
+{
+    for (int i = 0; machine && i < machine->nbearing; i++)
+        for (int pedestal = 0; pedestal < 2; pedestal++) {
+            const struct coefficients *all = pedestal ? &machine->bearing[i].pedestal : &machine->bearing[i].film;
+            size_t count = (size_t)all->count;
+            digest_doubles(digest, count, all->speed);
+            digest_doubles(digest, 4 * count, all->k);
+            digest_doubles(digest, 4 * count, all->c);
+        }
 }
 
 /* ---- the decks */
@@ -244,9 +272,13 @@ static int check_cell(struct checker *c, const struct study_cell *cell)
     }
     for (int s = 0; s < states.nstate; s++) {
         check_sensors(c, plan_at(plan, cell, AXIS_DECK)->name, &states.state[s].job);
-        if (!cell->at[AXIS_MODES])
-            digest_measured(&c->data, &states.state[s].job);
+        if (cell->at[AXIS_MODES])
+            continue;
+        digest_measured(&c->data, &states.state[s].job);
+        digest_sections(&c->data, &states.state[s].job.rotor);
     }
+    if (!cell->at[AXIS_MODES])
+        digest_bearings(&c->data, states.machine);
     c->study->deck[cell->at[AXIS_DECK]].starts[cell->at[AXIS_VARIANT]] = starts_of(plan, states.nparameter);
     return cell->at[AXIS_MODES] ? ROTID_OK : keep_files(c, &states); /* those of other modes are the same */
 }
