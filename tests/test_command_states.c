@@ -143,12 +143,15 @@ POOL_TEST(files_are_of_one_state)
 
 POOL_TEST(tables_name_their_state)
 {
-    static const char *const commands[] = {"modes", "check", "sensitivity", "frf", "identify --no-baseline"};
+    static const char *const commands[] = {"modes", "check", "sensitivity", "frf"};
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         const char *text = shell(&test_pool, "%s %s %s", ROTID_PROGRAM, commands[i], deck()),
                    *first = strstr(text, "state short\n"), *second = strstr(text, "\nstate long one\n");
         assert_true(first && second && first < second);
     }
+    const char *text = shell(&test_pool, "%s identify --no-baseline %s", ROTID_PROGRAM, deck()),
+               *table = strstr(text, "\nStates: ");
+    assert_true(table && strstr(table, "\nshort ") && strstr(table, "\nlong one "));
 }
 
 TEST_GROUP(folder_make, folder_remove);

@@ -60,7 +60,8 @@ UNIT_TEST(a_page_is_whole_and_says_what_the_result_holds)
     const cJSON *e = cJSON_GetArrayItem(get(json, "parameters"), 0), *ci = get(e, "ci95"), *mode;
     const char *value = shown(number_of(e, "value") / 1e9, 1), *low = shown(cJSON_GetArrayItem(ci, 0)->valuedouble / 1e9, 1),
                *high = shown(cJSON_GetArrayItem(ci, 1)->valuedouble / 1e9, 1);
-    page_says(html, "core.E = %s\xc2\xa0GPa (95\xc2\xa0%%: %s to %s)", value, low, high);
+    page_says(html, "core.E = %.0f\xc2\xa0GPa (95\xc2\xa0%%: %.0f to %.0f)", number_of(e, "value") / 1e9,
+              cJSON_GetArrayItem(ci, 0)->valuedouble / 1e9, cJSON_GetArrayItem(ci, 1)->valuedouble / 1e9);
     page_says(html, "<dt>core.E [GPa]</dt>\n<dd class=\"large\">%s</dd>\n<dd>95\xc2\xa0%%: %s to %s</dd>", value, low, high);
     page_says(html,
               "<tr><th scope=\"row\">core.E</th><td>GPa</td><td class=\"n\">%s</td><td class=\"n\">22</td><td "

@@ -120,7 +120,10 @@ UNIT_TEST(what_cannot_be_told_apart_has_shares)
     assert_true(listed > 1);
     page_says(html, "The deck does not state all of the noise");
     page_says(html, "frequencies 0.30\xc2\xa0%% (assumed)");
-    page_says(html, "The fit as the deck states it (HYBRID, reduction GUYAN) gives core.E = 115.7\xc2\xa0GPa");
+    page_says(
+        html,
+        "The fit as the deck states it (HYBRID, reduction GUYAN, 4.3\xc2\xa0%% rms error of its frequencies) gives core.E = "
+        "115.7\xc2\xa0GPa");
     page_says(html, "<dd class=\"large\">%.1f</dd>", number_of(averaged, "value") / 1e9);
     page_says(html, "averaged over the explanations by their probabilities");
     cJSON_Delete(json);

@@ -511,28 +511,32 @@ UNIT_TEST(a_named_cause_is_read_from_top_to_bottom)
 {
     static const char *const parts[] = {"A rotor of three groups",
                                         "VERDICT  NAMED",
-                                        "PARAMETERS  extended model, 95 % intervals",
-                                        "FIT AS SPECIFIED  HYBRID, reduction GUYAN",
-                                        "NUMBERS",
-                                        "DATA",
-                                        "WHAT IS WRONG",
-                                        "EVIDENCE",
-                                        "GAIN  base model -> extended model",
-                                        "DETECTION LIMITS",
+                                        "The fit as the deck states it (HYBRID, reduction GUYAN",
+                                        "Parameters of the extended model, 95 % intervals",
+                                        "What is wrong with the measurement and the numbers",
+                                        "sensor_gain: sensor 23",
+                                        "guyan_reduction: the condensation",
+                                        "What is wrong: full model, likelihood, chi2 300 with 202 degrees of freedom",
+                                        "Causes one by one",
+                                        "Quality before and after",
+                                        "Parameters before and after",
+                                        "Detection limits",
                                         "seed 7, 4 threads"};
     fill_named();
     show(0, 100);
     for (size_t i = 1; i < sizeof parts / sizeof *parts; i++)
         assert_order(parts[i - 1], parts[i]);
-    assert_says("core.E 117.8 GPa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
-    assert_says("sensor_gain sensor 23: 1.4 +- 0.03, chi2 less by 180; sensor 23 reads");
-    assert_says("adequate model): below 0.001; the extended model is adequate");
+    assert_says("core.E = 117.8 GPa, +2.8 %; core.G = 31.82 GPa, -9.6 % against the extended model here");
+    assert_says("    that; 1.4 +- 0.030; chi2 less by 180.0. At the test: check the sensitivity");
+    assert_says("error [%]: mode 1 +0.020, mode 2 +0.080");
+    assert_says("misfit this large or larger in fewer than 1 of 1,000 tests");
+    assert_says("  The extended model is adequate.\n");
     assert_says("    named: flexibility 2.13e-10 rad/(N.m) (95 %: 1.92e-10 to 2.34e-10)");
     assert_says("    possible (67 %): depth 0.42");
     assert_says("core.E             GPa        116.78  114.44  119.11      114.60      112.31      116.89        -1.9\n");
     assert_says("joint       core|right  flexibility  rad/(N.m)   6.4e-11         -         -\n");
     assert_says("added_mass              mass         kg             0.11      2.03       9.6\n");
-    assert_says("Not detectable at any physical size: stiffness of right");
+    assert_says("stiffness   right       factor       1                 -         -         -  at no physical size\n");
     assert_silent("nan");
     assert_silent("modes held out by the deck");
     int lines = 0;
@@ -551,13 +555,13 @@ UNIT_TEST(the_parameters_stand_at_the_top)
     s.d.result.nhidden = 2;
     s.d.result.hidden = hidden;
     show(0, 100);
-    assert_order("PARAMETERS  extended model, 95 % intervals; possible bias: shift by an effect this test cannot show",
-                 "core.E     GPa   114.60      112.31      116.89\n"
-                 "    possible bias: up to 2 % by added_mass at z 0.61 m (mass 0.28 kg)\n");
-    assert_says("    possible bias: more than 50 % by tie_shear of ties\n");
+    assert_order("Parameters of the extended model, 95 % intervals\n", "core.E     GPa   114.60      112.31      116.89\n");
+    assert_order("Possible bias: causes below their detection limits",
+                 "core.E     up to 2 %       added_mass         mass 0.28 kg   0.61\n"
+                 "core.G     more than 50 %  tie_shear of ties  there or not      -\n");
     s.d.result.verdict.adequate_after = 0;
     show(0, 100);
-    assert_silent("unseen");
+    assert_silent("Possible bias");
 
     static double mean[9], std[9];
     static struct explanation item[9];
@@ -575,12 +579,12 @@ UNIT_TEST(the_parameters_stand_at_the_top)
     s.d.extended.fit = NULL;
     s.d.result.verdict.kind = ROTID_AMBIGUOUS;
     show(0, 100);
-    assert_order("PARAMETERS  model of the deck, 95 % intervals\n",
+    assert_order("Parameters of the model of the deck, 95 % intervals\n",
                  "core.E     GPa   104.00       98.00      110.00  averaged over the explanations\n");
-    assert_says("core.E     GPa   100.00       95.00      105.00  joint of core|right\n");
-    assert_says("core.E     GPa   101.00       96.00      106.00  joint of core|right with ");
+    assert_says("core.E     GPa   100.00       95.00      105.00  joint between core and right\n");
+    assert_says("core.E     GPa   101.00       96.00      106.00  joint between core and right with ");
     show(1, 100);
-    assert_says("core.E     GPa   108.00      103.00      113.00  joint of core|right\n");
+    assert_says("core.E     GPa   108.00      103.00      113.00  joint between core and right\n");
     assert_silent("more with --verbose");
 }
 
@@ -618,9 +622,9 @@ UNIT_TEST(each_verdict_says_its_own)
     fill_adequate();
     show(0, 100);
     assert_says("VERDICT  ADEQUATE");
-    assert_says("adequate model): 0.37\n");
-    assert_says("QUALITY  of the base model, without a cause");
-    assert_silent("FIT AS SPECIFIED");
+    assert_says("misfit this large or larger in about 37 of 100 tests");
+    assert_says("Quality of the model\n");
+    assert_silent("as the deck states it");
     assert_silent("->");
     assert_silent("force resid"); /* it is noise */
     assert_silent("p-value  modes");
@@ -632,7 +636,7 @@ UNIT_TEST(each_verdict_says_its_own)
     fill_unexplained();
     show(0, 100);
     assert_says("VERDICT  UNEXPLAINED");
-    assert_says("the residual still exceeds the noise");
+    assert_says("The misfit that is left still exceeds the noise");
     assert_silent("\n*  ");
 }
 
@@ -640,24 +644,24 @@ UNIT_TEST(what_is_absent_is_left_away)
 {
     without_shapes();
     show(0, 100);
-    assert_says("frequencies 0.1 % (the deck states none: assumed)");
-    assert_says("The deck states no noise for all of the data");
+    assert_says("noise: frequencies 0.10 % (assumed); shapes: not stated\n");
+    assert_says("The deck does not state all of the noise");
     assert_silent("\n  sensors ");
     assert_silent("smallest NCO");
     nothing_to_identify();
     show(0, 100);
     assert_says("; nothing to identify");
-    assert_silent("PARAMETERS");
+    assert_silent("Parameters");
     everything_nan();
     show(1, 100);
     assert_silent("smallest NCO");
-    assert_says("no p-value can be stated");
+    assert_says("No p-value can be stated.");
     assert_says("  no interval can be stated");
     interrupted_at_once();
     show(1, 100);
     assert_says("VERDICT  NONE");
     assert_says("INTERRUPTED");
-    assert_silent("EVIDENCE");
+    assert_silent("Causes one by one");
 }
 
 UNIT_TEST(verbose_shows_all_candidates_and_the_time)

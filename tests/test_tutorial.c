@@ -81,7 +81,7 @@ static int same_line(const char *a, const char *b)
         if (!strncmp(b, "...\n", 4))
             return 1;
         char *end_a, *end_b;
-        int number = isdigit((unsigned char)a[strspn(a, "+-")]) && isdigit((unsigned char)b[strspn(b, "+-")]);
+        int number = isdigit((unsigned char)a[strspn(a, "+-") == 1]) && isdigit((unsigned char)b[strspn(b, "+-") == 1]);
         double x = number ? strtod(a, &end_a) : 0, y = number ? strtod(b, &end_b) : 0;
         if (number) {
             if (fabs(x - y) > 1.01 * fmax(last_place(a, end_a), last_place(b, end_b)))

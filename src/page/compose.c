@@ -311,15 +311,7 @@ static const char *noise_of(struct pool *pool, const struct result *result)
     const rotid_noise *noise = noise_of_result(result);
     if (!noise || !fit_of_result(result) || !(noise->intervals_from || result->diagnose))
         return NULL;
-    const char *frequency = isfinite(noise->frequency)
-                                ? pool_text(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
-                                            noise->frequency_assumed ? " (assumed)" : "")
-                                : "frequencies: not stated",
-               *shape = isfinite(noise->shape)
-                            ? pool_text(pool, "shapes %s\xc2\xa0%% of the largest component%s",
-                                        human_digits(pool, 100 * noise->shape, 2), noise->shape_assumed ? " (assumed)" : "")
-                            : "shapes: not stated";
-    return pool_text(pool, "%s; %s", frequency, shape);
+    return noise_in_words(pool, noise);
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)

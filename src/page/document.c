@@ -146,7 +146,7 @@ static void write_words(FILE *out, struct pool *pool, const rotid_diagnosis *d)
     (void)fputs(",\"words\":[", out);
     for (int i = 0; i < d->ncandidates; i++) {
         (void)fputs(i ? ",[" : "[", out);
-        write_text(out, cause_label(pool, d, &d->candidates[i].cause));
+        write_text(out, plain_text(pool, cause_label(pool, d, &d->candidates[i].cause)));
         (void)fputc(',', out);
         write_text(out, candidate_fate(pool, d, &d->candidates[i]));
         (void)fputc(']', out);

@@ -11,7 +11,7 @@
  *   answer_*, section_*  what a page says of a kind of result: identification.c, diagnosis.c; the others, basis and
  *                      provenance: compose.c
  *   document_*         the page under construction: answers, headings, tables (struct table of src/report), figures  document.c
- *   words              causes, candidates and files in words; hidden_in_words: what may hide in a parameter       words.c
+ *   words              causes, candidates and files in words                                                      words.c
  *   page_write         head with the content policy, answers, body, the data block: results as JSON, script to a file, whole or
  *                      not there: document.c
  *
@@ -36,8 +36,6 @@ int page_result_read(struct pool *pool, const char *file, struct message_list *m
 const char *page_source(const struct result *result);
 
 /* ---- the page under construction. Whatever is added when memory is out is lost and marks the document. */
-
-enum tone { TONE_NONE, TONE_GOOD, TONE_CARE, TONE_BAD }; /* no judgement, to be relied on, with care, not at all */
 
 #define TILES_MOST 8
 
@@ -99,26 +97,9 @@ const char *plain_cause(struct pool *pool, const char *id);  /* "soft zone" of s
 const char *plain_text(struct pool *pool, const char *text); /* ids of causes in words, absolute paths without folders */
 const char *plain_file(const char *path);                    /* the last part of an absolute path */
 const char *cause_check(const char *id);                     /* how to look for a cause */
-const char *cause_name(struct pool *pool, const char *id, const char *target); /* "joint between core and right" */
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
 /* Of cause i of the extended model: those that were named, then those that are likely beside them. */
 const char *extended_label(struct pool *pool, const rotid_diagnosis *d, int i);
-/* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
-const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
-                            int causes);
-int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
-
-/* ---- why: the reasons of a judgement, the gravest of whose tones is that of all */
-
-#define REASONS_MOST 16
-
-struct reasons {
-    struct pool *pool;
-    int count;
-    enum tone tone;
-    const char *text[REASONS_MOST];
-};
-void reasons_add(struct reasons *reasons, enum tone tone, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* ---- what a page says of each kind of result: the answer, then the sections */
 

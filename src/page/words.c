@@ -1,10 +1,8 @@
-/* Texts for a person: causes by name, files without their folders, what may hide in a parameter. */
+/* Texts for a person: causes by name, files without their folders. */
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
 #include "diagnose/causes/causes.h"
-#include "fit/fit.h"
 #include "page/page.h"
 
 /* Ids whose words a reader would have to turn round. */
@@ -97,17 +95,6 @@ const char *cause_check(const char *id)
     return kind ? kind->check : "";
 }
 
-const char *cause_name(struct pool *pool, const char *id, const char *target)
-{
-    int left = (int)strcspn(target, "|");
-    const char *name = plain_cause(pool, id);
-    if (!*target)
-        return name;
-    if (target[left])
-        return pool_text(pool, "%s between %.*s and %s", name, left, target, target + left + 1);
-    return pool_text(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", name, target);
-}
-
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)
 {
     return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
@@ -117,31 +104,4 @@ const char *extended_label(struct pool *pool, const rotid_diagnosis *d, int i)
 {
     const rotid_verdict *v = &d->verdict;
     return cause_label(pool, d, i < v->ncauses ? &v->causes[i] : &v->likely_causes[i - v->ncauses]);
-}
-
-const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
-{
-    const char *text = "";
-    char figure[32];
-    for (int p = 0; p < fit->nparameters; p++) {
-        const rotid_fitted_parameter *value = &fit->parameters[p];
-        const rotid_hidden *most = hidden_in(count, hidden, value);
-        if (!most)
-            continue;
-        text = pool_text(pool, "%s%s%s by %s", text, *text ? ", " : "", value->name,
-                         linear_percent_text(100 * fabs(most->shift / value->value), figure));
-        if (causes)
-            text = pool_text(pool, "%s (%s)", text, cause_name(pool, most->id, most->target));
-    }
-    return text;
-}
-
-int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden)
-{
-    int wide = 0;
-    for (int p = 0; p < fit->nparameters; p++) {
-        const rotid_hidden *most = hidden_in(count, hidden, &fit->parameters[p]);
-        wide |= most && fabs(most->shift) > INTERVAL_WIDE * fabs(fit->parameters[p].value);
-    }
-    return wide;
 }

@@ -185,7 +185,7 @@ const char *human_interval(struct pool *pool, double value, const double ci[2], 
     double f = shown.factor, half = (ci[1] - ci[0]) / 2 * f;
     if (!isfinite(half))
         return human_value(pool, value, unit);
-    int decimals = human_decimals(value * f, half);
+    int decimals = human_decimals(value * f, 10 * half); /* two digits of half the interval */
     return pool_text(pool, "%s%s%s (95" NARROW_SPACE "%%: %s to %s)", human_fixed(pool, value * f, decimals),
                      *shown.text ? NARROW_SPACE : "", shown.text, human_fixed(pool, ci[0] * f, decimals),
                      human_fixed(pool, ci[1] * f, decimals));

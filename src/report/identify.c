@@ -63,14 +63,7 @@ struct table *table_of_parameters(struct pool *pool, const rotid_identification 
         number_column(table, "upper bound", ROW_UNIT, SHOW_TRIMMED(5) | NOT_IN_CSV | DETAIL, is->upper);
         number_column(table, "at bound", NULL, SHOW_COUNT | IN_CSV_ONLY, is->at_bound);
         number_column(table, "identifiable", NULL, SHOW_COUNT | IN_CSV_ONLY, is->identifiable);
-        text_column(table, "remark", NOT_IN_CSV,
-                    is->at_bound             ? "at its bound"
-                    : !is->identifiable      ? "not determined by these data"
-                    : !isfinite(is->ci95[0]) ? "no interval can be stated"
-                    : interval_is_wide(is->value, is->ci95[0], is->ci95[1])
-                        ? pool_text(pool, "determined to %s only",
-                                    percent_text(interval_half_percent(is->value, is->ci95[0], is->ci95[1]), (char[32]){""}))
-                        : "");
+        text_column(table, "remark", NOT_IN_CSV, parameter_remark(pool, is));
     }
     return table;
 }
@@ -172,146 +165,45 @@ static struct table *table_of_history(struct pool *pool, const rotid_identificat
     return table;
 }
 
-static void print_rms(FILE *out, const rotid_identification *fit)
-{
-    double fitted = fit_rms_percent(fit, 0), held_out = fit_rms_percent(fit, 1);
-    if (isfinite(fitted))
-        (void)fprintf(out, "rms error of the fitted modes %.2f %%%s", fitted,
-                      isfinite(held_out) ? ", of the modes held out " : "\n");
-    else if (isfinite(held_out)) /* a state that is held out */
-        (void)fputs("rms error of the modes held out ", out);
-    if (isfinite(held_out))
-        (void)fprintf(out, "%.2f %%\n", held_out);
-}
-
-/* What the intervals rest on, what the misfit has made of them, and whether the model is adequate. */
-static void print_intervals(const struct screen *to, const struct result_head *head, const rotid_identification *fit)
-{
-    FILE *out = to->out;
-    double wide = fit->intervals_widened_by;
-    if (fit->noise && !strcmp(fit->noise->intervals_from, "residuals") && fit->dof > 0)
-        screen_say(
-            to,
-            "intervals are estimated from the residuals (Student t, %d degrees of freedom); state *NOISE to take them from "
-            "the measurement",
-            fit->dof);
-    if (wide > 1 && fit_is_inadequate(fit))
-        screen_say(to, "the misfit is %.3g times the stated noise: the intervals are widened by that", wide);
-    else if (wide > 1) /* half of all adequate models have a misfit above the noise */
-        screen_say(to,
-                   "the misfit is %.3g times the stated noise: the intervals are widened by that; noise alone causes as much in "
-                   "%.0f %% of tests",
-                   wide, 100 * fit_p_value(fit));
-    int k = fit_mode_of_mesh(fit);
-    if (k >= 0) {
-        screen_say(
-            to,
-            "the model is not adequate for these data, which biases its parameters: its mesh moves mode %d by %+.2g %%, %.3g "
-            "times the noise; give more elements",
-            fit->modes[k].mode, fit->mesh_error_percent[k], fabs(fit->mesh_error_percent[k]) / 100 / fit->modes[k].frequency_std);
-    } else if (fit_is_inadequate(fit)) {
-        (void)fputs("the model is not adequate for these data, which biases its parameters; rotid diagnose ", out);
-        name_cell(out, 0, head->deck ? head->deck : "DECK");
-        (void)fputs(" looks for the cause\n", out);
-    }
-}
-
-/* What the intervals know nothing of: the cause that moves each parameter most, where that is more than half of its interval. */
-static void print_hidden(const struct screen *to, const rotid_identification *fit)
-{
-    int shown = 0;
-    struct wrap wrap;
-    for (int p = 0; p < fit->nparameters; p++) {
-        const rotid_fitted_parameter *value = &fit->parameters[p];
-        const rotid_hidden *hidden = hidden_in(fit->nhidden, fit->hidden, value);
-        if (!hidden)
-            continue;
-        if (!shown++)
-            wrap = wrap_open(to->out, 2, to->width, "possible bias by a cause below its detection limit: ");
-        wrap_item(&wrap, "%s%s by %s", shown > 1 ? ", " : "", value->name,
-                  linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
-        wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);
-    }
-    if (!shown)
-        return;
-    wrap_words(&wrap, ": see rotid diagnose");
-    wrap_close(&wrap);
-}
-
-static void print_parameters(const struct screen *to, const struct result_head *head, const rotid_identification *fit)
+static void print_parameters(const struct screen *to, const rotid_identification *fit)
 {
     int n = fit->nparameters;
     screen_table(to, table_of_parameters(to->pool, fit));
     for (int j = 0; j < fit->nundetermined_directions; j++) {
-        (void)fputs("the data do not determine the combination", to->out);
+        const char *text = "";
         for (int p = 0; p < n; p++) {
             const rotid_component *component = &fit->undetermined_directions[p + (ptrdiff_t)j * n];
             if (fabs(component->value) > 0.05)
-                (void)fprintf(to->out, " %+.2f %s", component->value, component->name);
+                text = pool_text(to->pool, "%s %+.2f %s", text, component->value, component->name);
         }
-        (void)fputs(" (relative changes)\n", to->out);
+        screen_say(to, "the data do not determine the combination%s (relative changes)", text);
     }
     if (n > 1)
-        (void)fprintf(to->out, "condition number %s", IN_DIGITS(3, fit->condition_number));
-    if (n == 2 && isfinite(fit->correlation[1]))
-        (void)fprintf(to->out, ", correlation %.3f", fit->correlation[1]);
-    (void)fputs(n > 1 ? "\n" : "", to->out);
-    print_intervals(to, head, fit);
-    if (!fit_is_inadequate(fit)) /* else something shows already */
-        print_hidden(to, fit);
-}
-
-static void print_head(const struct screen *to, const rotid_identification *fit)
-{
-    int fitted = 0;
-    for (int k = 0; k < fit->nmodes; k++)
-        fitted += !fit->modes[k].holdout;
-    (void)fprintf(to->out, "%s, fit of %d %s, functional %s, reduction %s, objective %s, gradient %s\n",
-                  !strcmp(fit->status, "converged")  ? "converged"
-                  : !strcmp(fit->status, "at_bound") ? "converged AT A BOUND"
-                                                     : "NOT CONVERGED",
-                  fitted, human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, IN_DIGITS(4, fit->objective),
-                  IN_DIGITS(2, fit->gradient));
+        screen_say(to, "condition number %s%s", IN_DIGITS(3, fit->condition_number),
+                   n == 2 && isfinite(fit->correlation[1]) ? pool_text(to->pool, ", correlation %.3f", fit->correlation[1]) : "");
 }
 
 void screen_identify(const struct screen *to, const struct result *result, int baseline)
 {
     const rotid_identification *fit = result->identify;
-    FILE *out = to->out;
+    const struct reasons reasons = reasons_of_fit(to->pool, &result->head, fit);
+    int lower, fitted = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        fitted += !fit->modes[k].holdout;
     screen_heading(to, &result->head);
-    print_head(to, fit);
-    print_parameters(to, &result->head, fit);
-    int lower;
-    const char *beside = minimisers_sentence(to->pool, fit, &lower);
-    if (fit->nbaseline && (to->verbose || lower || !*beside))
+    screen_say(to, "fit of %d %s, functional %s, reduction %s, objective %s, gradient %s", fitted,
+               human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, IN_DIGITS(4, fit->objective),
+               IN_DIGITS(2, fit->gradient));
+    screen_reasons(to, &reasons);
+    print_parameters(to, fit);
+    if (fit->nbaseline && (!*minimisers_sentence(to->pool, fit, &lower) || lower || to->verbose))
         screen_table(to, table_of_minimisers(to->pool, fit));
-    if (*beside)
-        screen_say(to, "%s", beside);
-    else if (baseline && !fit->nlopt)
-        (void)fprintf(out, "\nno check by NLopt: this rotid is built without it (WITH_NLOPT=0)\n");
+    if (baseline && !fit->nlopt)
+        screen_say(to, "\nno check by NLopt: this rotid is built without it (WITH_NLOPT=0)");
     if (to->verbose)
         screen_table(to, table_of_history(to->pool, fit));
-    for (int s = 0; s < fit->nstates; s++) {
-        const struct result own = result_of_state(to->pool, result, s);
-        const char *held_out = fit->states[s].fitted_residuals ? "" : ", held out";
-        if (!own.identify)
-            return;
-        screen_table(to, table_of_compared_modes(to->pool, &own.head, own.identify,
-                                                 pool_text(to->pool, "state %s%s", fit->states[s].name, held_out)));
-        print_rms(out, own.identify);
-    }
-    if (fit->nstates)
-        (void)fputs("\nall states: ", out);
-    else
-        screen_table(to, table_of_compared_modes(to->pool, &result->head, fit, NULL));
-    print_rms(out, fit);
+    screen_table(to, table_of_states(to->pool, fit));
+    screen_table(to, table_of_compared_modes(to->pool, &result->head, fit, NULL));
     screen_table(to, table_of_runup(to->pool, fit->nrunup, fit->runup));
     screen_table(to, table_of_weighed(to->pool, fit->nweighed, fit->weighed));
-    if (strcmp(fit->functional, "LIKELIHOOD") != 0)
-        screen_say(to,
-                   "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies "
-                   "alone",
-                   strcmp(fit->reduction, "NONE") ? "condensed model" : "model");
-    if (isfinite(fit->chi2_per_dof))
-        (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
 }

@@ -9,6 +9,7 @@
  *                     harmless), as HTML, escaped; heading, notes and state on the screen
  *   results           identify.c, modes.c (check, sensitivity), diagnose.c, suggest.c, ema.c, frf.c, uff.c: tables (table_of_*),
  *                     what the command shows (screen_*) and, where rotid.h has no struct for it, that of its JSON
+ *   reasons.c         sentences on a fit and a diagnosis, for screen and page
  *   chart.c           bars, strips along the axis
  *   human.c           numbers for people: human_value: prefix of the unit, four significant digits; human_interval: 95 %
  *   layout.c          cells and running text of a width
@@ -130,7 +131,7 @@ const char *human_value(struct pool *pool, double value, const char *unit);
 const char *human_quote(struct pool *pool, double value, const double ci[2], const char *unit);
 /* "88.59 to 624.6 Hz": five digits without zeros at the end. */
 const char *human_range(struct pool *pool, double from, double to, const char *unit);
-/* "115.7 GPa (95 %: 55.1 to 176.4)", without the bracket where there is no interval. */
+/* "116 GPa (95 %: 55 to 176)", without the bracket where there is no interval. */
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit);
 
 /* "one", "two", ... "twelve", "13": for running text. */
@@ -359,13 +360,15 @@ struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_quality(struct pool *pool, const rotid_diagnosis *d);
+/* What may hide in the parameters of a fit. */
+struct table *table_of_hidden(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden);
 /* all: every cause of a set that cannot be told apart, and every candidate; else the first ones, and how many there are more */
 struct table *table_of_verdict_values(struct pool *pool, const rotid_diagnosis *d, int all);
 /* The explanations with their shares of probability, together 99 %; all: or the first ones. */
 struct table *table_of_explanations(struct pool *pool, const rotid_diagnosis *d, int all);
 /* round: from 0; a note of each candidate says its size and place and what became of it */
 struct table *table_of_candidates(struct pool *pool, const rotid_diagnosis *d, int round, int all);
-struct table *table_of_detectable(struct pool *pool, int count, const rotid_detectable *list, const char *caption);
+struct table *table_of_detectable(struct pool *pool, int count, const rotid_detectable *list);
 /* What became of a candidate: "named", "possible", "refused: ...". */
 const char *candidate_fate(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *candidate);
 /* A sentence for each doubtful mode and channel, or that there is none; NULL where memory is out. */
@@ -384,6 +387,34 @@ const char *speeds_judgement(struct pool *pool, const rotid_critical_speed *crit
 
 /* From which speed on the machine is unstable, or that it is stable; NULL without memory. */
 const char *speeds_stability(struct pool *pool, const rotid_speeds *speeds);
+
+/* --------------------------------------------------------------------------------------------------------------- reasons */
+
+/* What is judged of a result, in sentences. */
+
+enum tone { TONE_NONE, TONE_GOOD, TONE_CARE, TONE_BAD }; /* no judgement, to be relied on, with care, not at all */
+
+struct reasons {
+    struct pool *pool;
+    int count;
+    enum tone tone; /* the gravest of all */
+    const char **text;
+};
+
+/* How far to trust a fit; why a verdict is what it is; what is wrong with the measurement and the numbers. */
+struct reasons reasons_of_fit(struct pool *pool, const struct result_head *head, const rotid_identification *fit);
+struct reasons reasons_of_diagnosis(struct pool *pool, const rotid_diagnosis *d);
+struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d);
+const char *noise_in_words(struct pool *pool, const rotid_noise *noise);
+
+/* "joint between core and right" of a target core|right, "support_extra at 0.5 m". */
+const char *cause_name(struct pool *pool, const char *id, const char *target);
+/* "at its bound", "known to 16 % only", "" */
+const char *parameter_remark(struct pool *pool, const rotid_fitted_parameter *parameter);
+/* "core.E by up to 9.3 %, core.G by up to 7.9 %": what causes below their detection limits may do; causes: with their names. */
+const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden,
+                            int causes);
+int hidden_is_wide(const rotid_identification *fit, int count, const rotid_hidden *hidden);
 
 /* ---------------------------------------------------------------------------------------------------------------- screen */
 
@@ -404,6 +435,9 @@ void screen_notes(const struct screen *to, const struct message_list *notes);
 void screen_state(const struct screen *to, int i, const char *name);
 /* A sentence. */
 void screen_say(const struct screen *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Wrapped text behind a head, each reason on its own. */
+void screen_paragraph(const struct screen *to, const char *head, const char *text);
+void screen_reasons(const struct screen *to, const struct reasons *reasons);
 /* A table behind an empty line; nothing of one without rows. */
 void screen_table(const struct screen *to, const struct table *table);
 

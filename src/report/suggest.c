@@ -201,7 +201,5 @@ void screen_suggest(const struct screen *to, const struct result *result)
     print_wanted(to, s);
     screen_table(to, table_of_plans(to->pool, s));
     print_places(to, s);
-    screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable,
-                                         "Detection limits of the first plan: smallest size that shows 9 times in 10 at 3 % of "
-                                         "false alarms"));
+    screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable));
 }

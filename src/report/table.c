@@ -225,8 +225,8 @@ void table_write_csv(FILE *out, const struct table *table)
 /* What a terminal of any kind shows: the signs of people's numbers and units as ASCII; other letters stay. */
 static const char *ascii(struct pool *pool, const char *text)
 {
-    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"}, {"\xc2\xa0", " "}, {"\xc2\xb1", "+-"},
-                                           {"\xc2\xb7", "."}, {"\xc2\xb2", "2"},     {"\xc2\xb3", "3"}};
+    static const char *const signs[][2] = {{DASH, "-"},       {"\xe2\x88\x92", "-"},        {"\xc2\xa0", " "}, {"\xc2\xb1", "+-"},
+                                           {"\xc2\xb7", "."}, {"\xcf\x87\xc2\xb2", "chi2"}, {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}};
     char *copy = pool_copy_text(pool, text), *to = copy;
     for (const char *from = copy; from && *from;) {
         size_t s = 0, count = sizeof signs / sizeof *signs;
@@ -416,6 +416,17 @@ void screen_say(const struct screen *to, const char *format, ...)
     (void)vfprintf(to->out, format, values);
     va_end(values);
     (void)fputc('\n', to->out);
+}
+
+void screen_paragraph(const struct screen *to, const char *head, const char *text)
+{
+    wrap_text(to->out, 4, to->width, head, ascii(to->pool, text));
+}
+
+void screen_reasons(const struct screen *to, const struct reasons *reasons)
+{
+    for (int i = 0; i < reasons->count; i++)
+        screen_paragraph(to, "  ", reasons->text[i]);
 }
 
 void screen_table(const struct screen *to, const struct table *table)
