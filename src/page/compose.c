@@ -49,41 +49,22 @@ static void section_sensitivity(struct document *document, const struct result *
 {
     struct pool *pool = document->pool;
     const struct sensitivity *s = result->sensitivity;
-    const char *at = "";
-    for (int p = 0; p < s->nparameters; p++)
-        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
-                       human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
     document_section(document, "dependence", "Sensitivity", NULL);
-    document_paragraph(document, "At %s, reduction %s.", at, s->reduction);
+    document_paragraph(document, "%s", sensitivity_in_words(pool, s));
     document_figures(document, "sensitivity");
     document_table(document, table_of_sensitivity(pool, s));
 }
 
 static void section_transfer(struct document *document, const struct result *result)
 {
-    const struct transfer_result *out = result->frf;
-    struct pool *pool = document->pool;
-    const char *at = "";
+    const struct reasons said = sentences_of_transfer(document->pool, result->frf);
     document_section(document, "transfer", "Transfer functions", NULL);
-    document_paragraph(document, "%d synthesised %s from modes up to %s with the damping below; %s%s.", out->nfunctions,
-                       human_plural(out->nfunctions, "function", "functions"), human_value(pool, out->modes_up_to_hz, "Hz"),
-                       out->measured_file ? "measured ones from " : "none was measured", or_nothing(out->measured_file));
-    for (int p = 0; p < out->nparameters; p++)
-        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
-                       human_value(pool, out->parameters[p].value, out->parameters[p].unit));
-    if (out->nparameters)
-        document_paragraph(document, "The model is the identified one: %s.", at);
-    if (out->agreement && isfinite(out->agreement->frac))
-        document_paragraph(
-            document, "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
-            human_fixed(pool, out->agreement->frac, 3), human_fixed(pool, out->agreement->frac_at_measured_frequencies, 3));
-    if (!out->with_curves)
+    document_list(document, said.count, said.text);
+    if (!result->frf->with_curves)
         document_paragraph(document, "The result has no curves, because there were too many lines: rotid frf -o writes them as a "
                                      "universal file.");
-    if (!out->complete)
-        document_paragraph(document, "It was interrupted: %d functions were finished.", out->nfunctions);
     document_figures(document, "transfer");
-    document_table(document, table_of_transfer_modes(pool, out));
+    document_table(document, table_of_transfer_modes(document->pool, result->frf));
 }
 
 /* ---- the machine in operation */
@@ -201,7 +182,7 @@ static void section_suggest(struct document *document, const struct result *resu
         return;
     }
     document_section(document, "sensors", "Sensors and modes", "sensors");
-    document_table(document, table_of_plans(pool, s));
+    document_table(document, table_of_plans(pool, s, 0));
     document_table(document, table_of_expected(pool, s));
 }
 

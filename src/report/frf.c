@@ -445,35 +445,40 @@ static struct table *table_of_resonances(struct pool *pool, const struct frf_res
     return table;
 }
 
-/* ---- screen */
-
-static void print_model(const struct screen *to, const struct transfer_result *of)
+struct reasons sentences_of_transfer(struct pool *pool, const struct transfer_result *of)
 {
-    FILE *out = to->out;
+    struct reasons said = {.pool = pool};
+    const char *at = "";
     int rigid = 0;
-    const char *damping = "";
     for (int m = 0; m < of->nmodes; m++)
         rigid += of->modes[m].rigid;
-    (void)fprintf(out, "%s over force [%s], %d %s from %.6g to %.6g Hz\n", of->quantity, of->unit, of->lines,
-                  human_plural(of->lines, "line", "lines"), of->low_hz, of->high_hz);
-    (void)fprintf(out, "full model %s", of->nparameters ? "at the identified parameters" : "as the deck states it");
     for (int p = 0; p < of->nparameters; p++)
-        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", of->parameters[p].name, of->parameters[p].value,
-                      of->parameters[p].unit);
-    (void)fprintf(out,
-                  "\nsum of %d %s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
-                  rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, of->modes_up_to_hz);
-    const struct human_unit hz = human_unit(1, "Hz");
-    for (int m = 0; m < rigid; m++) {
-        (void)fprintf(out, "%s%.*f %s", m ? ", " : "modes on the supports: ", hz.factor < 1 ? 7 : 4,
-                      of->modes[m].model_hz * hz.factor, hz.text);
-        damping = of->modes[m].damping_from;
-    }
-    if (rigid)
-        (void)fprintf(out, ", damping %s %% (%s)\n", IN_DIGITS(4, 100 * of->modes[0].damping), words(to->pool, damping));
+        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : ": ", of->parameters[p].name,
+                       human_value(pool, of->parameters[p].value, of->parameters[p].unit));
+    reasons_add(&said, TONE_NONE, "%d synthesised %s, %s over force [%s], %d lines from %s; %s%s.", of->nfunctions,
+                human_plural(of->nfunctions, "function", "functions"), of->quantity, of->unit, of->lines,
+                human_range(pool, of->low_hz, of->high_hz, "Hz"), of->measured_file ? "measured ones from " : "none was measured",
+                or_nothing(of->measured_file));
+    reasons_add(&said, TONE_NONE, "The model is %s%s.", *at ? "the identified one" : "as the deck states it", at);
+    reasons_add(
+        &said, TONE_NONE,
+        "Summed are %d %s on the supports or free and %d elastic ones, all up to %s, with the damping below; the rest by its "
+        "flexibility.",
+        rigid, human_plural(rigid, "mode", "modes"), of->nmodes - rigid, human_value(pool, of->modes_up_to_hz, "Hz"));
     if (of->window_decay > 0)
-        (void)fprintf(out, "exponential window of the measurement: %.5g 1/s, synthesised with it\n", of->window_decay);
+        reasons_add(&said, TONE_NONE, "The measurement has an exponential window of %s 1/s, and so has the synthesis.",
+                    human_trimmed(pool, of->window_decay, 5));
+    if (of->agreement && isfinite(of->agreement->frac))
+        reasons_add(&said, TONE_NONE,
+                    "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
+                    human_fixed(pool, of->agreement->frac, 3), human_fixed(pool, of->agreement->frac_at_measured_frequencies, 3));
+    if (!of->complete)
+        reasons_add(&said, TONE_NONE, "It was interrupted: %d %s finished.", of->nfunctions,
+                    human_plural(of->nfunctions, "function was", "functions were"));
+    return said;
 }
+
+/* ---- screen */
 
 static void print_functions(const struct screen *to, const struct frf_view *view, const struct transfer_result *of)
 {
@@ -506,7 +511,8 @@ static void print_first(const struct screen *to, const struct frf_view *view)
 
 void screen_frf(const struct screen *to, const struct frf_view *view, const struct transfer_result *of)
 {
-    print_model(to, of);
+    const struct reasons said = sentences_of_transfer(to->pool, of);
+    screen_reasons(to, &said);
     screen_table(to, table_of_transfer_modes(to->pool, of));
     print_functions(to, view, of);
     if (view->result->ndone)

@@ -179,7 +179,7 @@ static void print_parameters(const struct screen *to, const rotid_identification
         screen_say(to, "the data do not determine the combination%s (relative changes)", text);
     }
     if (n > 1)
-        screen_say(to, "condition number %s%s", IN_DIGITS(3, fit->condition_number),
+        screen_say(to, "condition number %s%s", human_digits(to->pool, fit->condition_number, 3),
                    n == 2 && isfinite(fit->correlation[1]) ? pool_text(to->pool, ", correlation %.3f", fit->correlation[1]) : "");
 }
 
@@ -192,8 +192,8 @@ void screen_identify(const struct screen *to, const struct result *result, int b
         fitted += !fit->modes[k].holdout;
     screen_heading(to, &result->head);
     screen_say(to, "fit of %d %s, functional %s, reduction %s, objective %s, gradient %s", fitted,
-               human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, IN_DIGITS(4, fit->objective),
-               IN_DIGITS(2, fit->gradient));
+               human_plural(fitted, "mode", "modes"), fit->functional, fit->reduction, human_digits(to->pool, fit->objective, 4),
+               human_digits(to->pool, fit->gradient, 2));
     screen_reasons(to, &reasons);
     print_parameters(to, fit);
     if (fit->nbaseline && (!*minimisers_sentence(to->pool, fit, &lower) || lower || to->verbose))

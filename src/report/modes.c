@@ -40,8 +40,7 @@ static const char *effect_text(struct pool *pool, const struct rotor *rotor, con
     const char *text = pool_text(pool, "%s%s", effect->kind->id, target_of(pool, rotor, effect));
     for (int p = 0; p < effect_parameters(effect); p++) {
         const struct effect_parameter_name *parameter = &effect->kind->parameter[p];
-        text = pool_text(pool, "%s, %s %.6g%s%s", text, parameter->name, effect->value[p], layout_gap(parameter->unit),
-                         layout_unit(parameter->unit));
+        text = pool_text(pool, "%s, %s %s", text, parameter->name, human_value(pool, effect->value[p], parameter->unit));
     }
     return text;
 }
@@ -254,6 +253,15 @@ void screen_modes(const struct screen *to, const struct result *result)
 
 /* ---- sensitivity */
 
+const char *sensitivity_in_words(struct pool *pool, const struct sensitivity *s)
+{
+    const char *at = "";
+    for (int p = 0; p < s->nparameters; p++)
+        at = pool_text(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
+                       human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
+    return pool_text(pool, "At %s, reduction %s.", at, s->reduction);
+}
+
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *s)
 {
     struct table *table = table_open(pool, "Change of a frequency for a change of a parameter, per cent for a per cent");
@@ -304,11 +312,7 @@ static void print_sensitivity(const struct screen *to, const struct result *resu
     const struct sensitivity *s = result->sensitivity;
     struct pool *pool = to->pool;
     (void)job;
-    (void)fprintf(to->out, "reduction %s", s->reduction);
-    for (int p = 0; p < s->nparameters; p++)
-        (void)fprintf(to->out, ", %s at %.6g%s%s", s->parameters[p].name, s->parameters[p].reference,
-                      layout_gap(s->parameters[p].unit), layout_unit(s->parameters[p].unit));
-    (void)fputc('\n', to->out);
+    screen_paragraph(to, "", sensitivity_in_words(pool, s));
     screen_table(to, table_of_sensitivity(pool, s));
     for (int p = 0; p < s->nparameters; p++) {
         screen_table(to, table_of_quotients(pool, &result->head, s, &s->parameters[p]));

@@ -12,8 +12,7 @@
 #define POOR_PERCENT      2.0 /* error of a fitted frequency that a beam need not leave */
 #define CONDENSED_PERCENT 0.5 /* as `rotid frf` warns */
 
-static void add(struct reasons *reasons, enum tone tone, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void add(struct reasons *reasons, enum tone tone, const char *format, ...)
+void reasons_add(struct reasons *reasons, enum tone tone, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -50,13 +49,13 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
 {
     struct pool *pool = reasons->pool;
     if (!strcmp(fit->status, "converged"))
-        add(reasons, TONE_GOOD, "The fit converged in %s %s: %s.", human_count(pool, fit->iterations),
-            human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason);
+        reasons_add(reasons, TONE_GOOD, "The fit converged in %s %s: %s.", human_count(pool, fit->iterations),
+                    human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason);
     else if (!strcmp(fit->status, "at_bound"))
-        add(reasons, TONE_BAD,
-            "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
+        reasons_add(reasons, TONE_BAD,
+                    "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
     else
-        add(reasons, TONE_BAD, "The fit did not converge: %s.", fit->stop_reason);
+        reasons_add(reasons, TONE_BAD, "The fit did not converge: %s.", fit->stop_reason);
     const char *held = "", *loose = "";
     for (int p = 0; p < fit->nparameters; p++) {
         const char **list = fit->parameters[p].at_bound ? &held : &loose;
@@ -64,9 +63,9 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
             *list = pool_text(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameters[p].name);
     }
     if (*held)
-        add(reasons, TONE_BAD, "At a bound: %s.", held);
+        reasons_add(reasons, TONE_BAD, "At a bound: %s.", held);
     if (*loose)
-        add(reasons, TONE_BAD, "Not determined by these data, alone or in a combination: %s.", loose);
+        reasons_add(reasons, TONE_BAD, "Not determined by these data, alone or in a combination: %s.", loose);
 }
 
 static void on_misfit(struct reasons *reasons, const rotid_identification *fit, const char *deck)
@@ -76,31 +75,33 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
     double rms = fit_rms_percent(fit, 0), held = fit_rms_percent(fit, 1);
     const char *state = fit_state_of_mode(fit, worst < 0 ? 0 : worst);
     if (worst >= 0)
-        add(reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
             "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% in mode "
             "%d%s%s.",
             human_digits(pool, rms, 2),
             human_signed(pool, fit->modes[worst].error_percent, fabs(fit->modes[worst].error_percent) < 0.01 ? 5 : 2),
             fit->modes[worst].mode, state ? " of state " : "", or_nothing(state));
     if (isfinite(held))
-        add(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
-            "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2));
+        reasons_add(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
+                    "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2));
     if (!noisy)
         return;
     int k = fit_mode_of_mesh(fit);
     const char *chi2 =
         pool_text(pool, "\xcf\x87\xc2\xb2 = %s with %d degrees of freedom", human_digits(pool, fit->chi2, 4), fit->dof);
     if (!fit_is_inadequate(fit))
-        add(reasons, TONE_GOOD, "The stated noise explains the misfit: %s; noise alone causes as much in %s of tests.", chi2,
-            text_of_probability(pool, 2, fit_p_value(fit)));
+        reasons_add(reasons, TONE_GOOD, "The stated noise explains the misfit: %s; noise alone causes as much in %s of tests.",
+                    chi2, text_of_probability(pool, 2, fit_p_value(fit)));
     else if (k >= 0)
-        add(reasons, TONE_BAD,
-            "The misfit is %s times what the stated noise explains (%s): the mesh moves mode %d by %s\xc2\xa0%%, and the "
-            "parameters are biased by that. Give more elements.",
-            human_digits(pool, sqrt(fit->chi2_per_dof), 2), chi2, fit->modes[k].mode,
-            human_signed(pool, fit->mesh_error_percent[k], 2));
+        reasons_add(reasons, TONE_BAD,
+                    "The misfit is %s times what the stated noise explains (%s): the mesh moves mode %d by %s\xc2\xa0%%, and the "
+                    "parameters are biased by that. Give more elements.",
+                    human_digits(pool, sqrt(fit->chi2_per_dof), 2), chi2, fit->modes[k].mode,
+                    human_signed(pool, fit->mesh_error_percent[k], 2));
     else
-        add(reasons, TONE_BAD,
+        reasons_add(
+            reasons, TONE_BAD,
             "The misfit is %s times what the stated noise explains (%s): the model lacks something, and its parameters are "
             "biased by that. rotid diagnose %s looks for the cause.",
             human_digits(pool, sqrt(fit->chi2_per_dof), 2), chi2, deck);
@@ -123,15 +124,15 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
                          human_digits(pool, half, 2));
     }
     if (none == fit->nparameters)
-        add(reasons, TONE_CARE, "No interval can be stated for any parameter.");
+        reasons_add(reasons, TONE_CARE, "No interval can be stated for any parameter.");
     else
-        add(reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD, "The 95\xc2\xa0%% intervals: %s%s.%s", wide,
-            none ? ", none for the others" : "",
-            !isfinite(fit->chi2) ? " They are estimated from the residuals, since no noise is stated (*NOISE)."
-            : fit->intervals_widened_by > 1
-                ? pool_text(pool, " They are widened by %s because the misfit exceeds the stated noise.",
-                            human_digits(pool, fit->intervals_widened_by, 3))
-                : "");
+        reasons_add(reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD, "The 95\xc2\xa0%% intervals: %s%s.%s", wide,
+                    none ? ", none for the others" : "",
+                    !isfinite(fit->chi2) ? " They are estimated from the residuals, since no noise is stated (*NOISE)."
+                    : fit->intervals_widened_by > 1
+                        ? pool_text(pool, " They are widened by %s because the misfit exceeds the stated noise.",
+                                    human_digits(pool, fit->intervals_widened_by, 3))
+                        : "");
 }
 
 static void on_functional(struct reasons *reasons, const rotid_identification *fit)
@@ -142,12 +143,14 @@ static void on_functional(struct reasons *reasons, const rotid_identification *f
             (worst < 0 || fabs(fit->reduction_error_percent[k]) > fabs(fit->reduction_error_percent[worst])))
             worst = k;
     if (condensed && worst >= 0)
-        add(reasons, TONE_CARE,
+        reasons_add(
+            reasons, TONE_CARE,
             "Condensation (REDUCTION=%s) alone moves the frequency of mode %d by %s\xc2\xa0%%; the parameters absorb that. "
             "REDUCTION=NONE avoids it.",
             fit->reduction, fit->modes[worst].mode, human_signed(reasons->pool, fit->reduction_error_percent[worst], 2));
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
-        add(reasons, TONE_NONE,
+        reasons_add(
+            reasons, TONE_NONE,
             "The hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone.",
             condensed ? "condensed model" : "model");
 }
@@ -157,7 +160,7 @@ static void on_baseline(struct reasons *reasons, const rotid_identification *fit
     int lower;
     const char *text = minimisers_sentence(reasons->pool, fit, &lower);
     if (*text)
-        add(reasons, lower ? TONE_BAD : TONE_GOOD, "%s.", text);
+        reasons_add(reasons, lower ? TONE_BAD : TONE_GOOD, "%s.", text);
 }
 
 const char *hidden_in_words(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden, int causes)
@@ -197,7 +200,8 @@ struct reasons reasons_of_fit(struct pool *pool, const struct result_head *head,
     on_functional(&reasons, fit);
     on_baseline(&reasons, fit);
     if (*hidden && !fit_is_inadequate(fit)) /* else something shows already */
-        add(&reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
+        reasons_add(
+            &reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
             "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose %s says "
             "more.",
             hidden, deck);
@@ -223,22 +227,24 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
     const rotid_verdict *v = &d->verdict;
     const rotid_round *round = d->nrounds ? d->rounds : NULL;
     if (round && isfinite(v->p_value))
-        add(reasons, TONE_NONE,
+        reasons_add(
+            reasons, TONE_NONE,
             "A correct model has a misfit this large or larger %s tests: the misfit \xcf\x87\xc2\xb2 is %s, where a correct "
             "model has about %d.",
             words_chance(pool, v->p_value), human_digits(pool, round->chi2, 3), round->dof);
     else if (v->sentence)
-        add(reasons, TONE_NONE, "No p-value can be stated.");
+        reasons_add(reasons, TONE_NONE, "No p-value can be stated.");
     if (round && v->kind == ROTID_ADEQUATE && isfinite(round->largest))
-        add(reasons, TONE_NONE, "No cause of the catalogue is expected to lower it by more than %s.",
-            human_digits(pool, round->largest, 2));
+        reasons_add(reasons, TONE_NONE, "No cause of the catalogue is expected to lower it by more than %s.",
+                    human_digits(pool, round->largest, 2));
     if (v->kind > ROTID_ADEQUATE)
-        add(reasons, TONE_NONE,
-            !v->adequate_after           ? "The misfit that is left still exceeds the noise."
-            : v->kind == ROTID_AMBIGUOUS ? "With the best of these causes the model is adequate."
-                                         : "The extended model is adequate.");
+        reasons_add(reasons, TONE_NONE,
+                    !v->adequate_after           ? "The misfit that is left still exceeds the noise."
+                    : v->kind == ROTID_AMBIGUOUS ? "With the best of these causes the model is adequate."
+                                                 : "The extended model is adequate.");
     if (d->noise.frequency_assumed || d->noise.shape_assumed)
-        add(reasons, TONE_NONE,
+        reasons_add(
+            reasons, TONE_NONE,
             "The deck does not state all of the noise. The assumed values stand below; another noise may change the verdict, so "
             "no cause is named: state *NOISE.");
 }
@@ -252,12 +258,12 @@ static void on_shares(struct reasons *reasons, const rotid_diagnosis *d)
     for (int i = 0; i < d->ncandidates; i++)
         tried += d->candidates[i].refitted;
     for (int i = 0; i < v->nmarginals && v->kind == ROTID_NAMED && i < v->ncauses; i++)
-        add(reasons, TONE_NONE, "%s: probability %s %%.", cause_name(pool, v->marginals[i].id, v->marginals[i].target),
-            human_digits(pool, 100 * v->marginals[i].probability, 3));
+        reasons_add(reasons, TONE_NONE, "%s: probability %s %%.", cause_name(pool, v->marginals[i].id, v->marginals[i].target),
+                    human_digits(pool, 100 * v->marginals[i].probability, 3));
     const char *count = human_count(pool, tried);
     if (tried && v->kind != ROTID_ADEQUATE)
-        add(reasons, TONE_NONE, "%c%s single %s fitted, then sets of them.", toupper((unsigned char)*count), count + 1,
-            human_plural(tried, "cause was", "causes were"));
+        reasons_add(reasons, TONE_NONE, "%c%s single %s fitted, then sets of them.", toupper((unsigned char)*count), count + 1,
+                    human_plural(tried, "cause was", "causes were"));
 }
 
 static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
@@ -271,16 +277,16 @@ static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
                               human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
     if (*moved && d->verdict.kind != -1)
-        add(reasons, TONE_NONE, "The missing cause had biased the parameters; the extended model moves %s.", moved);
+        reasons_add(reasons, TONE_NONE, "The missing cause had biased the parameters; the extended model moves %s.", moved);
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameters; p++)
         if (!fit->parameters[p].identifiable)
-            add(reasons, TONE_NONE, "%s %s.", fit->parameters[p].name,
-                fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
-                                            : "is not determined by these data");
+            reasons_add(reasons, TONE_NONE, "%s %s.", fit->parameters[p].name,
+                        fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
+                                                    : "is not determined by these data");
     if (fit && fit->intervals_widened_by > 1)
-        add(reasons, TONE_NONE, "The intervals of the %s are widened by %s: the misfit exceeds the noise.",
-            d->extended ? "extended model" : "model", human_digits(pool, fit->intervals_widened_by, 3));
+        reasons_add(reasons, TONE_NONE, "The intervals of the %s are widened by %s: the misfit exceeds the noise.",
+                    d->extended ? "extended model" : "model", human_digits(pool, fit->intervals_widened_by, 3));
 }
 
 /* What the FIT of the deck makes of the parameters beside the full model. */
@@ -297,7 +303,8 @@ static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
                              human_value(pool, is->value, is->unit), human_signed(pool, percent, 1));
     }
     if (*text)
-        add(reasons, TONE_NONE,
+        reasons_add(
+            reasons, TONE_NONE,
             "The fit as the deck states it (%s, reduction %s, %s\xc2\xa0%% rms error of its frequencies) gives %s against the %s "
             "here, which is the full model judged by the likelihood.",
             today->functional, today->reduction, human_digits(pool, fit_rms_percent(today, 0), 2), text,
@@ -334,7 +341,7 @@ struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d
             text = pool_text(pool, "%s \xc2\xb1 %s", text, human_digits(pool, f->std * unit.factor, 2));
         if (isfinite(f->chi2_drop))
             text = pool_text(pool, "%s; \xcf\x87\xc2\xb2 less by %s", text, human_digits(pool, f->chi2_drop, 4));
-        add(&findings, TONE_NONE, "%s. At the test: %s.", text, kind ? kind->check : "");
+        reasons_add(&findings, TONE_NONE, "%s. At the test: %s.", text, kind ? kind->check : "");
     }
     for (int i = 0; i < d->nnumerical_findings; i++) {
         const rotid_numerical_finding *f = &d->numerical_findings[i];
@@ -345,7 +352,7 @@ struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d
                 text = pool_text(pool, "%s%smode %d %s", text, before, f->modes[k], human_signed(pool, f->error_percent[k], 3));
                 before = ", ";
             }
-        add(&findings, TONE_NONE, "%s.", text);
+        reasons_add(&findings, TONE_NONE, "%s.", text);
     }
     return findings;
 }

@@ -145,12 +145,6 @@ const char *human_seconds(struct pool *pool, double seconds);
 
 /* Cells of tables and running text of a given width. A text may be UTF-8: columns are counted, not bytes. */
 
-/* A number within a sentence, or a dash. Returns text. */
-const char *layout_number(char text[64], int digits, double value);
-#define IN_DIGITS(digits, value) layout_number((char[64]){""}, (digits), (value))
-/* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
-const char *layout_unit(const char *unit);
-const char *layout_gap(const char *unit);
 /* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
 void text_cell(FILE *out, int width, const char *text);
 /* The same of any length, with at least `width` columns. */
@@ -160,21 +154,7 @@ int text_columns(const char *text);
 /* The character that begins here, or U+FFFD. */
 void text_character(FILE *out, const char *text);
 
-/* Running text: lines of `width` columns, all but the first indented. */
-struct wrap {
-    FILE *out;
-    int indent, width, column, fresh;
-};
-
-/* Begins with `head`. */
-struct wrap wrap_open(FILE *out, int indent, int width, const char *head);
-/* Text that is broken between words. */
-void wrap_words(struct wrap *wrap, const char *text);
-/* Text that stays on one line where it fits on one; 255 bytes of it. */
-void wrap_item(struct wrap *wrap, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void wrap_close(struct wrap *wrap);
-
-/* All of that for one text. */
+/* Running text behind a head: lines of `width` columns, all but the first indented, broken between words. */
 void wrap_text(FILE *out, int indent, int width, const char *head, const char *text);
 
 /* ---------------------------------------------------------------------------------------------------------------- output */
@@ -352,10 +332,13 @@ struct table *table_of_shapes(struct pool *pool, const struct rotor *rotor, cons
 struct table *table_of_beside_modes(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct table *table_of_sensitivity(struct pool *pool, const struct sensitivity *sensitivity);
+/* "At core.E = 60 GPa, reduction GUYAN." */
+const char *sensitivity_in_words(struct pool *pool, const struct sensitivity *sensitivity);
 struct table *table_of_transfer_modes(struct pool *pool, const struct transfer_result *of);
 struct table *table_of_test_modes(struct pool *pool, const struct ema_result *ema);
 struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s);
-struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s);
+/* all: places of plans of many sensors too */
+struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int all);
 struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_rivals(struct pool *pool, const rotid_suggestion *s);
 struct table *table_of_tests(struct pool *pool, const rotid_suggestion *s);
@@ -401,10 +384,14 @@ struct reasons {
     const char **text;
 };
 
+void reasons_add(struct reasons *reasons, enum tone tone, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
 /* How far to trust a fit; why a verdict is what it is; what is wrong with the measurement and the numbers. */
 struct reasons reasons_of_fit(struct pool *pool, const struct result_head *head, const rotid_identification *fit);
 struct reasons reasons_of_diagnosis(struct pool *pool, const rotid_diagnosis *d);
 struct reasons findings_of_diagnosis(struct pool *pool, const rotid_diagnosis *d);
+/* What was synthesised, of which model, and how it agrees. */
+struct reasons sentences_of_transfer(struct pool *pool, const struct transfer_result *of);
 const char *noise_in_words(struct pool *pool, const rotid_noise *noise);
 
 /* "joint between core and right" of a target core|right, "support_extra at 0.5 m". */

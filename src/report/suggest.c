@@ -4,16 +4,28 @@
 
 #include "report/report.h"
 
-#define MOST_LISTED 24 /* sensors; more with --verbose */
+#define MOST_LISTED 24 /* places of a plan; more with --verbose */
 
 static double or_nan(int i, int count, const double *value)
 {
     return i < count ? value[i] : (double)NAN;
 }
 
-struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
+/* "0.1 m (3 %), 0.5 m (12 %)" */
+static const char *places_of(struct pool *pool, const rotid_sensor_plan *plan)
 {
-    struct table *table = table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters");
+    const char *text = "";
+    for (int k = 0; k < plan->nz_m; k++)
+        text = pool_text(pool, "%s%s%s (%s\xc2\xa0%%)", text, k ? ", " : "", human_value(pool, plan->z_m[k], "m"),
+                         human_digits(pool, plan->loss_percent[k], 2));
+    return text;
+}
+
+struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s, int all)
+{
+    struct table *table =
+        table_open(pool, "Plans of sensors: half-widths of 95 % intervals in per cent of the parameters; places, and "
+                         "how far the deviations rise without the sensor there");
     table_note(table,
                "For %d modes; gain: how far the standard deviations of moduli and causes fall below those of the "
                "frequencies alone (geometric mean).",
@@ -26,6 +38,7 @@ struct table *table_of_plans(struct pool *pool, const rotid_suggestion *s)
         for (int j = 0; j < s->nparameters; j++)
             number_column(table, s->parameters[j].name, "%", SHOW_DIGITS(3),
                           or_nan(j, p->nhalf_width_percent, p->half_width_percent));
+        row_note(table, all || p->nz_m <= MOST_LISTED ? places_of(pool, p) : "");
     }
     return table;
 }
@@ -44,6 +57,14 @@ struct table *table_of_expected(struct pool *pool, const rotid_suggestion *s)
                           or_nan(p, m->nshapes_percent, m->shapes_percent));
         }
     }
+    if (s->modes_needed != ROTID_NONE)
+        table_note(table, "Wanted %g %%: frequencies of %d modes", s->wanted_percent, s->modes_needed);
+    else if (s->sensors_needed != ROTID_NONE)
+        table_note(table, "Wanted %g %%: shapes of %d modes at the %d best points", s->wanted_percent, s->plan_modes,
+                   s->sensors_needed);
+    else
+        table_note(table, "Wanted %g %%: not reached by 8 modes, nor by %d modes at %d points", s->wanted_percent, s->plan_modes,
+                   s->ncounts ? s->counts[s->ncounts - 1].sensors : 0);
     return table;
 }
 
@@ -127,38 +148,6 @@ static struct table *table_of_margins(struct pool *pool, const rotid_suggestion 
     return table;
 }
 
-static void print_places(const struct screen *to, const rotid_suggestion *s)
-{
-    const struct human_unit unit = human_unit(1, "m");
-    for (int i = 0; i < s->nplans; i++) {
-        const rotid_sensor_plan *plan = &s->plans[i];
-        if (plan->nz_m > MOST_LISTED && !to->verbose)
-            continue;
-        if (!i)
-            screen_say(to, "Places z, and how far the deviations rise without the sensor there:");
-        struct wrap wrap = wrap_open(to->out, 4, to->width, "  ");
-        wrap_item(&wrap, "%s:", plan->method);
-        for (int k = 0; k < plan->nz_m; k++)
-            wrap_item(&wrap, "%.4g %s (%.2g %%)%s", plan->z_m[k] * unit.factor, unit.text, plan->loss_percent[k],
-                      k + 1 < plan->nz_m ? "," : "");
-        wrap_close(&wrap);
-    }
-}
-
-static void print_wanted(const struct screen *to, const rotid_suggestion *s)
-{
-    if (!s->nmodes || !s->nparameters)
-        return;
-    if (s->modes_needed != ROTID_NONE)
-        screen_say(to, "wanted %g %%: frequencies of %d modes", s->wanted_percent, s->modes_needed);
-    else if (s->sensors_needed != ROTID_NONE)
-        screen_say(to, "wanted %g %%: shapes of %d modes at the %d best points", s->wanted_percent, s->plan_modes,
-                   s->sensors_needed);
-    else
-        screen_say(to, "wanted %g %%: not reached by 8 modes, nor by %d modes at %d points", s->wanted_percent, s->plan_modes,
-                   s->ncounts ? s->counts[s->ncounts - 1].sensors : 0);
-}
-
 struct table *table_of_speed_tests(struct pool *pool, const rotid_suggestion *s)
 {
     struct table *table =
@@ -179,27 +168,21 @@ void screen_suggest(const struct screen *to, const struct result *result)
     const rotid_suggestion *s = result->suggest;
     screen_heading(to, &result->head);
     (void)fputs("\nSUGGESTION\n", to->out);
-    wrap_text(to->out, 2, to->width, "  ", s->sentence);
+    screen_paragraph(to, "  ", s->sentence);
+    if (s->verdict)
+        screen_paragraph(to, "  diagnosis: ", s->verdict);
+    if (s->state)
+        screen_say(to, "  state: plans and tests are made like %s", s->state);
+    screen_paragraph(to, "  noise: ", noise_in_words(to->pool, &s->noise));
     if (isfinite(s->speed_rpm)) {
-        (void)fprintf(to->out, "  noise of frequencies: %.3g %%%s\n", 100 * s->noise.frequency,
-                      s->noise.frequency_assumed ? " (assumed)" : "");
         screen_table(to, table_of_speed_tests(to->pool, s));
         return;
     }
-    if (s->verdict)
-        wrap_text(to->out, 2, to->width, "  diagnosis: ", s->verdict);
-    if (s->state)
-        (void)fprintf(to->out, "  state: plans and tests are made like %s\n", s->state);
-    (void)fprintf(to->out, "  noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
-                  s->noise.frequency_assumed ? " (assumed)" : "", 100 * s->noise.shape,
-                  s->noise.shape_assumed ? " (assumed)" : "");
     screen_table(to, table_of_rivals(to->pool, s));
     screen_table(to, table_of_tests(to->pool, s));
     if (to->verbose)
         screen_table(to, table_of_margins(to->pool, s));
     screen_table(to, table_of_expected(to->pool, s));
-    print_wanted(to, s);
-    screen_table(to, table_of_plans(to->pool, s));
-    print_places(to, s);
+    screen_table(to, table_of_plans(to->pool, s, to->verbose));
     screen_table(to, table_of_detectable(to->pool, s->ndetectable, s->detectable));
 }

@@ -413,9 +413,8 @@ void screen_say(const struct screen *to, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
-    (void)vfprintf(to->out, format, values);
+    (void)fprintf(to->out, "%s\n", ascii(to->pool, pool_text_of(to->pool, format, values)));
     va_end(values);
-    (void)fputc('\n', to->out);
 }
 
 void screen_paragraph(const struct screen *to, const char *head, const char *text)

@@ -316,7 +316,7 @@ static const char *values_of(struct pool *pool, const struct listing_function *f
     const char *above = f->function.numerator.unit, *below = f->function.denominator.unit;
     return pool_text(pool, "%s%s%s%s%s%s%s%s%s", f->ordinate, f->function.binary.is_binary ? ", binary" : "",
                      *above || *below ? ", " : "", clean(pool, above), *below ? "/" : "", clean(pool, below),
-                     f->si_factor != 1 ? ", times " : "", f->si_factor != 1 ? IN_DIGITS(6, f->si_factor) : "",
+                     f->si_factor != 1 ? ", times " : "", f->si_factor != 1 ? human_trimmed(pool, f->si_factor, 6) : "",
                      f->si_factor != 1 ? " in SI" : "");
 }
 
@@ -331,10 +331,10 @@ static const char *contents_of(struct pool *pool, const struct listing *listing,
         const struct uff_shape *first = &listing->shape[set->item].shape;
         const struct uff_shape *last = &listing->shape[listing->set[row.last].item].shape;
         const char *what = pool_text(pool, "%s, %d points, %s, %s", listing->shape[set->item].analysis, first->node_count,
-                                     first->is_complex ? "complex" : "real", IN_DIGITS(6, first->frequency_hz));
+                                     first->is_complex ? "complex" : "real", human_trimmed(pool, first->frequency_hz, 6));
         if (row.first == row.last)
-            return pool_text(pool, "%s Hz, damping %s", what, IN_DIGITS(4, first->damping));
-        return pool_text(pool, "%s to %s Hz", what, IN_DIGITS(6, last->frequency_hz));
+            return pool_text(pool, "%s Hz, damping %s", what, human_trimmed(pool, first->damping, 4));
+        return pool_text(pool, "%s to %s Hz", what, human_trimmed(pool, last->frequency_hz, 6));
     }
     if (set->set.number == 164 && listing->units)
         return pool_text(pool, "%s %s", name_of_units(listing->units->code), clean(pool, listing->units->description));
