@@ -575,6 +575,34 @@ POOL_TEST(what_is_damped_beyond_whirl_is_no_mode)
     running_case_close(&c);
 }
 
+/* A distributed unbalance is one load on the basis, and its response the sum of those of its parts. */
+POOL_TEST(unbalance_in_many_planes_is_one_load)
+{
+    double complex motion[3];
+    for (int part = 0; part < 3; part++) { /* the left half, the right half, both */
+        struct running_case c;
+        struct machine_values values;
+        struct system system;
+        const struct basis_size basis = {14, 10, 1};
+        int failed;
+        char *deck = pool_copy_text(&test_pool,
+                                    "*MATERIAL, NAME=s\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n1, "
+                                    "0.1, 0, 50\n*RUNNING\n*BEARING\nstart, 1e8, 1e4\n*BEARING\nend, 1e8, 1e4\n*PROBE, NAME=p\n"
+                                    "0.3, 30\n*UNBALANCE\n");
+        for (int i = 0; i < 48; i++)
+            if (part == 2 || i / 24 == part)
+                deck = pool_format(&test_pool, "%s%.9g, %d, %d\n", deck, 0.02 * (i + 1), 1 + i % 3, 40 * i % 360);
+        assert_int_equal(running_case_open(deck, 4000, 9, 0, &c), ROTID_OK);
+        assert_int_equal(machine_nominal(&test_pool, c.machine, c.x, &values), ROTID_OK);
+        assert_int_equal(system_build(&test_pool, c.machine, c.job, &values, NULL, &basis, &system, &failed), ROTID_OK);
+        assert_true(system.columns <= basis.modes + basis.coupled + 1 + 2 + 2); /* weight, bearings, unbalance in two phases */
+        assert_int_equal(response_at(&system, 2000 * RPM, system.right), 0);
+        motion[part] = probe_motion(&system, 0, system.right);
+        running_case_close(&c);
+    }
+    assert_close(cabs(motion[0] + motion[1] - motion[2]) / cabs(motion[2]), 0, 0, 1e-7);
+}
+
 POOL_TEST(bearing_loads_carry_the_weight)
 {
     struct running_case c;

@@ -158,6 +158,24 @@ static void extend_static(struct builder *b, const double *force)
     extend(b, b->work);
 }
 
+/* By the parts of the unbalance that act as one, whatever its size: what grades permit follows the mass, what is stated does not.
+ */
+static void extend_unbalance(struct builder *b, double *force)
+{
+    const struct system *s = b->system;
+    const double *planes = b->attached + (ptrdiff_t)s->n * s->machine->nbearing;
+    for (int part = 0; part < 4; part++) {
+        memset(force, 0, (size_t)s->n * sizeof *force);
+        for (int u = 0; u < s->machine->nunbalance; u++) {
+            const struct unbalance *own = &s->machine->unbalance[u];
+            double size = (own->grade > 0) == part / 2 ? own->value * (part % 2 ? sin(own->phase) : cos(own->phase)) : 0;
+            for (int i = 0; i < s->n && size != 0; i++)
+                force[i] += size * planes[i + (ptrdiff_t)s->n * u];
+        }
+        extend_static(b, force);
+    }
+}
+
 static void weigh(struct builder *b)
 {
     struct system *s = b->system;
@@ -174,7 +192,7 @@ static int make_basis(struct builder *b, const struct basis_size *size)
     int modes = size->modes < s->n ? size->modes : s->n, coupled = size->coupled < modes ? size->coupled : modes;
     int kinds = size->all ? 1 + (s->machine->npull > 0) + s->machine->nloss : 1;
     struct eigen_full eigen;
-    b->room = modes + (modes < s->n ? b->attachments + 1 + kinds * coupled : 0);
+    b->room = modes + (modes < s->n ? s->machine->nbearing + 5 + kinds * coupled : 0);
     b->room = b->room < s->n ? b->room : s->n;
     double *lambda = POOL_ARRAY(&b->scratch, double, modes);
     s->basis = POOL_ARRAY(b->pool, double, (size_t)s->n *(size_t)(b->room + 1));
@@ -190,8 +208,9 @@ static int make_basis(struct builder *b, const struct basis_size *size)
     double *force = b->work + s->n;
     weigh(b);
     extend_static(b, force);
-    for (int i = 0; i < s->machine->nbearing + s->machine->nunbalance; i++)
+    for (int i = 0; i < s->machine->nbearing; i++)
         extend_static(b, b->attached + (ptrdiff_t)s->n * i);
+    extend_unbalance(b, force);
     for (int kind = 0; kind < kinds; kind++) {
         const rotid_matrix *acts = kind == 0                        ? &b->p
                                    : kind == 1 && s->machine->npull ? &b->pull
