@@ -112,6 +112,32 @@ POOL_TEST(a_harmonic_is_critical_at_its_share_of_the_speed)
     running_case_close(&c);
 }
 
+/* The unbalance is no excitation of a harmonic: its peak at w0 does not judge the critical speed at w0/1.5. */
+POOL_TEST(a_critical_speed_of_a_harmonic_has_no_peak_of_the_unbalance)
+{
+    struct running_case c;
+    struct message_list notes;
+    const struct speeds_options options = {.to = 4000 * RPM, .count = 9, .harmonic = 1.5, .seed = 1, .threads = 1};
+    message_open(&notes, &test_pool);
+    assert_int_equal(running_case_open(LIGHT
+                                       "*BEARING\n0.5, 0, 100\n*UNBALANCE\n0.5, 1e-4\n*PROBE, NAME=p\n0.5\n*OPERATION\n100, "
+                                       "3000\n",
+                                       4000, 9, 0, &c),
+                     ROTID_OK);
+    assert_int_equal(speeds_run(&test_pool, c.machine, c.job, c.x, NULL, &options, NULL, &notes, &c.speeds), ROTID_OK);
+    int judged = 0;
+    for (int i = 0; i < c.speeds.ncritical_speeds; i++) {
+        const rotid_critical_speed *critical = &c.speeds.critical_speeds[i];
+        assert_int_equal(critical->npeaks, 0);
+        if (!strcmp(critical->whirl, "backward"))
+            continue;
+        assert_close(critical->margin.value, speeds_margin(c.machine, critical->speed_rpm * RPM), 1e-12, 0);
+        judged++;
+    }
+    assert_true(judged > 0);
+    running_case_close(&c);
+}
+
 /* A loss factor acts by w - W: m lambda^2 + c lambda + k (1 + i eta sgn(h - 1)) = 0 of forward whirl at w = h W, sgn 1 of
  * backward. */
 POOL_TEST(a_loss_factor_damps_a_critical_speed_of_a_harmonic_by_its_side)

@@ -168,9 +168,10 @@ static int fill_criticals(struct run *r)
                                      .margin = {NAN, {NAN, NAN}, NAN, NAN},
                                      .mode = r->search.critical[i].mode + 1};
         status = fill_shape(r, pair->u, to);
-        if (!status && whirl != WHIRL_BACKWARD)
+        int by_unbalance = r->options->harmonic == 1, /* which turns once a revolution */
+            has_response = by_unbalance && r->search.machine->nprobe && r->search.machine->nunbalance && to->damping_ratio > 0;
+        if (!status && whirl != WHIRL_BACKWARD && by_unbalance)
             status = fill_peaks(r, i, to);
-        int has_response = r->search.machine->nprobe && r->search.machine->nunbalance && to->damping_ratio > 0;
         if (!r->search.machine->has_operation || whirl == WHIRL_BACKWARD || (has_response && !to->npeaks))
             continue; /* what has no peak is no critical speed to be kept away from */
         const rotid_response_peak *peak = speeds_peak(r->search.machine, to);
