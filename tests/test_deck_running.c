@@ -194,6 +194,30 @@ POOL_TEST(a_loss_comes_from_the_damping_of_the_test)
 }
 
 /* A soft zone in the shaft makes the machine softer unless it was left at the test. */
+static int tells_of_heavy(const char *text)
+{
+    rotid_deck *deck;
+    int found = 0;
+    assert_int_equal(rotid_deck_read_text(strlen(text), text, "deck", NULL, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    for (int i = 0; i < deck->nmessage; i++)
+        found +=
+            strstr(deck->message[i].text, "the machine has the rotor of state heavy, the first one, with this *DISK") != NULL;
+    rotid_deck_free(deck);
+    return found;
+}
+
+/* And says so where that has something of its own. */
+POOL_TEST(of_several_states_the_machine_has_the_rotor_of_the_first)
+{
+#define HEAVY    "*STATE, NAME=heavy\n*DISK, NAME=hub\n1, 5\n*MODES\n1, 100\n"
+#define BARE     "*STATE, NAME=bare\n*MODES\n1, 110\n"
+#define BEARINGS "*BEARING\n0.2, 1e8, 10\n*BEARING\n1.8, 1e8, 10\n"
+    assert_true(tells_of_heavy(SHAFT HEAVY BARE "*RUNNING, WITHOUT=ALL\n" BEARINGS));
+    assert_false(tells_of_heavy(SHAFT HEAVY BARE "*RUNNING, WITHOUT=hub\n" BEARINGS));
+    assert_false(tells_of_heavy(SHAFT BARE HEAVY "*RUNNING\n" BEARINGS));
+    assert_false(tells_of_heavy(SHAFT "*FIT, STATE=heavy\n" HEAVY BARE "*RUNNING\n" BEARINGS));
+}
+
 POOL_TEST(a_cause_is_left_at_the_test)
 {
     struct running_case c;

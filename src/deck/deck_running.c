@@ -575,6 +575,45 @@ static void check_disks(struct deck_reader *reader, struct place place)
                   count > 1 ? "s have" : " has");
 }
 
+/* Whether the machine has what a card of the first state adds to the rotor. */
+static int is_in_machine(const struct rotor *rotor, const struct machine *machine, const struct card *card)
+{
+    const struct card_option *name = card_option(card, "NAME");
+    const char **own;
+    if (is(card, "SET"))
+        return 1;
+    if (!deck_stands(card, CARD_ANYWHERE) || !card->kind ||
+        !(card->kind->section == CARD_CAUSE || (card->kind->section == CARD_MODEL && card->kind->phase > 1)))
+        return 0;
+    for (int kind = 0; kind < 2; kind++)
+        for (int i = 0; (own = deck_name_of(rotor, kind ? TARGET_DISK : TARGET_SPRING, i)); i++) {
+            int left = kind ? machine->without_disk[i] : machine->without_spring[i];
+            if (left && (*own && name ? same_text(*own, name->value) : !*own && !name && !kind && !is(card, "DISK")))
+                return 0;
+        }
+    for (int i = 0; i < rotor->neffect && name; i++)
+        if (rotor->effect[i].name && same_text(rotor->effect[i].name, name->value))
+            return !machine->without_effect[i];
+    return card->kind->section == CARD_MODEL; /* a cause in the data is none of the rotor */
+}
+
+/* The machine is made of the first state: what that has and others may lack is told. */
+static void tell_first_state(struct deck_reader *reader, const struct machine *machine, const struct states *states)
+{
+    int c = 0, count = reader->text.ncard;
+    const struct card *card = reader->text.card;
+    while (c < count && !is(&card[c], "STATE"))
+        c++;
+    for (c++; states->nstate > 1 && c < count && !is(&card[c], "STATE"); c++)
+        if (is_in_machine(&states->state[0].job.rotor, machine, &card[c])) {
+            deck_note(reader, card[c].place,
+                      "the machine has the rotor of state %s, the first one, with this *%s: expected its name in WITHOUT of "
+                      "*RUNNING, or another state first, where the machine is without it",
+                      states->state[0].name, card[c].name);
+            return;
+        }
+}
+
 void deck_read_machine(struct deck_reader *reader, struct states *states)
 {
     struct job *job = &states->state[0].job;
@@ -617,6 +656,7 @@ void deck_read_machine(struct deck_reader *reader, struct states *states)
                    "MARGIN=API617 goes by the amplification factor of a response, expected *UNBALANCE and *PROBE with it");
     check_runup(&own, reader->running[0].place);
     check_disks(&own, reader->running[0].place);
+    tell_first_state(reader, own.machine, states);
     for (int s = 0; s < states->nstate; s++) {
         states->state[s].job.nfile = own.text.nfile;
         states->state[s].job.file = own.text.file;
